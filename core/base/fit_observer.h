@@ -1,0 +1,46 @@
+// How long work tells of its progress and learns that nobody wants its result any more.
+#ifndef CAPFIT_CORE_BASE_FIT_OBSERVER_H_
+#define CAPFIT_CORE_BASE_FIT_OBSERVER_H_
+
+#include <string_view>
+
+namespace capfit {
+
+// The stages of a fit, in order. Each is the name of a room.
+enum class Stage {
+  kMesh,
+  kBody,
+  kSection,
+  kCircle,
+  kCapsule,
+  kCoverage,
+  kRefine,
+  kMetrics,
+  kSkinning
+};
+inline constexpr int kStageCount = 9;
+
+// "mesh", "body", ...: the words used in results and logs.
+[[nodiscard]] std::string_view StageName(Stage stage);
+
+// The core calls it, the server and the command line implement it. All calls come from the thread
+// that runs the fit, but for IsCancelled, which any worker thread may call.
+class FitObserver {
+ public:
+  virtual ~FitObserver() = default;
+  // `stage` begins. `fraction_done` in [0, 1] is an estimate for the whole fit.
+  virtual void OnStage(Stage stage, double fraction_done) = 0;
+  // Polled between chunks of parallel work, at least every 50 ms or so.
+  [[nodiscard]] virtual bool IsCancelled() const = 0;
+};
+
+// Ignores progress and never cancels.
+class NullObserver final : public FitObserver {
+ public:
+  void OnStage(Stage, double) override {}
+  [[nodiscard]] bool IsCancelled() const override { return false; }
+};
+
+}  // namespace capfit
+
+#endif  // CAPFIT_CORE_BASE_FIT_OBSERVER_H_

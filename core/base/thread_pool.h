@@ -1,0 +1,40 @@
+// The door to the one compute pool of the process (oneTBB: nested loops, work stealing).
+#ifndef CAPFIT_CORE_BASE_THREAD_POOL_H_
+#define CAPFIT_CORE_BASE_THREAD_POOL_H_
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace capfit {
+
+// A share of the process's cores. Cheap to keep, safe to use from several threads at once; loops
+// may nest. Results must not depend on which thread runs what: give each index its own output and
+// combine them in index order, then the number of threads never changes a bit.
+class ThreadPool {
+ public:
+  // `threads` >= 1 take part, the calling thread included; 0: one per core.
+  explicit ThreadPool(int threads = 0);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  [[nodiscard]] int threads() const { return threads_; }
+
+  // Calls body(i) once for each i in [0, count), in any order, and waits for all.
+  void ForEach(std::size_t count, const std::function<void(std::size_t)>& body) const;
+
+  // Calls body(begin, end) over fixed chunks of `chunk` indices that cover [0, count): the chunks
+  // are the same for any number of threads. For loops whose single step is too small to be a task.
+  void ForChunks(std::size_t count, std::size_t chunk,
+                 const std::function<void(std::size_t begin, std::size_t end)>& body) const;
+
+ private:
+  struct Arena;
+  std::unique_ptr<Arena> arena_;
+  int threads_;
+};
+
+}  // namespace capfit
+
+#endif  // CAPFIT_CORE_BASE_THREAD_POOL_H_

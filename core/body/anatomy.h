@@ -1,0 +1,104 @@
+// The words for a body: segments, chains, landmarks and the groups a caller can ask for.
+#ifndef CAPFIT_CORE_BODY_ANATOMY_H_
+#define CAPFIT_CORE_BODY_ANATOMY_H_
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace capfit::body {
+
+// Which piece of the body a vertex belongs to. "Left" is the body's own left, +X in the body frame.
+enum class Segment : std::uint8_t {
+  kTorso,
+  kHead,
+  kLeftUpperArm,
+  kLeftForearm,
+  kLeftHand,
+  kRightUpperArm,
+  kRightForearm,
+  kRightHand,
+  kLeftThigh,
+  kLeftCalf,
+  kLeftFoot,
+  kRightThigh,
+  kRightCalf,
+  kRightFoot,
+  kNeck
+};
+inline constexpr int kSegmentCount = 15;
+
+// The five tubes that feature polygons are cut from (paper, III-C), and the four kinds of blob that
+// one ball stands for. The torso chain includes the neck up to its middle.
+enum class Part : std::uint8_t {
+  kTorso,
+  kLeftArm,
+  kRightArm,
+  kLeftLeg,
+  kRightLeg,
+  kHead,
+  kLeftHand,
+  kRightHand,
+  kLeftFoot,
+  kRightFoot
+};
+inline constexpr int kPartCount = 10;
+inline constexpr int kChainCount = 5;  // the first five parts are chains
+
+// "torso", "left_arm", ...: the words in results.
+[[nodiscard]] std::string_view PartName(Part part);
+[[nodiscard]] Part PartOf(Segment segment);  // neck counts as torso
+
+// The part on the other side; itself for torso and head.
+[[nodiscard]] Part MirrorPart(Part part);
+
+// What the caller may switch on and off.
+struct PartSelection {
+  bool torso = true;
+  bool arms = true;
+  bool legs = true;
+  bool head = false;
+  bool hands = false;
+  bool feet = false;
+  [[nodiscard]] bool Includes(Part part) const;
+};
+
+enum class LandmarkId : std::uint8_t {
+  kHeadTop,
+  kNeck,
+  kCrotch,
+  kWaist,
+  kBust,
+  kHip,  // kWaist, kBust, kHip: centres of those sections
+  kLeftArmpit,
+  kRightArmpit,
+  kLeftShoulder,
+  kRightShoulder,
+  kLeftElbow,
+  kRightElbow,
+  kLeftWrist,
+  kRightWrist,
+  kLeftHip,
+  kRightHip,
+  kLeftKnee,
+  kRightKnee,
+  kLeftAnkle,
+  kRightAnkle,
+  kLeftFingertip,
+  kRightFingertip,
+  kLeftToe,
+  kRightToe,
+  kLeftHeel,
+  kRightHeel
+};
+inline constexpr int kLandmarkCount = 26;
+
+// "left_wrist", "head_top", ...
+[[nodiscard]] std::string_view LandmarkName(LandmarkId id);
+[[nodiscard]] std::optional<LandmarkId> LandmarkFromName(std::string_view name);
+[[nodiscard]] LandmarkId MirrorLandmark(LandmarkId id);
+
+}  // namespace capfit::body
+
+#endif  // CAPFIT_CORE_BODY_ANATOMY_H_

@@ -1,0 +1,61 @@
+// A body understood: its own frame, its landmarks, its parts and the curves through their middles.
+#ifndef CAPFIT_CORE_BODY_BODY_H_
+#define CAPFIT_CORE_BODY_BODY_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/base/warning.h"
+#include "core/body/anatomy.h"
+#include "core/geometry/similarity.h"
+#include "core/mesh/body_mesh.h"
+
+namespace capfit::body {
+
+enum class LandmarkMethod { kMeasured, kRatio, kCaller, kSkeleton };
+
+struct Landmark {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // body frame
+  LandmarkMethod method = LandmarkMethod::kMeasured;
+  double confidence = 1.0;  // [0, 1]
+};
+
+// The medial curve of a chain (paper, III-A): centroids of the level sets of geodesic distance,
+// smoothed. Runs from the trunk outward for limbs (shoulder to wrist, hip to ankle) and from the
+// crotch up to the middle of the neck for the torso.
+struct MedialCurve {
+  std::vector<Eigen::Vector3d> points_m;  // at least 2, body frame
+  std::vector<double> arc_length_m;       // same size, starts at 0, strictly increasing
+
+  [[nodiscard]] double length_m() const { return arc_length_m.back(); }
+  [[nodiscard]] Eigen::Vector3d PointAt(double arc_length_m) const;    // clamped to the ends
+  [[nodiscard]] Eigen::Vector3d TangentAt(double arc_length_m) const;  // unit, outward
+  // Arc length of the curve's point nearest to `point_m`.
+  [[nodiscard]] double Project(const Eigen::Vector3d& point_m) const;
+};
+
+// Body frame: metres, +Y up, facing +Z, the body's left at +X, the symmetry plane at x = 0 and the
+// lowest point at y = 0.
+struct Body {
+  mesh::BodyMesh mesh;                    // in the body frame
+  geometry::Similarity body_from_caller;  // caller's coordinates to the body frame
+  double height_m = 0.0;                  // extent along Y
+  bool is_symmetric = false;  // surface and pose mirror each other within 1 % of the height
+  std::array<std::optional<Landmark>, kLandmarkCount> landmarks;
+  std::vector<Segment> vertex_segments;                        // one for each vertex of `mesh`
+  std::array<std::optional<MedialCurve>, kChainCount> chains;  // by Part; nothing where missing
+  std::vector<Warning> warnings;
+
+  [[nodiscard]] const std::optional<Landmark>& landmark(LandmarkId id) const {
+    return landmarks[static_cast<std::size_t>(id)];
+  }
+  [[nodiscard]] const std::optional<MedialCurve>& chain(Part part) const {
+    return chains[static_cast<std::size_t>(part)];
+  }
+};
+
+}  // namespace capfit::body
+
+#endif  // CAPFIT_CORE_BODY_BODY_H_

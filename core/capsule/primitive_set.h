@@ -1,0 +1,45 @@
+// The result's shape: spheres, and the tapered capsules between pairs of them (paper, III-C).
+#ifndef CAPFIT_CORE_CAPSULE_PRIMITIVE_SET_H_
+#define CAPFIT_CORE_CAPSULE_PRIMITIVE_SET_H_
+
+#include <array>
+#include <vector>
+
+#include "core/body/anatomy.h"
+#include "core/geometry/sphere.h"
+#include "core/geometry/tapered_capsule.h"
+
+namespace capfit::capsule {
+
+// Where a sphere comes from.
+struct SphereOrigin {
+  body::Part part = body::Part::kTorso;
+  int polygon = -1;  // index of the feature polygon; -1 for balls and added spheres
+  int mirror = -1;   // index of the mirrored sphere; its own index on the mid-plane; -1: none
+};
+
+// Two indices into the spheres, first < second.
+using CapsuleEnds = std::array<int, 2>;
+
+struct PrimitiveSet {
+  std::vector<geometry::Sphere> spheres;  // body frame
+  std::vector<SphereOrigin> origins;      // same size as spheres
+  std::vector<CapsuleEnds> capsules;      // distinct
+
+  // n_p: spheres + cones, shared spheres counted once (paper, IV-B).
+  [[nodiscard]] int primitive_count() const {
+    return static_cast<int>(spheres.size() + capsules.size());
+  }
+  [[nodiscard]] geometry::TaperedCapsule Capsule(std::size_t index) const {
+    return {spheres[static_cast<std::size_t>(capsules[index][0])],
+            spheres[static_cast<std::size_t>(capsules[index][1])]};
+  }
+};
+
+// The solid that the set stands for, ready to be asked: every capsule, and every sphere that no
+// capsule uses.
+[[nodiscard]] std::vector<geometry::TaperedCapsule> Solids(const PrimitiveSet& set);
+
+}  // namespace capfit::capsule
+
+#endif  // CAPFIT_CORE_CAPSULE_PRIMITIVE_SET_H_

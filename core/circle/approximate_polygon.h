@@ -1,0 +1,40 @@
+// A polygon as a few circles: variational approximation by circle outside area (paper, III-B).
+#ifndef CAPFIT_CORE_CIRCLE_APPROXIMATE_POLYGON_H_
+#define CAPFIT_CORE_CIRCLE_APPROXIMATE_POLYGON_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/fit_observer.h"
+#include "core/geometry/smallest_enclosing.h"
+#include "core/section/feature_polygon.h"
+
+namespace capfit::circle {
+
+using geometry::Circle;
+
+struct CircleOptions {
+  int interior_points = 300;   // grid points inside the outline (scan conversion)
+  int max_iterations = 24;     // partition + fit rounds for one local minimum
+  int max_idle_teleports = 3;  // give up after so many local minima without improvement
+  bool symmetric = false;      // the outline mirrors in x = 0: fit circles in mirrored pairs
+  std::uint64_t seed = 0;
+};
+
+// Circles that cover the outline, and what they waste.
+struct PolygonApproximation {
+  std::vector<Circle> circles;   // section frame; ordered by x, then y
+  double outside_area_m2 = 0.0;  // of the union of the circles, outside the polygon
+};
+
+// Covers `polygon` with exactly `circle_count` >= 1 circles. Split polygons (III-E) give each piece
+// at least one circle, so they need circle_count >= number of pieces; below that the split is
+// ignored. One circle is the smallest enclosing one. Deterministic for a seed.
+[[nodiscard]] PolygonApproximation ApproximatePolygon(const section::FeaturePolygon& polygon,
+                                                      int circle_count,
+                                                      const CircleOptions& options,
+                                                      const FitObserver& observer);
+
+}  // namespace capfit::circle
+
+#endif  // CAPFIT_CORE_CIRCLE_APPROXIMATE_POLYGON_H_

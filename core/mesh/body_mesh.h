@@ -1,0 +1,62 @@
+// The checked mesh that every later room works on.
+#ifndef CAPFIT_CORE_MESH_BODY_MESH_H_
+#define CAPFIT_CORE_MESH_BODY_MESH_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/base/warning.h"
+#include "core/geometry/similarity.h"
+#include "core/mesh/polygon_soup.h"
+
+namespace capfit::mesh {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+// One closed, consistently oriented surface with outward normals: every edge belongs to two
+// triangles that run it in opposite directions, volume > 0, all coordinates finite, no vertex
+// unused, no triangle with two equal corners. It may cut through itself. Immutable; copying copies
+// the arrays, so pass it by reference or move it.
+class BodyMesh {
+ public:
+  // For makers of meshes inside the core that keep the promises themselves. `vertex_of_source` maps
+  // each of the caller's vertices to a vertex here, -1 where none is left of it.
+  BodyMesh(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles,
+           std::vector<std::int32_t> vertex_of_source);
+
+  [[nodiscard]] std::span<const Eigen::Vector3d> vertices() const& { return vertices_; }
+  std::span<const Eigen::Vector3d> vertices() && = delete;
+  [[nodiscard]] std::span<const Triangle> triangles() const& { return triangles_; }
+  std::span<const Triangle> triangles() && = delete;
+  // Size: the caller's vertex count. Several sources may map to one vertex (welded copies).
+  [[nodiscard]] std::span<const std::int32_t> vertex_of_source() const& {
+    return vertex_of_source_;
+  }
+  std::span<const std::int32_t> vertex_of_source() && = delete;
+
+  [[nodiscard]] double volume() const { return volume_; }  // cube of the mesh's unit, > 0
+  [[nodiscard]] double area() const { return area_; }      // square of the mesh's unit
+  [[nodiscard]] const Eigen::Vector3d& box_min() const { return box_min_; }
+  [[nodiscard]] const Eigen::Vector3d& box_max() const { return box_max_; }
+  [[nodiscard]] double diagonal() const { return (box_max_ - box_min_).norm(); }
+
+  // The same mesh in another frame.
+  [[nodiscard]] BodyMesh Transformed(const geometry::Similarity& similarity) const;
+
+ private:
+  std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::int32_t> vertex_of_source_;
+  double volume_ = 0.0;
+  double area_ = 0.0;
+  Eigen::Vector3d box_min_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d box_max_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace capfit::mesh
+
+#endif  // CAPFIT_CORE_MESH_BODY_MESH_H_

@@ -1,0 +1,33 @@
+// Mesh files from memory: OBJ, PLY, STL, OFF (OpenMesh) and GLB (TinyGLTF).
+#ifndef CAPFIT_CORE_MESH_READ_MESH_H_
+#define CAPFIT_CORE_MESH_READ_MESH_H_
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "core/mesh/polygon_soup.h"
+#include "core/mesh/prepare_mesh.h"
+
+namespace capfit::mesh {
+
+enum class MeshFormat { kUnknown, kObj, kPly, kStl, kOff, kGlb };
+
+// From a file name's ending (case does not matter); kUnknown for others.
+[[nodiscard]] MeshFormat FormatFromFileName(const std::string& file_name);
+
+// From the first bytes; kUnknown where they tell nothing.
+[[nodiscard]] MeshFormat FormatFromBytes(std::span<const std::byte> bytes);
+
+// Reads one mesh. Vertex and face order are the file's (GLB: meshes in scene order, node transforms
+// applied). kUnknown: the format is found from the bytes. Hostile bytes give INVALID_ARGUMENT,
+// never a crash; counts in headers are checked against the bytes present before anything is
+// allocated.
+[[nodiscard]] absl::StatusOr<PolygonSoup> ReadMesh(std::span<const std::byte> bytes,
+                                                   MeshFormat format = MeshFormat::kUnknown,
+                                                   const MeshLimits& limits = {});
+
+}  // namespace capfit::mesh
+
+#endif  // CAPFIT_CORE_MESH_READ_MESH_H_

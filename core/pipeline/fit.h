@@ -1,0 +1,90 @@
+// The whole fit: options and their limits, the result, and the order of the rooms (paper, Fig. 1).
+#ifndef CAPFIT_CORE_PIPELINE_FIT_H_
+#define CAPFIT_CORE_PIPELINE_FIT_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/base/fit_observer.h"
+#include "core/base/thread_pool.h"
+#include "core/base/warning.h"
+#include "core/body/find_body.h"
+#include "core/capsule/primitive_set.h"
+#include "core/metrics/measure.h"
+#include "core/section/feature_polygon.h"
+#include "core/skinning/mean_value_coordinates.h"
+
+namespace capfit::pipeline {
+
+enum class FitMode { kEnclose, kBestFit };
+enum class Quality { kPaper, kTight };
+enum class SkinningMode { kNone, kDense };
+
+// How much may be spent. At most one of the three ways: max_primitives; max_spheres and/or
+// max_capsules; polygon_error. None of them: max_primitives 64.
+struct FitOptions {
+  std::optional<int> max_primitives;    // n_p = spheres + cones; [15, 1000]
+  std::optional<int> max_spheres;       // [10, 500]
+  std::optional<int> max_capsules;      // [5, 1000]
+  std::optional<double> polygon_error;  // outside area / polygon area; [0.001, 2]
+  FitMode fit = FitMode::kEnclose;
+  Quality quality = Quality::kPaper;
+  SkinningMode skinning = SkinningMode::kNone;
+  body::PartSelection parts;
+  section::Sex sex = section::Sex::kAuto;
+  body::Unit unit = body::Unit::kAuto;
+  body::UpAxis up = body::UpAxis::kAuto;
+  std::map<body::LandmarkId, Eigen::Vector3d> landmarks;  // the caller's, in the caller's frame
+  std::uint64_t seed = 0;
+  bool want_polygons = false;  // return the feature polygons with their circles
+};
+
+// OK, or INVALID_ARGUMENT naming the option, its value and its range; UNIMPLEMENTED for what this
+// version does not do.
+[[nodiscard]] absl::Status ValidateOptions(const FitOptions& options);
+
+// One feature polygon with its circles, in the caller's frame.
+struct PolygonResult {
+  std::string name;
+  body::Part part = body::Part::kTorso;
+  std::vector<Eigen::Vector3d> outline;
+  std::vector<geometry::Sphere> circles;  // centre and radius; they lie in the outline's plane
+  double outside_area_ratio = 0.0;        // circle outside area / polygon area
+};
+
+struct LandmarkResult {
+  std::string name;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  body::LandmarkMethod method = body::LandmarkMethod::kMeasured;
+  double confidence = 1.0;
+};
+
+// Everything in the caller's unit and axes, but for metrics in metres where the name says so.
+struct FitResult {
+  capsule::PrimitiveSet primitives;
+  std::vector<LandmarkResult> landmarks;
+  std::vector<PolygonResult> polygons;  // where asked for
+  metrics::Metrics metrics;
+  std::optional<skinning::DenseWeights> weights;
+  std::vector<Warning> warnings;
+  geometry::Similarity body_from_caller;  // scale: metres per caller's unit
+  std::array<double, kStageCount> stage_seconds{};
+  double seconds = 0.0;  // of the whole fit, reading the file not included
+};
+
+// Fits one body. Errors: INVALID_ARGUMENT (mesh or option, field named), FAILED_PRECONDITION (not a
+// body, part missing), UNIMPLEMENTED, CANCELLED (the observer said so). Same soup and options, same
+// bits, for any pool.
+[[nodiscard]] absl::StatusOr<FitResult> Fit(const mesh::PolygonSoup& soup,
+                                            const FitOptions& options, const ThreadPool& pool,
+                                            FitObserver& observer);
+
+}  // namespace capfit::pipeline
+
+#endif  // CAPFIT_CORE_PIPELINE_FIT_H_
