@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that capfit needs; does nothing where they are there already.
+#
+#   deploy/install_packages.sh [build] [test] [check] [run]
+#
+#   build  compiler and libraries                     (default)
+#   test   what the tests call besides: Python client, buf
+#   check  formatter, linter, fuzzer and sanitizer runtimes
+#   run    the shared libraries of the finished programs only
+set -euo pipefail
+
+build=(
+  g++ cmake ninja-build ccache pkg-config ca-certificates
+  libabsl-dev libgrpc++-dev protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libssl-dev
+  libopenmesh-dev libtinygltf-dev libeigen3-dev libtbb-dev
+  libspdlog-dev libcli11-dev nlohmann-json3-dev libpng-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+)
+test=(python3 python3-grpcio python3-protobuf npm git)
+check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3)
+run=(libgrpc++1.51 libopenmesh1 libtinygltf2d libtbb12 libspdlog1.10 libpng16-16)
+
+wanted=()
+for group in "${@:-build}"; do
+  case "$group" in
+    build) wanted+=("${build[@]}") ;;
+    test) wanted+=("${test[@]}") ;;
+    check) wanted+=("${check[@]}") ;;
+    run) wanted+=("${run[@]}") ;;
+    *) echo "install_packages.sh: no group '$group' (build, test, check, run)" >&2; exit 2 ;;
+  esac
+done
+
+installed=$(dpkg-query -W -f '${db:Status-Abbrev}${Package}\n' 2>/dev/null | sed -n 's/^ii *//p')
+missing=()
+for package in "${wanted[@]}"; do
+  grep -qxF "$package" <<<"$installed" || missing+=("$package")
+done
+# A Node.js with npm from another source serves as well as Debian's package.
+command -v npm >/dev/null 2>&1 && missing=("${missing[@]/#npm/}")
+missing=(${missing[@]+"${missing[@]}"})
+[ "${#missing[@]}" -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "missing packages: ${missing[*]}; run as root: apt-get install ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "installing ${#missing[@]} packages: ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! { "${as_root[@]}" apt-get update -q &&
+       "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+         apt-get install -q -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+  tail -n 20 "$log" >&2
+  echo "install_packages.sh: apt-get failed" >&2
+  exit 1
+fi

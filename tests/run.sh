@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Installs what the tests need, builds everything and runs all tests.
+#
+#   tests/run.sh [ARGUMENTS FOR CTEST]     e.g.  tests/run.sh -R circle_test
+#
+# Real bodies are used where CAPFIT_BODIES names their folder (default: ../shared/bodies beside the
+# project); without them the tests that need them say so and are skipped.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+deploy/install_packages.sh build test
+cmake --preset release >/dev/null
+cmake --build --preset release
+bodies=${CAPFIT_BODIES:-../shared/bodies}
+if [ ! -e "$bodies/female_average_rest.obj" ]; then
+  echo "NOTE: no real bodies in $bodies: tests that need them will be SKIPPED (set CAPFIT_BODIES)"
+fi
+exec ctest --preset release -j"$(nproc)" --output-on-failure "$@"
