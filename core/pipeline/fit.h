@@ -22,6 +22,19 @@
 
 namespace capfit::pipeline {
 
+// Limits of the options, both ends allowed. The lowest counts are what five chains of two spheres
+// and one capsule each need.
+struct CountRange {
+  int low = 0;
+  int high = 0;
+};
+inline constexpr CountRange kMaxPrimitivesRange{15, 1000};
+inline constexpr CountRange kMaxSpheresRange{10, 500};
+inline constexpr CountRange kMaxCapsulesRange{5, 1000};
+inline constexpr double kMinPolygonError = 0.001;
+inline constexpr double kMaxPolygonError = 2.0;
+inline constexpr int kDefaultMaxPrimitives = 64;
+
 enum class FitMode { kEnclose, kBestFit };
 enum class Quality { kPaper, kTight };
 enum class SkinningMode { kNone, kDense };
@@ -29,10 +42,10 @@ enum class SkinningMode { kNone, kDense };
 // How much may be spent. At most one of the three ways: max_primitives; max_spheres and/or
 // max_capsules; polygon_error. None of them: max_primitives 64.
 struct FitOptions {
-  std::optional<int> max_primitives;    // n_p = spheres + cones; [15, 1000]
-  std::optional<int> max_spheres;       // [10, 500]
-  std::optional<int> max_capsules;      // [5, 1000]
-  std::optional<double> polygon_error;  // outside area / polygon area; [0.001, 2]
+  std::optional<int> max_primitives;    // n_p = spheres + cones
+  std::optional<int> max_spheres;       // beside max_capsules, or alone
+  std::optional<int> max_capsules;      // beside max_spheres, or alone
+  std::optional<double> polygon_error;  // outside area / polygon area
   FitMode fit = FitMode::kEnclose;
   Quality quality = Quality::kPaper;
   SkinningMode skinning = SkinningMode::kNone;

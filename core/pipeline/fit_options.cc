@@ -1,0 +1,75 @@
+#include <cmath>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
+#include "core/pipeline/fit.h"
+
+namespace capfit::pipeline {
+namespace {
+
+absl::Status CheckCount(const std::string& field, const std::optional<int>& value,
+                        const CountRange& range) {
+  if (!value.has_value() || (*value >= range.low && *value <= range.high)) return absl::OkStatus();
+  return InvalidField(field,
+                      absl::StrCat("is ", *value, ", must be ", range.low, " to ", range.high));
+}
+
+absl::Status CheckPolygonError(const std::optional<double>& value) {
+  if (!value.has_value() || (*value >= kMinPolygonError && *value <= kMaxPolygonError)) {
+    return absl::OkStatus();
+  }
+  return InvalidField("polygon_error", absl::StrCat("is ", *value, ", must be ", kMinPolygonError,
+                                                    " to ", kMaxPolygonError));
+}
+
+absl::Status CheckOneBudget(const FitOptions& options) {
+  const int ways = (options.max_primitives.has_value() ? 1 : 0) +
+                   (options.max_spheres.has_value() || options.max_capsules.has_value() ? 1 : 0) +
+                   (options.polygon_error.has_value() ? 1 : 0);
+  if (ways <= 1) return absl::OkStatus();
+  return InvalidField("budget",
+                      "is given in more than one way, must be one of max_primitives, "
+                      "max_spheres/max_capsules, polygon_error");
+}
+
+absl::Status CheckParts(const body::PartSelection& parts) {
+  if (parts.torso || parts.arms || parts.legs || parts.head || parts.hands || parts.feet) {
+    return absl::OkStatus();
+  }
+  return InvalidField(
+      "parts", "is empty, must name at least one of torso, arms, legs, head, hands, feet");
+}
+
+absl::Status CheckLandmarks(const FitOptions& options) {
+  for (const auto& [id, position] : options.landmarks) {
+    if (position.allFinite()) continue;
+    return InvalidField(absl::StrCat("landmarks.", std::string(body::LandmarkName(id))),
+                        "must be finite");
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status ValidateOptions(const FitOptions& options) {
+  CAPFIT_RETURN_IF_ERROR(CheckOneBudget(options));
+  CAPFIT_RETURN_IF_ERROR(
+      CheckCount("max_primitives", options.max_primitives, kMaxPrimitivesRange));
+  CAPFIT_RETURN_IF_ERROR(CheckCount("max_spheres", options.max_spheres, kMaxSpheresRange));
+  CAPFIT_RETURN_IF_ERROR(CheckCount("max_capsules", options.max_capsules, kMaxCapsulesRange));
+  CAPFIT_RETURN_IF_ERROR(CheckPolygonError(options.polygon_error));
+  CAPFIT_RETURN_IF_ERROR(CheckParts(options.parts));
+  CAPFIT_RETURN_IF_ERROR(CheckLandmarks(options));
+  if (options.fit == FitMode::kBestFit) {
+    return absl::UnimplementedError("fit best is not offered by this version; use fit enclose");
+  }
+  if (options.quality == Quality::kTight) {
+    return absl::UnimplementedError(
+        "quality tight is not offered by this version; use quality paper");
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace capfit::pipeline
