@@ -1,5 +1,6 @@
 #include "core/mesh/body_mesh.h"
 
+#include <Eigen/Geometry>  // cross
 #include <utility>
 
 namespace capfit::mesh {

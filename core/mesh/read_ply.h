@@ -1,0 +1,25 @@
+// Stanford PLY from memory.
+#ifndef CAPFIT_CORE_MESH_READ_PLY_H_
+#define CAPFIT_CORE_MESH_READ_PLY_H_
+
+#include <cstddef>
+#include <span>
+
+#include "absl/status/statusor.h"
+#include "core/mesh/polygon_soup.h"
+#include "core/mesh/prepare_mesh.h"
+
+namespace capfit::mesh {
+
+// The elements `vertex` (x, y, z) and `face` (vertex_indices or vertex_index) of a text or binary
+// PLY file of either byte order; all other elements and properties are skipped. Counts are checked
+// against the bytes present first. INVALID_ARGUMENT says where the file is wrong.
+//
+// Not OpenMesh's reader: its per-file state lives in one object for the whole process, so two
+// requests would mix their headers, and it rounds doubles to float.
+[[nodiscard]] absl::StatusOr<PolygonSoup> ReadPly(std::span<const std::byte> bytes,
+                                                  const MeshLimits& limits);
+
+}  // namespace capfit::mesh
+
+#endif  // CAPFIT_CORE_MESH_READ_PLY_H_
