@@ -38,8 +38,8 @@ absl::Status CheckParts(const body::PartSelection& parts) {
   if (parts.torso || parts.arms || parts.legs || parts.head || parts.hands || parts.feet) {
     return absl::OkStatus();
   }
-  return InvalidField(
-      "parts", "is empty, must name at least one of torso, arms, legs, head, hands, feet");
+  return InvalidField("parts",
+                      "is empty, must name at least one of torso, arms, legs, head, hands, feet");
 }
 
 absl::Status CheckLandmarks(const FitOptions& options) {
@@ -55,8 +55,7 @@ absl::Status CheckLandmarks(const FitOptions& options) {
 
 absl::Status ValidateOptions(const FitOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckOneBudget(options));
-  CAPFIT_RETURN_IF_ERROR(
-      CheckCount("max_primitives", options.max_primitives, kMaxPrimitivesRange));
+  CAPFIT_RETURN_IF_ERROR(CheckCount("max_primitives", options.max_primitives, kMaxPrimitivesRange));
   CAPFIT_RETURN_IF_ERROR(CheckCount("max_spheres", options.max_spheres, kMaxSpheresRange));
   CAPFIT_RETURN_IF_ERROR(CheckCount("max_capsules", options.max_capsules, kMaxCapsulesRange));
   CAPFIT_RETURN_IF_ERROR(CheckPolygonError(options.polygon_error));

@@ -1,0 +1,180 @@
+#include "core/pipeline/fit.h"
+
+#include <chrono>
+#include <utility>
+
+#include "core/base/status.h"
+#include "core/coverage/cover_vertices.h"
+#include "core/mesh/prepare_mesh.h"
+#include "core/pipeline/circle_stage.h"
+#include "core/pipeline/plan.h"
+#include "core/pipeline/primitive_stage.h"
+#include "core/pipeline/to_caller_frame.h"
+
+namespace capfit::pipeline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Tells the observer which stage begins and keeps the time of each.
+class StageClock {
+ public:
+  StageClock(FitObserver& observer, FitResult& result) : observer_(observer), result_(result) {}
+
+  void Begin(Stage stage) {
+    End();
+    current_ = stage;
+    stage_start_ = Clock::now();
+    observer_.OnStage(stage, FractionBefore(stage));
+  }
+  void End() {
+    if (!current_.has_value()) return;
+    result_.stage_seconds[static_cast<std::size_t>(*current_)] += SecondsSince(stage_start_);
+    result_.seconds = SecondsSince(start_);
+    current_.reset();
+  }
+
+ private:
+  // Shares of the whole as measured on a 64k-triangle body with 64 primitives, rounded.
+  static double FractionBefore(Stage stage) {
+    static constexpr std::array<double, kStageCount> kBefore = {0.0,  0.1,  0.3, 0.35, 0.5,
+                                                                0.55, 0.75, 0.8, 0.9};
+    return kBefore[static_cast<std::size_t>(stage)];
+  }
+
+  FitObserver& observer_;
+  FitResult& result_;
+  std::optional<Stage> current_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point stage_start_ = start_;
+};
+
+absl::Status CheckCancelled(const FitObserver& observer) {
+  if (observer.IsCancelled()) return absl::CancelledError("the caller gave up");
+  return absl::OkStatus();
+}
+
+void Append(std::vector<Warning> more, std::vector<Warning>& warnings) {
+  for (Warning& warning : more) warnings.push_back(std::move(warning));
+}
+
+// The rooms behind the mesh, in their order.
+class BodyFit {
+ public:
+  BodyFit(const FitOptions& options, const ThreadPool& pool, FitObserver& observer,
+          StageClock& clock, FitResult& result)
+      : options_(options), pool_(pool), observer_(observer), clock_(clock), result_(result) {}
+
+  absl::Status Run(const mesh::BodyMesh& mesh) {
+    CAPFIT_RETURN_IF_ERROR(Understand(mesh));
+    CAPFIT_RETURN_IF_ERROR(Approximate());
+    CAPFIT_RETURN_IF_ERROR(Cover());
+    CAPFIT_RETURN_IF_ERROR(Measure());
+    CAPFIT_RETURN_IF_ERROR(Bind());
+    return absl::OkStatus();
+  }
+
+ private:
+  absl::Status Understand(const mesh::BodyMesh& mesh) {
+    clock_.Begin(Stage::kBody);
+    body::BodyOptions body_options;
+    body_options.unit = options_.unit;
+    body_options.up = options_.up;
+    body_options.landmarks = options_.landmarks;
+    CAPFIT_ASSIGN_OR_RETURN(body_, body::FindBody(mesh, body_options, pool_, observer_));
+    Append(body_->warnings, result_.warnings);
+    result_.body_from_caller = body_->body_from_caller;
+    caller_from_body_ = body_->body_from_caller.Inverse();
+    result_.landmarks = LandmarkResults(*body_, caller_from_body_);
+    return CheckCancelled(observer_);
+  }
+
+  absl::Status Approximate() {
+    clock_.Begin(Stage::kSection);
+    const circle::Budget chains =
+        ChainBudget(TotalBudget(options_), OverheadOf(*body_, options_.parts));
+    section::FeaturePolygons features =
+        section::ExtractFeaturePolygons(*body_, PlanSections(options_, *body_, chains), pool_);
+    Append(std::move(features.warnings), result_.warnings);
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer_));
+
+    clock_.Begin(Stage::kCircle);
+    CircleStage circles(features.polygons, options_.seed, pool_, observer_);
+    circles.Prepare(kCirclesFittedAhead);
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer_));
+
+    clock_.Begin(Stage::kCapsule);
+    PrimitiveStage stage = BuildUnderBudget(*body_, options_, features.polygons, circles);
+    set_ = std::move(stage.set);
+    if (options_.want_polygons) {
+      result_.polygons = PolygonResults(features.polygons, stage.approximations, caller_from_body_);
+    }
+    if (set_.spheres.empty()) {
+      return CannotFit("NOTHING_TO_FIT",
+                       "none of the parts asked for was found on this body; see the warnings");
+    }
+    return CheckCancelled(observer_);
+  }
+
+  absl::Status Cover() {
+    clock_.Begin(Stage::kCoverage);
+    const coverage::CoverTarget target = coverage::TargetOf(*body_, options_.parts);
+    report_ = coverage::CoverBody(target, {}, pool_, observer_, set_);
+    return CheckCancelled(observer_);
+  }
+
+  absl::Status Measure() {
+    clock_.Begin(Stage::kMetrics);
+    metrics::MeasureOptions measure_options;
+    measure_options.parts = options_.parts;
+    result_.metrics = metrics::Measure(*body_, set_, measure_options, pool_, observer_);
+    result_.metrics.max_gap_m = report_.certified_gap_m;
+    return CheckCancelled(observer_);
+  }
+
+  absl::Status Bind() {
+    result_.primitives = ToCallerFrame(set_, caller_from_body_);
+    if (options_.skinning == SkinningMode::kNone) return absl::OkStatus();
+    clock_.Begin(Stage::kSkinning);
+    // In the body frame, near the origin: the coordinates do not depend on the frame, digits do.
+    std::vector<Eigen::Vector3d> centers_m;
+    for (const geometry::Sphere& sphere : set_.spheres) centers_m.push_back(sphere.center_m);
+    result_.weights = skinning::MeanValueWeights(body_->mesh, centers_m, pool_, observer_);
+    return CheckCancelled(observer_);
+  }
+
+  // Most polygons end up with at most this many circles; the rest is fitted when asked for.
+  static constexpr int kCirclesFittedAhead = 4;
+
+  const FitOptions& options_;
+  const ThreadPool& pool_;
+  FitObserver& observer_;
+  StageClock& clock_;
+  FitResult& result_;
+  std::optional<body::Body> body_;  // set by Understand
+  geometry::Similarity caller_from_body_;
+  capsule::PrimitiveSet set_;
+  coverage::CoverReport report_;
+};
+
+}  // namespace
+
+absl::StatusOr<FitResult> Fit(const mesh::PolygonSoup& soup, const FitOptions& options,
+                              const ThreadPool& pool, FitObserver& observer) {
+  CAPFIT_RETURN_IF_ERROR(ValidateOptions(options));
+  FitResult result;
+  StageClock clock(observer, result);
+  clock.Begin(Stage::kMesh);
+  CAPFIT_ASSIGN_OR_RETURN(mesh::PreparedMesh prepared, mesh::PrepareMesh(soup));
+  Append(std::move(prepared.warnings), result.warnings);
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
+  CAPFIT_RETURN_IF_ERROR(BodyFit(options, pool, observer, clock, result).Run(prepared.mesh));
+  clock.End();
+  return result;
+}
+
+}  // namespace capfit::pipeline

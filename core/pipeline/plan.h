@@ -1,0 +1,34 @@
+// What a budget allows: how many feature polygons on each chain, and what is left for them.
+#ifndef CAPFIT_CORE_PIPELINE_PLAN_H_
+#define CAPFIT_CORE_PIPELINE_PLAN_H_
+
+#include "core/body/body.h"
+#include "core/circle/allocation.h"
+#include "core/pipeline/fit.h"
+#include "core/section/feature_polygon.h"
+
+namespace capfit::pipeline {
+
+// The caller's budget for the whole set; unlimited where the budget is an error threshold.
+[[nodiscard]] circle::Budget TotalBudget(const FitOptions& options);
+
+// Balls that head, hands and feet will take, and capsules that link limbs to the trunk.
+struct Overhead {
+  int balls = 0;
+  int links = 0;
+};
+[[nodiscard]] Overhead OverheadOf(const body::Body& body, const body::PartSelection& parts);
+
+// `total` without the overhead: what the feature polygons of the chains may use.
+[[nodiscard]] circle::Budget ChainBudget(const circle::Budget& total, const Overhead& overhead);
+
+// The paper's twenty polygons (6 on the torso, 3 on an arm, 4 on a leg) where the budget carries
+// them; more above that, fewer below: the largest layout of a fixed ladder whose
+// cost with two circles on the torso and one on the limbs fits.
+[[nodiscard]] section::SectionOptions PlanSections(const FitOptions& options,
+                                                   const body::Body& body,
+                                                   const circle::Budget& chain_budget);
+
+}  // namespace capfit::pipeline
+
+#endif  // CAPFIT_CORE_PIPELINE_PLAN_H_

@@ -1,0 +1,103 @@
+#include "core/pipeline/primitive_stage.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/capsule/build_primitives.h"
+#include "core/pipeline/plan.h"
+
+namespace capfit::pipeline {
+namespace {
+
+constexpr int kMaxCirclesPerPolygon = 8;
+// Primitives that may stay unused: what the cheapest mirrored pair of circles costs.
+constexpr int kUnusedAllowed = 3;
+constexpr int kMaxRounds = 6;
+
+struct Counts {
+  int spheres = 0;
+  int capsules = 0;
+};
+
+Counts CountsOf(const capsule::PrimitiveSet& set) {
+  return {static_cast<int>(set.spheres.size()), static_cast<int>(set.capsules.size())};
+}
+
+bool Fits(const Counts& counts, const circle::Budget& budget) {
+  return counts.spheres + counts.capsules <= budget.max_primitives &&
+         counts.spheres <= budget.max_spheres && counts.capsules <= budget.max_capsules;
+}
+
+// How many primitives the set leaves unused.
+int Unused(const Counts& counts, const circle::Budget& budget) {
+  const int primitives = budget.max_primitives - counts.spheres - counts.capsules;
+  const int each = std::max(0, budget.max_spheres - counts.spheres) +
+                   std::max(0, budget.max_capsules - counts.capsules);
+  return std::min(primitives, each);
+}
+
+PrimitiveStage Build(const body::Body& body, const FitOptions& options,
+                     std::span<const section::FeaturePolygon> polygons,
+                     const std::vector<int>& circle_counts, CircleStage& circles) {
+  PrimitiveStage stage;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    stage.approximations.push_back(circles.Approximation(static_cast<int>(i), circle_counts[i]));
+  }
+  stage.set = capsule::BuildPrimitives(polygons, stage.approximations, /*link_limbs=*/true);
+  capsule::AddEndBalls(body, options.parts, stage.set);
+  capsule::RemoveCoveredCapsules(stage.set);
+  return stage;
+}
+
+PrimitiveStage BuildByThreshold(const body::Body& body, const FitOptions& options,
+                                std::span<const section::FeaturePolygon> polygons,
+                                const circle::ErrorOf& error_m2, CircleStage& circles) {
+  const std::vector<int> counts = circle::AllocateByThreshold(polygons, *options.polygon_error,
+                                                              kMaxCirclesPerPolygon, error_m2);
+  return Build(body, options, polygons, counts, circles);
+}
+
+// `budget` with `more` primitives on top of each limit that is set.
+circle::Budget Raised(circle::Budget budget, int more) {
+  for (int* limit : {&budget.max_primitives, &budget.max_spheres, &budget.max_capsules}) {
+    if (*limit < std::numeric_limits<int>::max() - more) *limit += more;
+  }
+  return budget;
+}
+
+}  // namespace
+
+PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
+                                std::span<const section::FeaturePolygon> polygons,
+                                CircleStage& circles) {
+  const circle::ErrorOf error_m2 = [&circles](int polygon, int count) {
+    return circles.Error_m2(polygon, count);
+  };
+  if (options.polygon_error.has_value()) {
+    return BuildByThreshold(body, options, polygons, error_m2, circles);
+  }
+  const circle::Budget total = TotalBudget(options);
+  const circle::Budget chains = ChainBudget(total, OverheadOf(body, options.parts));
+  PrimitiveStage best;
+  std::vector<int> tried;
+  int bonus = 0;  // what pruning is expected to free again
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const std::vector<int> counts = circle::AllocateUnderBudget(polygons, Raised(chains, bonus),
+                                                                kMaxCirclesPerPolygon, error_m2);
+    if (counts == tried) break;
+    tried = counts;
+    PrimitiveStage stage = Build(body, options, polygons, counts, circles);
+    const Counts spent = CountsOf(stage.set);
+    const bool fits = Fits(spent, total);
+    if (round == 0 || (fits && Unused(spent, total) < Unused(CountsOf(best.set), total))) {
+      best = std::move(stage);
+    }
+    if (!fits) break;
+    const int unused = Unused(spent, total);
+    if (unused <= kUnusedAllowed) break;
+    bonus += unused;
+  }
+  return best;
+}
+
+}  // namespace capfit::pipeline

@@ -1,0 +1,33 @@
+// Circles to primitives under the caller's budget: the one loop of the pipeline that goes back.
+#ifndef CAPFIT_CORE_PIPELINE_PRIMITIVE_STAGE_H_
+#define CAPFIT_CORE_PIPELINE_PRIMITIVE_STAGE_H_
+
+#include <span>
+#include <vector>
+
+#include "core/body/body.h"
+#include "core/capsule/primitive_set.h"
+#include "core/circle/allocation.h"
+#include "core/circle/approximate_polygon.h"
+#include "core/pipeline/circle_stage.h"
+#include "core/pipeline/fit.h"
+#include "core/section/feature_polygon.h"
+
+namespace capfit::pipeline {
+
+// What the circles of the feature polygons became.
+struct PrimitiveStage {
+  std::vector<circle::PolygonApproximation> approximations;  // one for each polygon
+  capsule::PrimitiveSet set;                                 // before coverage
+};
+
+// Allocates circles, builds spheres and capsules, removes the covered ones, and gives what the
+// removal freed to more circles, until the budget is used up (within 3 primitives) or nothing more
+// can be bought. Never above the budget unless one circle per polygon already is.
+[[nodiscard]] PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
+                                              std::span<const section::FeaturePolygon> polygons,
+                                              CircleStage& circles);
+
+}  // namespace capfit::pipeline
+
+#endif  // CAPFIT_CORE_PIPELINE_PRIMITIVE_STAGE_H_
