@@ -1,0 +1,133 @@
+#include "proto/wire/enum_conversion.h"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace capfit::wire {
+namespace {
+
+template <typename Core, typename Wire, std::size_t n>
+using Table = std::array<std::pair<Core, Wire>, n>;
+
+// Each core value stands once; an UNSPECIFIED that means a default is a second row further down.
+constexpr Table<body::Unit, v1::LengthUnit, 5> kUnits = {
+    {{body::Unit::kAuto, v1::LENGTH_UNIT_UNSPECIFIED},
+     {body::Unit::kMetre, v1::LENGTH_UNIT_METRE},
+     {body::Unit::kCentimetre, v1::LENGTH_UNIT_CENTIMETRE},
+     {body::Unit::kMillimetre, v1::LENGTH_UNIT_MILLIMETRE},
+     {body::Unit::kInch, v1::LENGTH_UNIT_INCH}}};
+
+constexpr Table<body::UpAxis, v1::UpAxis, 4> kUpAxes = {
+    {{body::UpAxis::kAuto, v1::UP_AXIS_UNSPECIFIED},
+     {body::UpAxis::kX, v1::UP_AXIS_X},
+     {body::UpAxis::kY, v1::UP_AXIS_Y},
+     {body::UpAxis::kZ, v1::UP_AXIS_Z}}};
+
+constexpr Table<mesh::MeshFormat, v1::MeshFileFormat, 6> kFormats = {
+    {{mesh::MeshFormat::kUnknown, v1::MESH_FILE_FORMAT_UNSPECIFIED},
+     {mesh::MeshFormat::kObj, v1::MESH_FILE_FORMAT_OBJ},
+     {mesh::MeshFormat::kPly, v1::MESH_FILE_FORMAT_PLY},
+     {mesh::MeshFormat::kStl, v1::MESH_FILE_FORMAT_STL},
+     {mesh::MeshFormat::kOff, v1::MESH_FILE_FORMAT_OFF},
+     {mesh::MeshFormat::kGlb, v1::MESH_FILE_FORMAT_GLB}}};
+
+constexpr Table<body::LandmarkMethod, v1::LandmarkMethod, 4> kMethods = {
+    {{body::LandmarkMethod::kMeasured, v1::LANDMARK_METHOD_MEASURED},
+     {body::LandmarkMethod::kRatio, v1::LANDMARK_METHOD_RATIO},
+     {body::LandmarkMethod::kCaller, v1::LANDMARK_METHOD_CALLER},
+     {body::LandmarkMethod::kSkeleton, v1::LANDMARK_METHOD_SKELETON}}};
+
+constexpr Table<body::Part, v1::BodyPart, 10> kParts = {
+    {{body::Part::kTorso, v1::BODY_PART_TORSO},
+     {body::Part::kLeftArm, v1::BODY_PART_LEFT_ARM},
+     {body::Part::kRightArm, v1::BODY_PART_RIGHT_ARM},
+     {body::Part::kLeftLeg, v1::BODY_PART_LEFT_LEG},
+     {body::Part::kRightLeg, v1::BODY_PART_RIGHT_LEG},
+     {body::Part::kHead, v1::BODY_PART_HEAD},
+     {body::Part::kLeftHand, v1::BODY_PART_LEFT_HAND},
+     {body::Part::kRightHand, v1::BODY_PART_RIGHT_HAND},
+     {body::Part::kLeftFoot, v1::BODY_PART_LEFT_FOOT},
+     {body::Part::kRightFoot, v1::BODY_PART_RIGHT_FOOT}}};
+
+constexpr Table<Stage, v1::Stage, 9> kStages = {{{Stage::kMesh, v1::STAGE_MESH},
+                                                 {Stage::kBody, v1::STAGE_BODY},
+                                                 {Stage::kSection, v1::STAGE_SECTION},
+                                                 {Stage::kCircle, v1::STAGE_CIRCLE},
+                                                 {Stage::kCapsule, v1::STAGE_CAPSULE},
+                                                 {Stage::kCoverage, v1::STAGE_COVERAGE},
+                                                 {Stage::kRefine, v1::STAGE_REFINE},
+                                                 {Stage::kMetrics, v1::STAGE_METRICS},
+                                                 {Stage::kSkinning, v1::STAGE_SKINNING}}};
+static_assert(kStages.size() == kStageCount);
+
+constexpr Table<section::Sex, v1::Sex, 5> kSexes = {{{section::Sex::kAuto, v1::SEX_AUTO},
+                                                     {section::Sex::kFemale, v1::SEX_FEMALE},
+                                                     {section::Sex::kMale, v1::SEX_MALE},
+                                                     {section::Sex::kNone, v1::SEX_NONE},
+                                                     {section::Sex::kAuto, v1::SEX_UNSPECIFIED}}};
+
+constexpr Table<pipeline::FitMode, v1::FitMode, 3> kFitModes = {
+    {{pipeline::FitMode::kEnclose, v1::FIT_MODE_ENCLOSE},
+     {pipeline::FitMode::kBestFit, v1::FIT_MODE_BEST_FIT},
+     {pipeline::FitMode::kEnclose, v1::FIT_MODE_UNSPECIFIED}}};
+
+constexpr Table<pipeline::Quality, v1::Quality, 3> kQualities = {
+    {{pipeline::Quality::kPaper, v1::QUALITY_PAPER},
+     {pipeline::Quality::kTight, v1::QUALITY_TIGHT},
+     {pipeline::Quality::kPaper, v1::QUALITY_UNSPECIFIED}}};
+
+constexpr Table<pipeline::SkinningMode, v1::SkinningForm, 3> kSkinningForms = {
+    {{pipeline::SkinningMode::kNone, v1::SKINNING_FORM_NONE},
+     {pipeline::SkinningMode::kDense, v1::SKINNING_FORM_DENSE},
+     {pipeline::SkinningMode::kNone, v1::SKINNING_FORM_UNSPECIFIED}}};
+
+template <typename Core, typename Wire, std::size_t n>
+Wire WireOf(const Table<Core, Wire, n>& table, Core value) {
+  for (const auto& [core, wire] : table) {
+    if (core == value) return wire;
+  }
+  return Wire{};
+}
+
+template <typename Core, typename Wire, std::size_t n>
+std::optional<Core> CoreOf(const Table<Core, Wire, n>& table, Wire value) {
+  for (const auto& [core, wire] : table) {
+    if (wire == value) return core;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+v1::LengthUnit ToWire(body::Unit unit) { return WireOf(kUnits, unit); }
+v1::UpAxis ToWire(body::UpAxis up) { return WireOf(kUpAxes, up); }
+v1::MeshFileFormat ToWire(mesh::MeshFormat format) { return WireOf(kFormats, format); }
+v1::LandmarkMethod ToWire(body::LandmarkMethod method) { return WireOf(kMethods, method); }
+v1::BodyPart ToWire(body::Part part) { return WireOf(kParts, part); }
+v1::Stage ToWire(Stage stage) { return WireOf(kStages, stage); }
+v1::Sex ToWire(section::Sex sex) { return WireOf(kSexes, sex); }
+v1::FitMode ToWire(pipeline::FitMode mode) { return WireOf(kFitModes, mode); }
+v1::Quality ToWire(pipeline::Quality quality) { return WireOf(kQualities, quality); }
+v1::SkinningForm ToWire(pipeline::SkinningMode mode) { return WireOf(kSkinningForms, mode); }
+
+std::optional<body::Unit> FromWire(v1::LengthUnit unit) { return CoreOf(kUnits, unit); }
+std::optional<body::UpAxis> FromWire(v1::UpAxis up) { return CoreOf(kUpAxes, up); }
+std::optional<mesh::MeshFormat> FromWire(v1::MeshFileFormat format) {
+  return CoreOf(kFormats, format);
+}
+std::optional<body::LandmarkMethod> FromWire(v1::LandmarkMethod method) {
+  return CoreOf(kMethods, method);
+}
+std::optional<body::Part> FromWire(v1::BodyPart part) { return CoreOf(kParts, part); }
+std::optional<Stage> FromWire(v1::Stage stage) { return CoreOf(kStages, stage); }
+std::optional<section::Sex> FromWire(v1::Sex sex) { return CoreOf(kSexes, sex); }
+std::optional<pipeline::FitMode> FromWire(v1::FitMode mode) { return CoreOf(kFitModes, mode); }
+std::optional<pipeline::Quality> FromWire(v1::Quality quality) {
+  return CoreOf(kQualities, quality);
+}
+std::optional<pipeline::SkinningMode> FromWire(v1::SkinningForm form) {
+  return CoreOf(kSkinningForms, form);
+}
+
+}  // namespace capfit::wire

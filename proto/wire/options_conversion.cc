@@ -1,0 +1,169 @@
+#include "proto/wire/options_conversion.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
+#include "proto/wire/enum_conversion.h"
+
+namespace capfit::wire {
+namespace {
+
+// Fills `target` from an enum of the wire, or names the number that is not known.
+template <typename Core, typename Wire>
+absl::Status Read(const char* field, Wire value, Core& target) {
+  const std::optional<Core> known = FromWire(value);
+  if (!known) {
+    return InvalidField(
+        field, absl::StrCat("is ", static_cast<int>(value), ", which this version does not know"));
+  }
+  target = *known;
+  return absl::OkStatus();
+}
+
+absl::Status ReadBudget(const v1::Budget& budget, pipeline::FitOptions& options) {
+  switch (budget.limit_case()) {
+    case v1::Budget::kMaxPrimitives:
+      options.max_primitives = budget.max_primitives();
+      break;
+    case v1::Budget::kMaxPolygonError:
+      options.polygon_error = budget.max_polygon_error();
+      break;
+    case v1::Budget::kSpheresAndCapsules: {
+      const v1::SphereAndCapsuleLimit& limit = budget.spheres_and_capsules();
+      if (!limit.has_max_spheres() && !limit.has_max_capsules()) {
+        return InvalidField("options.budget.spheres_and_capsules",
+                            "is empty, must name max_spheres, max_capsules or both");
+      }
+      if (limit.has_max_spheres()) options.max_spheres = limit.max_spheres();
+      if (limit.has_max_capsules()) options.max_capsules = limit.max_capsules();
+      break;
+    }
+    case v1::Budget::LIMIT_NOT_SET:
+      break;
+  }
+  return absl::OkStatus();
+}
+
+// The switch of a group; nothing for a number that is not a group.
+bool* SwitchOf(v1::BodyPartGroup group, body::PartSelection& parts) {
+  switch (group) {
+    case v1::BODY_PART_GROUP_TORSO:
+      return &parts.torso;
+    case v1::BODY_PART_GROUP_ARMS:
+      return &parts.arms;
+    case v1::BODY_PART_GROUP_LEGS:
+      return &parts.legs;
+    case v1::BODY_PART_GROUP_HEAD:
+      return &parts.head;
+    case v1::BODY_PART_GROUP_HANDS:
+      return &parts.hands;
+    case v1::BODY_PART_GROUP_FEET:
+      return &parts.feet;
+    default:
+      return nullptr;
+  }
+}
+
+absl::Status ReadParts(const v1::FitOptions& wire, body::PartSelection& parts) {
+  if (wire.parts().empty()) return absl::OkStatus();
+  parts = {.torso = false, .arms = false, .legs = false};
+  for (int i = 0; i < wire.parts_size(); ++i) {
+    const std::string field = absl::StrCat("options.parts[", i, "]");
+    bool* const part = SwitchOf(wire.parts(i), parts);
+    if (part == nullptr) {
+      return InvalidField(field, absl::StrCat("is ", static_cast<int>(wire.parts(i)),
+                                              ", must be one of BodyPartGroup, 1 to 6"));
+    }
+    if (*part) return InvalidField(field, "is there twice");
+    *part = true;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status ReadLandmark(const v1::Landmark& wire, const std::string& field,
+                          pipeline::FitOptions& options) {
+  const std::optional<body::LandmarkId> id = body::LandmarkFromName(wire.name());
+  if (!id) {
+    return InvalidField(field + ".name", absl::StrCat("is \"", wire.name().substr(0, 40),
+                                                      "\", which is no landmark's name"));
+  }
+  const Eigen::Vector3d position(wire.position().x(), wire.position().y(), wire.position().z());
+  if (!wire.has_position() || !position.allFinite()) {
+    return InvalidField(field + ".position", "must be three finite numbers");
+  }
+  if (!options.landmarks.emplace(*id, position).second) {
+    return InvalidField(field + ".name", absl::StrCat("is \"", wire.name(), "\" a second time"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status ReadSkinning(v1::SkinningForm form, pipeline::SkinningMode& mode) {
+  if (form == v1::SKINNING_FORM_SPARSE || form == v1::SKINNING_FORM_BONES) {
+    return absl::UnimplementedError(
+        absl::StrCat("options.skinning is ", v1::SkinningForm_Name(form),
+                     ", which this version does not make; it makes SKINNING_FORM_DENSE"));
+  }
+  return Read("options.skinning", form, mode);
+}
+
+void WriteBudget(const pipeline::FitOptions& options, v1::FitOptions& wire) {
+  if (options.max_primitives) wire.mutable_budget()->set_max_primitives(*options.max_primitives);
+  if (options.polygon_error) wire.mutable_budget()->set_max_polygon_error(*options.polygon_error);
+  if (!options.max_spheres && !options.max_capsules) return;
+  v1::SphereAndCapsuleLimit& limit = *wire.mutable_budget()->mutable_spheres_and_capsules();
+  if (options.max_spheres) limit.set_max_spheres(*options.max_spheres);
+  if (options.max_capsules) limit.set_max_capsules(*options.max_capsules);
+}
+
+}  // namespace
+
+absl::StatusOr<pipeline::FitOptions> OptionsFromWire(const v1::ApproximateBodyHeader& header) {
+  const v1::FitOptions& wire = header.options();
+  pipeline::FitOptions options;
+  CAPFIT_RETURN_IF_ERROR(Read("mesh.unit", header.mesh().unit(), options.unit));
+  CAPFIT_RETURN_IF_ERROR(Read("mesh.up_axis", header.mesh().up_axis(), options.up));
+  CAPFIT_RETURN_IF_ERROR(ReadBudget(wire.budget(), options));
+  CAPFIT_RETURN_IF_ERROR(Read("options.fit_mode", wire.fit_mode(), options.fit));
+  CAPFIT_RETURN_IF_ERROR(Read("options.quality", wire.quality(), options.quality));
+  CAPFIT_RETURN_IF_ERROR(ReadParts(wire, options.parts));
+  CAPFIT_RETURN_IF_ERROR(Read("options.sex", wire.sex(), options.sex));
+  CAPFIT_RETURN_IF_ERROR(ReadSkinning(wire.skinning(), options.skinning));
+  for (int i = 0; i < wire.landmarks_size(); ++i) {
+    CAPFIT_RETURN_IF_ERROR(
+        ReadLandmark(wire.landmarks(i), absl::StrCat("options.landmarks[", i, "]"), options));
+  }
+  options.seed = wire.seed();
+  options.want_polygons = wire.want_feature_polygons();
+  return options;
+}
+
+void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeader& header) {
+  header.mutable_mesh()->set_unit(ToWire(options.unit));
+  header.mutable_mesh()->set_up_axis(ToWire(options.up));
+  v1::FitOptions& wire = *header.mutable_options();
+  WriteBudget(options, wire);
+  wire.set_fit_mode(ToWire(options.fit));
+  wire.set_quality(ToWire(options.quality));
+  if (options.parts.torso) wire.add_parts(v1::BODY_PART_GROUP_TORSO);
+  if (options.parts.arms) wire.add_parts(v1::BODY_PART_GROUP_ARMS);
+  if (options.parts.legs) wire.add_parts(v1::BODY_PART_GROUP_LEGS);
+  if (options.parts.head) wire.add_parts(v1::BODY_PART_GROUP_HEAD);
+  if (options.parts.hands) wire.add_parts(v1::BODY_PART_GROUP_HANDS);
+  if (options.parts.feet) wire.add_parts(v1::BODY_PART_GROUP_FEET);
+  wire.set_sex(ToWire(options.sex));
+  wire.set_skinning(ToWire(options.skinning));
+  for (const auto& [id, position] : options.landmarks) {
+    v1::Landmark& landmark = *wire.add_landmarks();
+    landmark.set_name(std::string(body::LandmarkName(id)));
+    landmark.mutable_position()->set_x(position.x());
+    landmark.mutable_position()->set_y(position.y());
+    landmark.mutable_position()->set_z(position.z());
+  }
+  wire.set_seed(options.seed);
+  wire.set_want_feature_polygons(options.want_polygons);
+}
+
+}  // namespace capfit::wire

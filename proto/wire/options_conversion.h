@@ -1,0 +1,22 @@
+// FitOptions over the wire.
+#ifndef CAPFIT_PROTO_WIRE_OPTIONS_CONVERSION_H_
+#define CAPFIT_PROTO_WIRE_OPTIONS_CONVERSION_H_
+
+#include "absl/status/statusor.h"
+#include "capfit/v1/service.pb.h"
+#include "core/pipeline/fit.h"
+
+namespace capfit::wire {
+
+// The options of a header: `options`, and unit and axis from `mesh`. Ranges of numbers are not
+// checked here but by pipeline::ValidateOptions. INVALID_ARGUMENT names the field
+// ("options.landmarks[2].name"); UNIMPLEMENTED for weights of a form that capfit does not make.
+[[nodiscard]] absl::StatusOr<pipeline::FitOptions> OptionsFromWire(
+    const v1::ApproximateBodyHeader& header);
+
+// The other way: sets `options` and the mesh's unit and axis; OptionsFromWire gives the same back.
+void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeader& header);
+
+}  // namespace capfit::wire
+
+#endif  // CAPFIT_PROTO_WIRE_OPTIONS_CONVERSION_H_

@@ -1,0 +1,282 @@
+#include "proto/wire/result_conversion.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
+#include "proto/wire/enum_conversion.h"
+
+namespace capfit::wire {
+namespace {
+
+constexpr std::size_t kMaxTextBytes = 1000;
+constexpr std::size_t kMaxMatrixRows = 10'000;
+constexpr std::size_t kMaxMatrixColumns = 100'000'000;
+
+void SetVector(const Eigen::Vector3d& vector, v1::Vector3& wire) {
+  wire.set_x(vector.x());
+  wire.set_y(vector.y());
+  wire.set_z(vector.z());
+}
+
+Eigen::Vector3d VectorOf(const v1::Vector3& wire) { return {wire.x(), wire.y(), wire.z()}; }
+
+absl::Status UnknownPart(const std::string& field, v1::BodyPart part) {
+  return InvalidField(
+      field, absl::StrCat("is ", static_cast<int>(part), ", which this version does not know"));
+}
+
+v1::Metrics MetricsToWire(const metrics::Metrics& metrics) {
+  v1::Metrics wire;
+  wire.set_primitive_count(metrics.n_p);
+  wire.set_volume_error(metrics.E_r);
+  wire.set_outside(metrics.outside);
+  wire.set_uncovered(metrics.uncovered);
+  wire.set_mean_distance_percent(metrics.E_M);
+  wire.set_max_distance_percent(metrics.hausdorff);
+  wire.set_max_gap_m(metrics.max_gap_m);
+  wire.set_volume_ratio(metrics.volume_ratio);
+  wire.set_mirror_error(metrics.mirror_error);
+  wire.set_vertices_out(metrics.vertices_out);
+  wire.set_max_out_m(metrics.max_out_m);
+  return wire;
+}
+
+metrics::Metrics MetricsFromWire(const v1::Metrics& wire) {
+  metrics::Metrics metrics;
+  metrics.n_p = wire.primitive_count();
+  metrics.E_r = wire.volume_error();
+  metrics.outside = wire.outside();
+  metrics.uncovered = wire.uncovered();
+  metrics.E_M = wire.mean_distance_percent();
+  metrics.hausdorff = wire.max_distance_percent();
+  metrics.max_gap_m = wire.max_gap_m();
+  metrics.volume_ratio = wire.volume_ratio();
+  metrics.mirror_error = wire.mirror_error();
+  metrics.vertices_out = wire.vertices_out();
+  metrics.max_out_m = wire.max_out_m();
+  return metrics;
+}
+
+void SimilarityToWire(const geometry::Similarity& similarity, v1::Similarity& wire) {
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      wire.add_rotation(similarity.rotation(row, column));
+    }
+  }
+  wire.set_scale(similarity.scale);
+  SetVector(similarity.translation, *wire.mutable_translation());
+}
+
+absl::Status SimilarityFromWire(const v1::Similarity& wire, geometry::Similarity& similarity) {
+  if (wire.rotation_size() != 9) {
+    return InvalidField("summary.body_from_caller.rotation",
+                        absl::StrCat("has ", wire.rotation_size(), " numbers, must have 9"));
+  }
+  for (int i = 0; i < 9; ++i) similarity.rotation(i / 3, i % 3) = wire.rotation(i);
+  similarity.scale = wire.scale();
+  similarity.translation = VectorOf(wire.translation());
+  return absl::OkStatus();
+}
+
+// Whether the capsule's ends are two spheres in order.
+bool EndsAreValid(const v1::Capsule& capsule, int sphere_count) {
+  return capsule.first_sphere() >= 0 && capsule.first_sphere() < capsule.second_sphere() &&
+         capsule.second_sphere() < sphere_count;
+}
+
+// Where the next block must start, given how many weights there are already.
+bool StartsAt(const v1::SkinningChunk& chunk, const skinning::DenseWeights& weights) {
+  const std::size_t place = static_cast<std::size_t>(chunk.first_sphere()) * weights.vertex_count +
+                            static_cast<std::size_t>(chunk.dense().first_vertex());
+  return chunk.first_sphere() >= 0 && chunk.dense().first_vertex() >= 0 &&
+         place == weights.weights.size();
+}
+
+}  // namespace
+
+std::string PlainText(const std::string& text) {
+  std::string plain = text.substr(0, kMaxTextBytes);
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return plain;
+}
+
+v1::Warning WarningToWire(const Warning& warning) {
+  v1::Warning wire;
+  wire.set_code(PlainText(warning.code));
+  wire.set_message(PlainText(warning.message));
+  wire.set_count(warning.count);
+  return wire;
+}
+
+v1::Landmarks LandmarksToWire(const pipeline::FitResult& result) {
+  v1::Landmarks wire;
+  for (const pipeline::LandmarkResult& landmark : result.landmarks) {
+    v1::Landmark& one = *wire.add_landmarks();
+    one.set_name(PlainText(landmark.name));
+    SetVector(landmark.position, *one.mutable_position());
+    one.set_method(ToWire(landmark.method));
+    one.set_confidence(landmark.confidence);
+  }
+  return wire;
+}
+
+v1::FeaturePolygon PolygonToWire(const pipeline::PolygonResult& polygon) {
+  v1::FeaturePolygon wire;
+  wire.set_name(PlainText(polygon.name));
+  wire.set_part(ToWire(polygon.part));
+  for (const Eigen::Vector3d& point : polygon.outline) SetVector(point, *wire.add_outline());
+  for (const geometry::Sphere& circle : polygon.circles) {
+    v1::Circle& one = *wire.add_circles();
+    SetVector(circle.center_m, *one.mutable_center());
+    one.set_radius(circle.radius_m);
+  }
+  wire.set_outside_area_ratio(polygon.outside_area_ratio);
+  return wire;
+}
+
+v1::PrimitiveSet PrimitivesToWire(const capsule::PrimitiveSet& set) {
+  v1::PrimitiveSet wire;
+  for (std::size_t i = 0; i < set.spheres.size(); ++i) {
+    v1::Sphere& sphere = *wire.add_spheres();
+    SetVector(set.spheres[i].center_m, *sphere.mutable_center());
+    sphere.set_radius(set.spheres[i].radius_m);
+    const capsule::SphereOrigin& origin = set.origins[i];
+    sphere.set_part(ToWire(origin.part));
+    if (origin.polygon >= 0) sphere.set_polygon(origin.polygon);
+    if (origin.mirror >= 0) sphere.set_mirror(origin.mirror);
+  }
+  for (const capsule::CapsuleEnds& ends : set.capsules) {
+    v1::Capsule& capsule = *wire.add_capsules();
+    capsule.set_first_sphere(ends[0]);
+    capsule.set_second_sphere(ends[1]);
+  }
+  return wire;
+}
+
+v1::Summary SummaryToWire(const pipeline::FitResult& result, const std::string& request_id) {
+  v1::Summary wire;
+  wire.set_request_id(PlainText(request_id));
+  *wire.mutable_metrics() = MetricsToWire(result.metrics);
+  for (std::size_t i = 0; i < result.stage_seconds.size(); ++i) {
+    if (result.stage_seconds[i] <= 0.0) continue;
+    v1::StageTime& stage = *wire.add_stages();
+    stage.set_stage(ToWire(static_cast<Stage>(i)));
+    stage.set_seconds(result.stage_seconds[i]);
+  }
+  wire.set_seconds(result.seconds);
+  SimilarityToWire(result.body_from_caller, *wire.mutable_body_from_caller());
+  return wire;
+}
+
+WeightBlock BlockAt(const skinning::DenseWeights& weights, std::size_t first_sphere,
+                    std::size_t first_vertex, std::size_t max_weights) {
+  if (first_sphere >= weights.sphere_count || weights.vertex_count == 0) return {};
+  if (weights.vertex_count > max_weights) {
+    return {first_sphere, 1, first_vertex,
+            std::min(max_weights, weights.vertex_count - first_vertex)};
+  }
+  const std::size_t rows =
+      std::min(max_weights / weights.vertex_count, weights.sphere_count - first_sphere);
+  return {first_sphere, rows, 0, weights.vertex_count};
+}
+
+v1::SkinningChunk WeightsToWire(const skinning::DenseWeights& weights, const WeightBlock& block) {
+  v1::SkinningChunk wire;
+  wire.set_total_sphere_count(static_cast<int>(weights.sphere_count));
+  wire.set_total_vertex_count(static_cast<std::int64_t>(weights.vertex_count));
+  wire.set_first_sphere(static_cast<int>(block.first_sphere));
+  wire.set_sphere_count(static_cast<int>(block.sphere_count));
+  v1::DenseWeights& dense = *wire.mutable_dense();
+  dense.set_first_vertex(static_cast<std::int64_t>(block.first_vertex));
+  dense.set_vertex_count(static_cast<std::int64_t>(block.vertex_count));
+  const float* const begin =
+      weights.weights.data() + block.first_sphere * weights.vertex_count + block.first_vertex;
+  dense.mutable_weights()->Add(begin, begin + block.sphere_count * block.vertex_count);
+  return wire;
+}
+
+Warning WarningFromWire(const v1::Warning& wire) {
+  return {wire.code(), wire.message(), wire.count()};
+}
+
+void LandmarksFromWire(const v1::Landmarks& wire, pipeline::FitResult& result) {
+  for (const v1::Landmark& landmark : wire.landmarks()) {
+    result.landmarks.push_back(
+        {landmark.name(), VectorOf(landmark.position()),
+         FromWire(landmark.method()).value_or(body::LandmarkMethod::kMeasured),
+         landmark.confidence()});
+  }
+}
+
+absl::StatusOr<pipeline::PolygonResult> PolygonFromWire(const v1::FeaturePolygon& wire) {
+  const std::optional<body::Part> part = FromWire(wire.part());
+  if (!part) return UnknownPart("feature_polygon.part", wire.part());
+  pipeline::PolygonResult polygon;
+  polygon.name = wire.name();
+  polygon.part = *part;
+  for (const v1::Vector3& point : wire.outline()) polygon.outline.push_back(VectorOf(point));
+  for (const v1::Circle& circle : wire.circles()) {
+    polygon.circles.push_back({VectorOf(circle.center()), circle.radius()});
+  }
+  polygon.outside_area_ratio = wire.outside_area_ratio();
+  return polygon;
+}
+
+absl::StatusOr<capsule::PrimitiveSet> PrimitivesFromWire(const v1::PrimitiveSet& wire) {
+  capsule::PrimitiveSet set;
+  for (int i = 0; i < wire.spheres_size(); ++i) {
+    const v1::Sphere& sphere = wire.spheres(i);
+    const std::optional<body::Part> part = FromWire(sphere.part());
+    if (!part) return UnknownPart(absl::StrCat("primitives.spheres[", i, "].part"), sphere.part());
+    set.spheres.push_back({VectorOf(sphere.center()), sphere.radius()});
+    set.origins.push_back({*part, sphere.has_polygon() ? sphere.polygon() : -1,
+                           sphere.has_mirror() ? sphere.mirror() : -1});
+  }
+  for (int i = 0; i < wire.capsules_size(); ++i) {
+    const v1::Capsule& capsule = wire.capsules(i);
+    if (!EndsAreValid(capsule, wire.spheres_size())) {
+      return InvalidField(
+          absl::StrCat("primitives.capsules[", i, "]"),
+          absl::StrCat("joins ", capsule.first_sphere(), " and ", capsule.second_sphere(),
+                       ", must be in order and below ", wire.spheres_size()));
+    }
+    set.capsules.push_back({capsule.first_sphere(), capsule.second_sphere()});
+  }
+  return set;
+}
+
+absl::Status SummaryFromWire(const v1::Summary& wire, pipeline::FitResult& result) {
+  result.metrics = MetricsFromWire(wire.metrics());
+  for (const v1::StageTime& stage : wire.stages()) {
+    const std::optional<Stage> known = FromWire(stage.stage());
+    if (known) result.stage_seconds[static_cast<std::size_t>(*known)] = stage.seconds();
+  }
+  result.seconds = wire.seconds();
+  return SimilarityFromWire(wire.body_from_caller(), result.body_from_caller);
+}
+
+absl::Status AppendWeights(const v1::SkinningChunk& wire, skinning::DenseWeights& weights) {
+  if (!wire.has_dense()) return InvalidField("skinning.weights", "is of an unknown form");
+  if (weights.weights.empty()) {
+    weights.sphere_count = static_cast<std::size_t>(std::max(0, wire.total_sphere_count()));
+    weights.vertex_count =
+        static_cast<std::size_t>(std::max<std::int64_t>(0, wire.total_vertex_count()));
+    if (weights.sphere_count > kMaxMatrixRows || weights.vertex_count > kMaxMatrixColumns) {
+      return InvalidField("skinning.total_vertex_count", "is beyond all reason");
+    }
+  }
+  const auto count = static_cast<std::size_t>(wire.dense().weights_size());
+  if (!StartsAt(wire, weights) ||
+      weights.weights.size() + count > weights.sphere_count * weights.vertex_count) {
+    return InvalidField("skinning", absl::StrCat("block at sphere ", wire.first_sphere(),
+                                                 " does not follow the one before it"));
+  }
+  weights.weights.insert(weights.weights.end(), wire.dense().weights().begin(),
+                         wire.dense().weights().end());
+  return absl::OkStatus();
+}
+
+}  // namespace capfit::wire
