@@ -16,8 +16,10 @@ struct Circle {
   double radius_m = 0.0;                               // >= 0
 };
 
-// The smallest circle that contains all points, to 1e-12 relative. Expected O(n) with a fixed
-// shuffle, so the same points give the same bits. No points: radius 0 at the origin.
+// The smallest circle that contains all points, to 1e-12 relative: no point is further from the
+// centre than the radius, computed as (point - center).norm(). Deterministic. Points may repeat,
+// lie on a line or on a common circle. Welzl's problem with Gaertner's pivoting (the furthest
+// point enters next): a few passes over the points. No points: radius 0 at the origin.
 [[nodiscard]] Circle SmallestEnclosingCircle(std::span<const Eigen::Vector2d> points_m);
 
 // The smallest ball that contains all points, likewise.
