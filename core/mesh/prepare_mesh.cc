@@ -1,86 +1,429 @@
 #include "core/mesh/prepare_mesh.h"
 
+#include <Eigen/Geometry>  // cross
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "core/base/status.h"
+#include "core/mesh/close_holes.h"
+#include "core/mesh/crowded_edges.h"
 #include "core/mesh/edge_mates.h"
+#include "core/mesh/soup_checks.h"
+#include "core/mesh/split_vertices.h"
+#include "core/mesh/surface.h"
+#include "core/mesh/surface_parts.h"
+#include "core/mesh/weld_vertices.h"
 
 namespace capfit::mesh {
 namespace {
 
-absl::Status CheckPositions(const PolygonSoup& soup) {
-  for (std::size_t i = 0; i < soup.positions.size(); ++i) {
-    if (!soup.positions[i].allFinite()) {
-      return InvalidField(absl::StrCat("positions[", i, "]"), "must be finite");
-    }
+// Share of the diagonal within which open edges are joined: 0.02 mm on a body, far above the
+// rounding of float files, far below the gap between two fingers.
+constexpr double kWeldShare = 1e-5;
+// A second part of this share of the main part's volume is no accessory: it may be the body.
+constexpr double kRivalShare = 0.5;
+// Holes whose filling exceeds this share of the surface leave too little of the body.
+constexpr double kLargestHoleShare = 1.0 / 3.0;
+// Volume below this share of the diagonal's cube is rounding, not a body (a cylinder 1000 times
+// as long as thick has 1e-6).
+constexpr double kLeastVolumeShare = 1e-9;
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+struct Box {
+  Eigen::Vector3d min = Eigen::Vector3d::Constant(1e300);
+  Eigen::Vector3d max = Eigen::Vector3d::Constant(-1e300);
+
+  void Add(const Eigen::Vector3d& point) {
+    min = min.cwiseMin(point);
+    max = max.cwiseMax(point);
   }
-  return absl::OkStatus();
+  [[nodiscard]] double diagonal() const { return (max - min).norm(); }
+  [[nodiscard]] bool Holds(const Box& other) const {
+    return (other.min.array() >= min.array()).all() && (other.max.array() <= max.array()).all();
+  }
+};
+
+bool HasEqualCorners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+std::string PointText(const Eigen::Vector3d& p) {
+  return absl::StrFormat("(%.4g, %.4g, %.4g)", p.x(), p.y(), p.z());
 }
 
-absl::Status CheckSizes(const PolygonSoup& soup) {
-  if (soup.face_sizes.empty()) {
-    return soup.face_vertices.size() % 3 == 0
-               ? absl::OkStatus()
-               : InvalidField("triangle_indices", "must have three entries for each triangle");
+// Takes one mesh through the steps, in the order of the functions below.
+class MeshMender {
+ public:
+  explicit MeshMender(const PolygonSoup& soup) : positions_(soup.positions) {
+    Triangulate(soup);
+    MeasureUsed();
   }
-  std::size_t corners = 0;
-  for (const std::uint32_t size : soup.face_sizes) corners += size;
-  return corners == soup.face_vertices.size()
-             ? absl::OkStatus()
-             : InvalidField("face_sizes", "must add up to the number of face_vertices");
-}
 
-absl::Status CheckIndices(const PolygonSoup& soup) {
-  for (std::size_t i = 0; i < soup.face_vertices.size(); ++i) {
-    if (soup.face_vertices[i] >= soup.positions.size()) {
-      return InvalidField(
-          absl::StrCat("triangle_indices[", i, "]"),
-          absl::StrCat("is ", soup.face_vertices[i], ", must be below ", soup.positions.size()));
+  absl::StatusOr<PreparedMesh> Run() {
+    if (surface_.triangles.empty()) {
+      return CannotFit("NO_SURFACE", absl::StrCat("all ", degenerate_,
+                                                  " faces are degenerate: none has three "
+                                                  "different vertices"));
+    }
+    EdgeMates mates = FindMates();
+    if (!mates.IsClosedAndOriented()) mates = Join(std::move(mates));
+    surface_.mate = std::move(mates.mate);
+    CAPFIT_RETURN_IF_ERROR(KeepMainPart());
+    CAPFIT_RETURN_IF_ERROR(CloseAllHoles());
+    CAPFIT_RETURN_IF_ERROR(TurnOutward());
+    SplitTouchingVertices();
+    CAPFIT_RETURN_IF_ERROR(CheckManifold());
+    return Finish();
+  }
+
+ private:
+  void Triangulate(const PolygonSoup& soup) {
+    const std::vector<std::uint32_t>& v = soup.face_vertices;
+    surface_.triangles.reserve(v.size() / 3);
+    const bool all_triangles = soup.face_sizes.empty();
+    const std::size_t faces = all_triangles ? v.size() / 3 : soup.face_sizes.size();
+    std::size_t first = 0;
+    for (std::size_t f = 0; f < faces; ++f) {
+      const std::uint32_t size = all_triangles ? 3 : soup.face_sizes[f];
+      degenerate_ += size < 3;
+      for (std::uint32_t k = 2; k < size; ++k) {
+        AddTriangle({v[first], v[first + k - 1], v[first + k]});
+      }
+      first += size;
     }
   }
-  return absl::OkStatus();
-}
 
-std::vector<Triangle> Triangulate(const PolygonSoup& soup) {
-  std::vector<Triangle> triangles;
-  triangles.reserve(soup.face_vertices.size() / 3);
-  const auto& v = soup.face_vertices;
-  if (soup.face_sizes.empty()) {
-    for (std::size_t i = 0; i + 2 < v.size(); i += 3)
-      triangles.push_back({v[i], v[i + 1], v[i + 2]});
-    return triangles;
-  }
-  std::size_t first = 0;
-  for (const std::uint32_t size : soup.face_sizes) {
-    for (std::uint32_t k = 2; k < size; ++k) {
-      triangles.push_back({v[first], v[first + k - 1], v[first + k]});
+  void AddTriangle(const Triangle& triangle) {
+    if (HasEqualCorners(triangle)) {
+      ++degenerate_;
+    } else {
+      surface_.triangles.push_back(triangle);
     }
-    first += size;
   }
-  return triangles;
-}
+
+  // Only vertices that faces use count for the size of the mesh.
+  void MeasureUsed() {
+    std::vector<char> used(positions_.size(), 0);
+    for (const Triangle& t : surface_.triangles) used[t[0]] = used[t[1]] = used[t[2]] = 1;
+    Box box;
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (used[v] != 0) {
+        box.Add(positions_[v]);
+      } else {
+        ++unused_;
+      }
+    }
+    diagonal_ = surface_.triangles.empty() ? 0.0 : box.diagonal();
+    if (unused_ > 0) {
+      Warn("UNUSED_VERTICES", unused_, absl::StrCat(unused_, " vertices belong to no face"));
+    }
+  }
+
+  [[nodiscard]] EdgeMates FindMates() const {
+    return FindEdgeMates(surface_.triangles, positions_.size());
+  }
+
+  // Makes one surface of what touches: copies of faces and vertices, fins, crowded edges.
+  EdgeMates Join(EdgeMates mates) {
+    mates = DropDuplicates(std::move(mates));
+    if (mates.open > 0) mates = Weld(std::move(mates));
+    mates = DropFins(std::move(mates));
+    if (!mates.crowded_sizes.empty()) {
+      Warn("NONMANIFOLD_EDGES", static_cast<std::int64_t>(mates.crowded_sizes.size()),
+           absl::StrCat(mates.crowded_sizes.size(),
+                        " edges belong to more than two faces; the flattest pairs were joined"));
+      MatchCrowdedEdges(positions_, surface_.triangles, mates);
+    }
+    return mates;
+  }
+
+  EdgeMates DropDuplicates(EdgeMates mates) {
+    if (mates.crowded_sizes.empty()) return mates;
+    const std::vector<std::uint32_t> copies = FindDuplicates(surface_.triangles, mates);
+    if (copies.empty()) return mates;
+    duplicates_ += copies.size();
+    Drop(copies);
+    return FindMates();
+  }
+
+  // First what is equal, then, where that leaves edges open, what is close.
+  EdgeMates Weld(EdgeMates mates) {
+    const std::vector<std::uint32_t> equal = WeldEqual(positions_, OpenVertices(mates));
+    mates = Replace(equal, std::move(mates));
+    if (mates.open == 0 || !(diagonal_ > 0.0)) return mates;
+    const std::vector<std::uint32_t> close =
+        WeldWithin(positions_, OpenVertices(mates), kWeldShare * diagonal_);
+    return Replace(close, std::move(mates));
+  }
+
+  // The vertices at edges with one triangle only: closed parts that touch are left alone.
+  [[nodiscard]] std::vector<std::uint32_t> OpenVertices(const EdgeMates& mates) const {
+    std::vector<bool> open(positions_.size(), false);
+    for (HalfEdge h = 0; h < mates.mate.size(); ++h) {
+      if (mates.mate[h] != kNoMate) continue;
+      open[StartOf(surface_.triangles, h)] = open[EndOf(surface_.triangles, h)] = true;
+    }
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t v = 0; v < open.size(); ++v) {
+      if (open[v]) vertices.push_back(v);
+    }
+    return vertices;
+  }
+
+  EdgeMates Replace(const std::vector<std::uint32_t>& standing_for, EdgeMates mates) {
+    std::size_t welded = 0;
+    for (std::uint32_t v = 0; v < standing_for.size(); ++v) welded += standing_for[v] != v;
+    if (welded == 0) return mates;
+    welded_ += welded;
+    if (stand_in_.empty()) {
+      stand_in_ = standing_for;
+    } else {
+      for (std::uint32_t& v : stand_in_) v = standing_for[v];
+    }
+    const std::vector<Triangle> old = std::move(surface_.triangles);
+    surface_.triangles.clear();
+    surface_.triangles.reserve(old.size());
+    for (const Triangle& t : old) {
+      AddTriangle({standing_for[t[0]], standing_for[t[1]], standing_for[t[2]]});
+    }
+    return DropDuplicates(FindMates());
+  }
+
+  // A dropped fin may leave the next one loose.
+  EdgeMates DropFins(EdgeMates mates) {
+    std::size_t dropped = 0;
+    while (!mates.crowded_sizes.empty()) {
+      const std::vector<std::uint32_t> fins = FindFins(mates);
+      if (fins.empty()) break;
+      dropped += fins.size();
+      Drop(fins);
+      mates = FindMates();
+    }
+    if (dropped > 0) {
+      Warn("FINS_DROPPED", static_cast<std::int64_t>(dropped),
+           absl::StrCat(dropped, " loose faces at edges that already have two were dropped"));
+    }
+    return mates;
+  }
+
+  // `triangles` is ascending.
+  void Drop(const std::vector<std::uint32_t>& triangles) {
+    std::size_t kept = triangles.front();
+    auto next = triangles.begin();
+    for (std::uint32_t t = triangles.front(); t < surface_.triangles.size(); ++t) {
+      if (next != triangles.end() && *next == t) {
+        ++next;
+      } else {
+        surface_.triangles[kept++] = surface_.triangles[t];
+      }
+    }
+    surface_.triangles.resize(kept);
+  }
+
+  absl::Status KeepMainPart() {
+    const SurfaceParts found = OrientParts(positions_, surface_);
+    const auto bigger = [](const SurfacePart& a, const SurfacePart& b) {
+      return std::abs(a.volume) < std::abs(b.volume);
+    };
+    const auto main = std::max_element(found.parts.begin(), found.parts.end(), bigger);
+    const auto main_index = static_cast<std::uint32_t>(main - found.parts.begin());
+    CAPFIT_RETURN_IF_ERROR(CheckVolume(main->volume, found.parts.size()));
+    if (found.parts.size() > 1) CAPFIT_RETURN_IF_ERROR(CheckRivals(found, main_index));
+    if (main->conflicts > 0) {
+      return CannotFit("NOT_ORIENTABLE",
+                       absl::StrCat("the surface has no inside: its faces cannot be turned the "
+                                    "same way round at ",
+                                    main->conflicts, " edges"));
+    }
+    turned_ = main->turned;
+    if (found.parts.size() > 1) KeepPart(found, main_index, surface_);
+    return absl::OkStatus();
+  }
+
+  absl::Status CheckVolume(double volume, std::size_t parts) const {
+    const double least = kLeastVolumeShare * diagonal_ * diagonal_ * diagonal_;
+    if (std::abs(volume) > least) return absl::OkStatus();
+    return CannotFit("NO_VOLUME",
+                     absl::StrFormat("the surface encloses no volume; it has %d parts that share "
+                                     "no edge: do neighbouring faces have the same vertices, or "
+                                     "equal ones to within %g of the diagonal?",
+                                     parts, kWeldShare));
+  }
+
+  absl::Status CheckRivals(const SurfaceParts& found, std::uint32_t main) {
+    std::vector<Box> boxes(found.parts.size());
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      for (const std::uint32_t v : surface_.triangles[t]) {
+        boxes[found.part_of_triangle[t]].Add(positions_[v]);
+      }
+    }
+    const double main_volume = std::abs(found.parts[main].volume);
+    std::size_t faces_left_out = 0;
+    for (std::uint32_t p = 0; p < found.parts.size(); ++p) {
+      if (p == main) continue;
+      faces_left_out += found.parts[p].triangles;
+      const double share = std::abs(found.parts[p].volume) / main_volume;
+      if (share >= kRivalShare && !boxes[main].Holds(boxes[p])) {
+        return CannotFit("TWO_BODIES",
+                         absl::StrFormat("two separate parts are of similar size (the second has "
+                                         "%.0f %% of the first one's volume); send one body",
+                                         100.0 * share));
+      }
+    }
+    Warn("PARTS_LEFT_OUT", static_cast<std::int64_t>(found.parts.size() - 1),
+         absl::StrCat(found.parts.size() - 1, " separate parts (", faces_left_out,
+                      " faces) were left out; the part with the largest volume was kept"));
+    return absl::OkStatus();
+  }
+
+  absl::Status CloseAllHoles() {
+    if (std::find(surface_.mate.begin(), surface_.mate.end(), kNoMate) == surface_.mate.end()) {
+      return absl::OkStatus();
+    }
+    own_triangles_ = surface_.triangles.size();
+    const double own_area = Area();
+    CAPFIT_ASSIGN_OR_RETURN(const ClosedHoles closed, CloseHoles(positions_, surface_));
+    if (closed.holes == 0) return absl::OkStatus();
+    const std::string what =
+        absl::StrFormat("%d holes (the largest is %.3g round, near %s)", closed.holes,
+                        closed.longest_perimeter, PointText(closed.largest_middle));
+    if (closed.area > kLargestHoleShare * own_area) {
+      return CannotFit("OPEN_SURFACE",
+                       absl::StrFormat("the surface is not closed: filling its %s would take "
+                                       "%.0f %% of its area; close it in a modelling program",
+                                       what, 100.0 * closed.area / own_area));
+    }
+    Warn("HOLES_CLOSED", static_cast<std::int64_t>(closed.holes), what + " were closed");
+    return absl::OkStatus();
+  }
+
+  [[nodiscard]] double Area() const {
+    double area = 0.0;
+    for (const Triangle& t : surface_.triangles) {
+      const Eigen::Vector3d b = positions_[t[1]] - positions_[t[0]];
+      area += 0.5 * b.cross(positions_[t[2]] - positions_[t[0]]).norm();
+    }
+    return area;
+  }
+
+  [[nodiscard]] double Volume() const {
+    const Eigen::Vector3d& origin = positions_[surface_.triangles.front()[0]];
+    double volume = 0.0;
+    for (const Triangle& t : surface_.triangles) {
+      const Eigen::Vector3d a = positions_[t[0]] - origin;
+      const Eigen::Vector3d b = positions_[t[1]] - origin;
+      volume += a.dot(b.cross(positions_[t[2]] - origin)) / 6.0;
+    }
+    return volume;
+  }
+
+  absl::Status TurnOutward() {
+    const double volume = Volume();
+    CAPFIT_RETURN_IF_ERROR(CheckVolume(volume, 1));
+    const std::size_t own = own_triangles_ > 0 ? own_triangles_ : surface_.triangles.size();
+    if (volume < 0.0) {
+      TurnInsideOut(surface_);
+      turned_ = own - turned_;
+    }
+    if (turned_ == own) {
+      Warn("INSIDE_OUT", static_cast<std::int64_t>(turned_), "all faces were turned outward");
+    } else if (turned_ > 0) {
+      Warn("FACES_TURNED", static_cast<std::int64_t>(turned_),
+           absl::StrCat(turned_, " of ", own, " faces were turned to face outward"));
+    }
+    return absl::OkStatus();
+  }
+
+  void SplitTouchingVertices() {
+    copied_ = SplitVertices(positions_.size(), surface_);
+    if (copied_.empty()) return;
+    Warn("NONMANIFOLD_VERTICES", static_cast<std::int64_t>(copied_.size()),
+         absl::StrCat("the surface touches itself in ", copied_.size(),
+                      " vertices; each was split in two"));
+  }
+
+  absl::Status CheckManifold() const {
+    // A mesh that took no repair was checked as it came.
+    if (warnings_.empty() && degenerate_ + duplicates_ + welded_ == 0) return absl::OkStatus();
+    const EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size() + copied_.size());
+    if (mates.IsClosedAndOriented()) return absl::OkStatus();
+    return CannotFit("NOT_MANIFOLD",
+                     absl::StrCat("the surface cannot be taken apart at ",
+                                  mates.crowded_sizes.size() + mates.misdirected,
+                                  " edges where it touches itself; mend it in a modelling "
+                                  "program"));
+  }
+
+  PreparedMesh Finish() {
+    WarnOfDropped();
+    std::vector<std::uint32_t> new_index(positions_.size() + copied_.size(), kNone);
+    for (const Triangle& t : surface_.triangles) {
+      new_index[t[0]] = new_index[t[1]] = new_index[t[2]] = 0;
+    }
+    std::vector<Eigen::Vector3d> vertices;
+    vertices.reserve(new_index.size());
+    for (std::size_t v = 0; v < new_index.size(); ++v) {
+      if (new_index[v] == kNone) continue;
+      new_index[v] = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(positions_[v < positions_.size() ? v : copied_[v - positions_.size()]]);
+    }
+    if (vertices.size() < new_index.size()) {
+      for (Triangle& t : surface_.triangles) {
+        for (std::uint32_t& v : t) v = new_index[v];
+      }
+    }
+    std::vector<std::int32_t> vertex_of_source(positions_.size());
+    for (std::size_t v = 0; v < positions_.size(); ++v) {
+      vertex_of_source[v] =
+          static_cast<std::int32_t>(new_index[stand_in_.empty() ? v : stand_in_[v]]);
+    }
+    return {
+        BodyMesh(std::move(vertices), std::move(surface_.triangles), std::move(vertex_of_source)),
+        std::move(warnings_)};
+  }
+
+  void WarnOfDropped() {
+    if (welded_ > 0) {
+      Warn("VERTICES_WELDED", static_cast<std::int64_t>(welded_),
+           absl::StrCat(welded_, " vertices were copies of others and were merged with them"));
+    }
+    if (duplicates_ > 0) {
+      Warn("DUPLICATE_FACES", static_cast<std::int64_t>(duplicates_),
+           absl::StrCat(duplicates_, " faces were copies of others and were dropped"));
+    }
+    if (degenerate_ > 0) {
+      Warn("DEGENERATE_FACES", static_cast<std::int64_t>(degenerate_),
+           absl::StrCat(degenerate_, " faces without three different vertices were dropped"));
+    }
+  }
+
+  void Warn(std::string code, std::int64_t count, std::string message) {
+    warnings_.push_back({std::move(code), std::move(message), count});
+  }
+
+  const std::vector<Eigen::Vector3d>& positions_;
+  double diagonal_ = 0.0;
+  Surface surface_;
+  std::vector<std::uint32_t> stand_in_;  // of each vertex after welding; empty: itself
+  std::vector<std::uint32_t> copied_;
+  std::vector<Warning> warnings_;
+  std::int64_t unused_ = 0;
+  std::size_t degenerate_ = 0;
+  std::size_t duplicates_ = 0;
+  std::size_t welded_ = 0;
+  std::size_t turned_ = 0;
+  std::size_t own_triangles_ = 0;  // before holes were closed; 0: there were none
+};
 
 }  // namespace
 
-absl::StatusOr<PreparedMesh> PrepareMesh(const PolygonSoup& soup, const MeshLimits&) {
-  CAPFIT_RETURN_IF_ERROR(CheckSizes(soup));
-  CAPFIT_RETURN_IF_ERROR(CheckPositions(soup));
-  CAPFIT_RETURN_IF_ERROR(CheckIndices(soup));
-  if (soup.face_vertices.empty()) return InvalidField("mesh", "has no faces");
-  std::vector<Triangle> triangles = Triangulate(soup);
-  if (!FindEdgeMates(triangles, soup.positions.size()).IsClosedAndOriented()) {
-    return CannotFit("NOT_CLOSED", "the surface is not closed and consistently oriented");
-  }
-  std::vector<std::int32_t> vertex_of_source(soup.positions.size());
-  for (std::size_t i = 0; i < vertex_of_source.size(); ++i) {
-    vertex_of_source[i] = static_cast<std::int32_t>(i);
-  }
-  return PreparedMesh{BodyMesh(soup.positions, std::move(triangles), std::move(vertex_of_source)),
-                      {}};
+absl::StatusOr<PreparedMesh> PrepareMesh(const PolygonSoup& soup, const MeshLimits& limits) {
+  CAPFIT_RETURN_IF_ERROR(CheckSoup(soup, limits));
+  return MeshMender(soup).Run();
 }
 
 }  // namespace capfit::mesh

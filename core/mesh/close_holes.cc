@@ -1,0 +1,211 @@
+#include "core/mesh/close_holes.h"
+
+#include <Eigen/Geometry>  // cross
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "absl/container/flat_hash_set.h"
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
+#include "core/mesh/triangulate_loop.h"
+
+namespace capfit::mesh {
+namespace {
+
+// The filling of least area costs n^3 / 6 steps of some nanoseconds. A loop of 400 edges (a waist
+// cut through 100,000 triangles) takes about 0.1 s; a mesh may ask for four of these in all. What
+// is beyond is filled by cutting ears.
+constexpr std::size_t kLongestExactLoop = 400;
+constexpr std::size_t kExactSteps = 45'000'000;
+
+constexpr std::uint32_t kNotOnPath = 0xFFFFFFFFu;
+
+using Loop = std::vector<HalfEdge>;
+
+// Takes the open half-edges apart into loops that visit no vertex twice.
+class LoopFinder {
+ public:
+  explicit LoopFinder(const Surface& surface) : surface_(surface) {
+    for (HalfEdge h = 0; h < surface.mate.size(); ++h) {
+      if (surface.mate[h] == kNoMate) by_start_.emplace_back(Start(h), h);
+    }
+    std::sort(by_start_.begin(), by_start_.end());
+    std::uint32_t highest = 0;
+    for (const auto& [start, h] : by_start_) highest = std::max({highest, start, End(h)});
+    next_unused_.assign(std::size_t{highest} + 1, 0);
+    place_on_path_.assign(std::size_t{highest} + 1, kNotOnPath);
+    for (std::size_t i = by_start_.size(); i-- > 0;) next_unused_[by_start_[i].first] = i;
+    used_.assign(by_start_.size(), false);
+  }
+
+  std::optional<std::vector<Loop>> Run() {
+    for (std::size_t i = 0; i < by_start_.size(); ++i) {
+      if (!used_[i] && !WalkFrom(by_start_[i].first)) return std::nullopt;
+    }
+    return std::move(loops_);
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t Start(HalfEdge h) const { return StartOf(surface_.triangles, h); }
+  [[nodiscard]] std::uint32_t End(HalfEdge h) const { return EndOf(surface_.triangles, h); }
+
+  // Walks until the path is used up, cutting off each loop as soon as it closes. False where the
+  // walk gets stuck: the open edges do not form loops.
+  bool WalkFrom(std::uint32_t vertex) {
+    while (true) {
+      const std::optional<HalfEdge> h = TakeFrom(vertex);
+      if (!h.has_value()) return path_.empty();
+      place_on_path_[vertex] = static_cast<std::uint32_t>(path_.size());
+      path_.push_back(*h);
+      vertex = End(*h);
+      if (place_on_path_[vertex] != kNotOnPath) CutOffLoop(place_on_path_[vertex]);
+    }
+  }
+
+  std::optional<HalfEdge> TakeFrom(std::uint32_t vertex) {
+    std::size_t& i = next_unused_[vertex];
+    if (i >= by_start_.size() || by_start_[i].first != vertex) return std::nullopt;
+    used_[i] = true;
+    return by_start_[i++].second;
+  }
+
+  void CutOffLoop(std::uint32_t place) {
+    loops_.emplace_back(path_.begin() + place, path_.end());
+    for (const HalfEdge h : loops_.back()) place_on_path_[Start(h)] = kNotOnPath;
+    path_.resize(place);
+  }
+
+  const Surface& surface_;
+  std::vector<std::pair<std::uint32_t, HalfEdge>> by_start_;
+  std::vector<std::size_t> next_unused_;  // of a vertex: index into by_start_
+  std::vector<std::uint32_t> place_on_path_;
+  std::vector<bool> used_;
+  Loop path_;
+  std::vector<Loop> loops_;
+};
+
+class HoleCloser {
+ public:
+  HoleCloser(std::span<const Eigen::Vector3d> positions, Surface& surface)
+      : positions_(positions), surface_(surface) {}
+
+  absl::StatusOr<ClosedHoles> Run() {
+    const std::optional<std::vector<Loop>> loops = LoopFinder(surface_).Run();
+    if (!loops.has_value()) return CannotFit("HOLE_NOT_CLOSED", "open edges do not form loops");
+    NoteEdges(*loops);
+    for (const Loop& loop : *loops) CAPFIT_RETURN_IF_ERROR(Close(loop));
+    return report_;
+  }
+
+ private:
+  static std::uint64_t Key(std::uint32_t a, std::uint32_t b) {
+    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+  }
+
+  // All edges between two vertices of holes: no filling may use one again.
+  void NoteEdges(const std::vector<Loop>& loops) {
+    std::vector<bool> on_hole(positions_.size(), false);
+    for (const Loop& loop : loops) {
+      for (const HalfEdge h : loop) on_hole[StartOf(surface_.triangles, h)] = true;
+    }
+    for (HalfEdge h = 0; h < surface_.mate.size(); ++h) {
+      const std::uint32_t a = StartOf(surface_.triangles, h);
+      const std::uint32_t b = EndOf(surface_.triangles, h);
+      if (on_hole[a] && on_hole[b]) edges_.insert(Key(a, b));
+    }
+  }
+
+  absl::Status Close(const Loop& loop) {
+    if (loop.size() == 2) {  // two open edges between the same vertices: a slit
+      surface_.mate[loop[0]] = loop[1];
+      surface_.mate[loop[1]] = loop[0];
+      return absl::OkStatus();
+    }
+    // The filling runs the loop backwards, as a neighbour must.
+    std::vector<std::uint32_t> corners;
+    std::vector<Eigen::Vector3d> points;
+    for (std::size_t i = loop.size(); i-- > 0;) {
+      corners.push_back(EndOf(surface_.triangles, loop[i]));
+      points.push_back(positions_[corners.back()]);
+    }
+    const std::optional<std::vector<Triangle>> filling = Fill(corners, points);
+    if (!filling.has_value()) {
+      return CannotFit("HOLE_NOT_CLOSED",
+                       absl::StrCat("a hole of ", loop.size(),
+                                    " edges cannot be closed with the vertices around it; close "
+                                    "it in a modelling program"));
+    }
+    Report(points, *filling);
+    Append(loop, corners, *filling);
+    return absl::OkStatus();
+  }
+
+  std::optional<std::vector<Triangle>> Fill(const std::vector<std::uint32_t>& corners,
+                                            const std::vector<Eigen::Vector3d>& points) {
+    const MayJoin may_join = [&](std::uint32_t i, std::uint32_t k) {
+      return !edges_.contains(Key(corners[i], corners[k]));
+    };
+    const std::size_t n = corners.size();
+    const std::size_t steps = n * n * n / 6;
+    if (n > kLongestExactLoop || steps > steps_left_) return FillByCuttingEars(points, may_join);
+    steps_left_ -= steps;
+    return FillBySmallestArea(points, may_join);
+  }
+
+  void Report(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& filling) {
+    ++report_.holes;
+    for (const Triangle& t : filling) {
+      report_.area += 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm();
+    }
+    double perimeter = (points.front() - points.back()).norm();
+    Eigen::Vector3d from_first = Eigen::Vector3d::Zero();
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      perimeter += (points[i] - points[i - 1]).norm();
+      from_first += points[i] - points[0];
+    }
+    if (perimeter <= report_.longest_perimeter) return;
+    report_.longest_perimeter = perimeter;
+    report_.largest_middle = points[0] + from_first / static_cast<double>(points.size());
+  }
+
+  void Append(const Loop& loop, const std::vector<std::uint32_t>& corners,
+              const std::vector<Triangle>& filling) {
+    const auto n = static_cast<std::uint32_t>(corners.size());
+    const auto first = static_cast<HalfEdge>(surface_.mate.size());
+    const EdgeMates inner = FindEdgeMates(filling, n);
+    for (const Triangle& t : filling) {
+      surface_.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
+      for (int k = 0; k < 3; ++k) edges_.insert(Key(corners[t[k]], corners[t[(k + 1) % 3]]));
+    }
+    surface_.mate.resize(first + inner.mate.size());
+    for (HalfEdge h = 0; h < inner.mate.size(); ++h) {
+      if (inner.mate[h] != kNoMate) {
+        surface_.mate[first + h] = first + inner.mate[h];
+        continue;
+      }
+      // Corner i is the end of loop[n - 1 - i], whose start is corner i + 1.
+      const std::uint32_t i = StartOf(filling, h);
+      const HalfEdge outer = loop[n - 1 - i];
+      surface_.mate[first + h] = outer;
+      surface_.mate[outer] = first + h;
+    }
+  }
+
+  std::span<const Eigen::Vector3d> positions_;
+  Surface& surface_;
+  absl::flat_hash_set<std::uint64_t> edges_;
+  std::size_t steps_left_ = kExactSteps;
+  ClosedHoles report_;
+};
+
+}  // namespace
+
+absl::StatusOr<ClosedHoles> CloseHoles(std::span<const Eigen::Vector3d> positions,
+                                       Surface& surface) {
+  return HoleCloser(positions, surface).Run();
+}
+
+}  // namespace capfit::mesh

@@ -1,0 +1,93 @@
+#include "core/mesh/soup_checks.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
+
+namespace capfit::mesh {
+namespace {
+
+// Beyond this, in any unit, a double keeps too few digits for a body, and products overflow.
+constexpr double kLargestCoordinate = 1e12;
+
+std::size_t FaceCount(const PolygonSoup& soup) {
+  return soup.face_sizes.empty() ? soup.face_vertices.size() / 3 : soup.face_sizes.size();
+}
+
+absl::Status CheckLimits(const PolygonSoup& soup, const MeshLimits& limits) {
+  if (soup.positions.empty())
+    return InvalidField("positions", "is empty: the mesh has no vertices");
+  if (soup.face_vertices.empty()) {
+    return InvalidField("triangle_indices", "is empty: the mesh has no faces");
+  }
+  if (soup.positions.size() > limits.max_vertices) {
+    return InvalidField("positions",
+                        absl::StrCat("has ", soup.positions.size(), " vertices, must have at most ",
+                                     limits.max_vertices));
+  }
+  if (FaceCount(soup) > limits.max_faces) {
+    return InvalidField(
+        "triangle_indices",
+        absl::StrCat("has ", FaceCount(soup), " faces, must have at most ", limits.max_faces));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckFaceSizes(const PolygonSoup& soup, const MeshLimits& limits) {
+  if (soup.face_sizes.empty()) {
+    if (soup.face_vertices.size() % 3 == 0) return absl::OkStatus();
+    return InvalidField("triangle_indices", absl::StrCat("has ", soup.face_vertices.size(),
+                                                         " entries, must have 3 per triangle"));
+  }
+  std::size_t corners = 0;
+  for (std::size_t f = 0; f < soup.face_sizes.size(); ++f) {
+    if (soup.face_sizes[f] > limits.max_corners_per_face) {
+      return InvalidField(absl::StrCat("face_sizes[", f, "]"),
+                          absl::StrCat("is ", soup.face_sizes[f], ", must be at most ",
+                                       limits.max_corners_per_face));
+    }
+    corners += soup.face_sizes[f];
+  }
+  if (corners == soup.face_vertices.size()) return absl::OkStatus();
+  return InvalidField("face_sizes", absl::StrCat("adds up to ", corners, ", must add up to the ",
+                                                 soup.face_vertices.size(), " face corners"));
+}
+
+absl::Status CheckPositions(const PolygonSoup& soup) {
+  for (std::size_t i = 0; i < soup.positions.size(); ++i) {
+    // Also false for NaN.
+    if (soup.positions[i].cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kLargestCoordinate) {
+      continue;
+    }
+    const bool finite = soup.positions[i].allFinite();
+    return InvalidField(absl::StrCat("positions[", i, "]"),
+                        finite ? absl::StrCat("must be within ", kLargestCoordinate)
+                               : std::string("must be finite"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckIndices(const PolygonSoup& soup) {
+  const std::size_t count = soup.positions.size();
+  for (std::size_t i = 0; i < soup.face_vertices.size(); ++i) {
+    if (soup.face_vertices[i] < count) continue;
+    const char* const field = soup.face_sizes.empty() ? "triangle_indices[" : "face_vertices[";
+    return InvalidField(absl::StrCat(field, i, "]"),
+                        absl::StrCat("is ", soup.face_vertices[i], ", must be below ", count));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status CheckSoup(const PolygonSoup& soup, const MeshLimits& limits) {
+  CAPFIT_RETURN_IF_ERROR(CheckLimits(soup, limits));
+  CAPFIT_RETURN_IF_ERROR(CheckFaceSizes(soup, limits));
+  CAPFIT_RETURN_IF_ERROR(CheckPositions(soup));
+  return CheckIndices(soup);
+}
+
+}  // namespace capfit::mesh
