@@ -1,0 +1,66 @@
+// Puts the messages of an upload together to one mesh. Knows the wire's messages, not gRPC.
+#ifndef CAPFIT_SERVER_MESH_UPLOAD_H_
+#define CAPFIT_SERVER_MESH_UPLOAD_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "capfit/v1/service.pb.h"
+#include "core/mesh/polygon_soup.h"
+#include "core/mesh/prepare_mesh.h"
+
+namespace capfit::server {
+
+struct UploadLimits {
+  mesh::MeshLimits mesh;
+  std::int64_t max_bytes = 128LL * 1024 * 1024;  // of file bytes, or of array elements
+};
+
+// Use: Add() each message in order, then Finish(). After an error the upload is of no further use.
+// Claimed sizes are checked against the limits before memory is reserved, and no more memory is
+// taken than has arrived, but for a first reservation of at most 16 MiB.
+//
+// Errors are INVALID_ARGUMENT and name the field, what is wrong and the limit: chunk before header,
+// second header, chunk of the wrong kind, mixed kinds of arrays, empty chunk, too many bytes,
+// vertices or faces, claimed sizes not met, nothing uploaded.
+class MeshUpload {
+ public:
+  explicit MeshUpload(const UploadLimits& limits = {}) : limits_(limits) {}
+
+  [[nodiscard]] absl::Status Add(const v1::ApproximateBodyRequest& request);
+
+  // Whether the header has arrived; `header` is empty before.
+  [[nodiscard]] bool has_header() const { return has_header_; }
+  [[nodiscard]] const v1::ApproximateBodyHeader& header() const { return header_; }
+  [[nodiscard]] std::int64_t received_bytes() const { return received_bytes_; }
+
+  // Reads the file, or hands out the arrays. O(bytes): not for a thread that must not block.
+  [[nodiscard]] absl::StatusOr<mesh::PolygonSoup> Finish() &&;
+
+ private:
+  [[nodiscard]] absl::Status AddHeader(const v1::ApproximateBodyHeader& header);
+  [[nodiscard]] absl::Status AddChunk(const v1::MeshChunk& chunk);
+  [[nodiscard]] absl::Status AddArrays(const v1::MeshArrays& arrays);
+  [[nodiscard]] absl::Status CountBytes(const char* field, std::size_t bytes);
+  [[nodiscard]] absl::Status CheckArraySizes() const;
+  [[nodiscard]] absl::Status CheckComplete() const;
+  [[nodiscard]] std::size_t face_count() const;
+
+  UploadLimits limits_;
+  bool has_header_ = false;
+  v1::ApproximateBodyHeader header_;
+  std::int64_t received_bytes_ = 0;
+  std::string file_bytes_;
+  mesh::PolygonSoup soup_;
+  std::size_t coordinate_count_ = 0;  // of soup_.positions; not a multiple of 3 within a vertex
+  bool has_float_ = false;
+  bool has_double_ = false;
+  bool has_triangles_ = false;
+  bool has_polygons_ = false;
+};
+
+}  // namespace capfit::server
+
+#endif  // CAPFIT_SERVER_MESH_UPLOAD_H_

@@ -1,0 +1,61 @@
+#include "server/response_sequence.h"
+
+#include "proto/wire/result_conversion.h"
+
+namespace capfit::server {
+
+bool ResponseSequence::Next(v1::ApproximateBodyResponse& response) {
+  while (section_ != Section::kEnd) {
+    response.Clear();
+    if (Fill(response)) return true;
+    section_ = static_cast<Section>(static_cast<int>(section_) + 1);
+    index_ = 0;
+  }
+  return false;
+}
+
+bool ResponseSequence::Fill(v1::ApproximateBodyResponse& response) {
+  switch (section_) {
+    case Section::kWarnings:
+      if (index_ >= result_.warnings.size()) return false;
+      *response.mutable_warning() = wire::WarningToWire(result_.warnings[index_++]);
+      return true;
+    case Section::kLandmarks:
+      if (index_++ > 0) return false;
+      *response.mutable_landmarks() = wire::LandmarksToWire(result_);
+      return true;
+    case Section::kPolygons:
+      if (index_ >= result_.polygons.size()) return false;
+      *response.mutable_feature_polygon() = wire::PolygonToWire(result_.polygons[index_++]);
+      return true;
+    case Section::kPrimitives:
+      if (index_++ > 0) return false;
+      *response.mutable_primitives() = wire::PrimitivesToWire(result_.primitives);
+      return true;
+    case Section::kWeights:
+      return FillWeights(response);
+    case Section::kSummary:
+      if (index_++ > 0) return false;
+      *response.mutable_summary() = wire::SummaryToWire(result_, request_id_);
+      return true;
+    case Section::kEnd:
+      break;
+  }
+  return false;
+}
+
+bool ResponseSequence::FillWeights(v1::ApproximateBodyResponse& response) {
+  if (!result_.weights) return false;
+  const wire::WeightBlock block =
+      wire::BlockAt(*result_.weights, index_, first_vertex_, max_weights_);
+  if (block.sphere_count == 0) return false;
+  *response.mutable_skinning() = wire::WeightsToWire(*result_.weights, block);
+  first_vertex_ = block.first_vertex + block.vertex_count;
+  if (first_vertex_ == result_.weights->vertex_count) {
+    index_ += block.sphere_count;
+    first_vertex_ = 0;
+  }
+  return true;
+}
+
+}  // namespace capfit::server

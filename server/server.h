@@ -1,0 +1,44 @@
+// The running server: service, health, reflection, and an orderly end.
+#ifndef CAPFIT_SERVER_SERVER_H_
+#define CAPFIT_SERVER_SERVER_H_
+
+#include <grpcpp/channel.h>
+
+#include <memory>
+
+#include "absl/status/statusor.h"
+#include "core/base/thread_pool.h"
+#include "server/fit_backend.h"
+#include "server/server_config.h"
+
+namespace capfit::server {
+
+class Server {
+ public:
+  // Listens and serves from here on. UNAVAILABLE when the address cannot be had.
+  static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerConfig& config,
+                                                       FitBackend backend);
+  // Drains, if nobody has.
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  // The port it listens on; 0 where the address has none (a Unix socket).
+  [[nodiscard]] int port() const;
+
+  // A channel to this server without a network, for tests.
+  [[nodiscard]] std::shared_ptr<grpc::Channel> InProcessChannel();
+
+  // Health says NOT_SERVING; after `drain_delay_seconds` new calls are refused; running ones may
+  // finish within `drain_seconds` and are cancelled then. Returns when all is over.
+  void Drain();
+
+ private:
+  struct Parts;
+  explicit Server(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace capfit::server
+
+#endif  // CAPFIT_SERVER_SERVER_H_

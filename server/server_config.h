@@ -1,0 +1,29 @@
+// Everything that can be set about a server.
+#ifndef CAPFIT_SERVER_SERVER_CONFIG_H_
+#define CAPFIT_SERVER_SERVER_CONFIG_H_
+
+#include <string>
+
+#include "server/mesh_upload.h"
+
+namespace capfit::server {
+
+struct ServerConfig {
+  std::string listen = "127.0.0.1:50051";  // HOST:PORT; port 0: any free one
+  std::string port_file;                   // the chosen port is written here; empty: nowhere
+  int threads = 0;                         // that compute; 0: one per core
+  int max_concurrent_fits = 2;             // [1, 64]
+  int max_queued_fits = 16;                // [0, 10000]: further calls that may upload and wait
+  UploadLimits upload;
+  int retry_pushback_ms = 500;       // [0, 600000]: sent with RESOURCE_EXHAUSTED
+  double drain_delay_seconds = 0.0;  // between NOT_SERVING and refusing new calls; [0, 600]
+  double drain_seconds = 30.0;       // running calls may finish within this; [0, 3600]
+  std::string log_level = "info";    // trace, debug, info, warn, error, off
+};
+
+// Size of one request message. gRPC's own default, so that no client needs a setting.
+inline constexpr int kMaxMessageBytes = 4 * 1024 * 1024;
+
+}  // namespace capfit::server
+
+#endif  // CAPFIT_SERVER_SERVER_CONFIG_H_

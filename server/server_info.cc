@@ -1,0 +1,78 @@
+#include "server/server_info.h"
+
+#include <functional>
+
+namespace capfit::server {
+namespace {
+
+using pipeline::FitOptions;
+
+// An option's word, and how to ask for it.
+struct Feature {
+  const char* name;
+  std::function<void(FitOptions&)> ask;
+};
+
+const std::vector<Feature>& Features() {
+  static const std::vector<Feature> features = {
+      {"fit.enclose", [](FitOptions& o) { o.fit = pipeline::FitMode::kEnclose; }},
+      {"fit.best_fit", [](FitOptions& o) { o.fit = pipeline::FitMode::kBestFit; }},
+      {"quality.paper", [](FitOptions& o) { o.quality = pipeline::Quality::kPaper; }},
+      {"quality.tight", [](FitOptions& o) { o.quality = pipeline::Quality::kTight; }},
+      {"budget.max_primitives", [](FitOptions& o) { o.max_primitives = 64; }},
+      {"budget.spheres_and_capsules",
+       [](FitOptions& o) {
+         o.max_spheres = 32;
+         o.max_capsules = 32;
+       }},
+      {"budget.max_polygon_error", [](FitOptions& o) { o.polygon_error = 0.1; }},
+      {"skinning.dense", [](FitOptions& o) { o.skinning = pipeline::SkinningMode::kDense; }},
+      {"feature_polygons", [](FitOptions& o) { o.want_polygons = true; }},
+  };
+  return features;
+}
+
+void AddFeatures(const FitBackend& backend, v1::GetServerInfoResponse& info) {
+  for (const Feature& feature : Features()) {
+    FitOptions options;
+    feature.ask(options);
+    if (backend.validate(options).ok()) info.add_features(feature.name);
+  }
+}
+
+void AddEngine(const char* name, int max_spheres, int max_capsules,
+               v1::GetServerInfoResponse& info) {
+  v1::Engine& engine = *info.add_engines();
+  engine.set_name(name);
+  engine.set_max_spheres(max_spheres);
+  engine.set_max_capsules(max_capsules);
+}
+
+}  // namespace
+
+v1::GetServerInfoResponse DescribeServer(const ServerConfig& config, int threads,
+                                         const FitBackend& backend) {
+  v1::GetServerInfoResponse info;
+  info.set_version(CAPFIT_VERSION);
+  v1::ServerLimits& limits = *info.mutable_limits();
+  limits.set_max_upload_bytes(config.upload.max_bytes);
+  limits.set_max_vertices(static_cast<std::int64_t>(config.upload.mesh.max_vertices));
+  limits.set_max_faces(static_cast<std::int64_t>(config.upload.mesh.max_faces));
+  limits.set_max_corners_per_face(static_cast<int>(config.upload.mesh.max_corners_per_face));
+  limits.set_max_message_bytes(kMaxMessageBytes);
+  limits.set_max_concurrent_fits(config.max_concurrent_fits);
+  limits.set_max_queued_fits(config.max_queued_fits);
+  limits.set_threads(threads);
+  for (const v1::MeshFileFormat format :
+       {v1::MESH_FILE_FORMAT_OBJ, v1::MESH_FILE_FORMAT_PLY, v1::MESH_FILE_FORMAT_STL,
+        v1::MESH_FILE_FORMAT_OFF, v1::MESH_FILE_FORMAT_GLB}) {
+    info.add_formats(format);
+  }
+  // Both take at most 32 of each (32-bit masks inside).
+  AddEngine("nvcloth", 32, 32, info);
+  AddEngine("unity_cloth", 32, 32, info);
+  AddFeatures(backend, info);
+  return info;
+}
+
+}  // namespace capfit::server

@@ -1,0 +1,30 @@
+// capfit.v1.BodyApproximationService on gRPC's callback API.
+#ifndef CAPFIT_SERVER_SERVICE_H_
+#define CAPFIT_SERVER_SERVICE_H_
+
+#include "capfit/v1/service.grpc.pb.h"
+#include "server/approximate_body_call.h"
+
+namespace capfit::server {
+
+// Starts one object for each call and answers what needs no work at once.
+class Service final : public v1::BodyApproximationService::CallbackService {
+ public:
+  Service(const CallServices& services, v1::GetServerInfoResponse info)
+      : services_(services), info_(std::move(info)) {}
+
+  grpc::ServerBidiReactor<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>* ApproximateBody(
+      grpc::CallbackServerContext* context) override;
+
+  grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
+                                          const v1::GetServerInfoRequest* request,
+                                          v1::GetServerInfoResponse* response) override;
+
+ private:
+  const CallServices services_;
+  const v1::GetServerInfoResponse info_;
+};
+
+}  // namespace capfit::server
+
+#endif  // CAPFIT_SERVER_SERVICE_H_
