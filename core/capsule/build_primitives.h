@@ -12,18 +12,27 @@
 namespace capfit::capsule {
 
 // One sphere for each circle; a capsule for each pair of circles of neighbouring polygons of a
-// chain; where `link_limbs`, one capsule from each limb's first polygon to the nearest sphere of
-// the torso that shortens the way (closes the gap at shoulder and hip; not in the paper).
+// chain; where `link_limbs`, one capsule from each limb's first polygon to the sphere of the torso
+// that leaves the least gap (closes shoulder and hip; not in the paper).
+//
+// A polygon's mirror image gets exact images of its spheres; on a trunk polygon that mirrors itself
+// circles that match as images are made exact, and centred ones get x = 0. SphereOrigin::mirror
+// tells which. Spheres come by polygon, then by circle.
 [[nodiscard]] PrimitiveSet BuildPrimitives(
     std::span<const section::FeaturePolygon> polygons,
     std::span<const circle::PolygonApproximation> approximations, bool link_limbs);
 
-// Adds the smallest enclosing ball of each selected head, hand and foot that the body has.
+// Adds the smallest enclosing ball of each selected head, hand and foot that the body has, around
+// the vertices of that segment. On a symmetric body hands and feet are exact images of each other,
+// each around both sides' vertices, and the head's ball is centred. O(vertices).
 void AddEndBalls(const body::Body& body, const body::PartSelection& parts, PrimitiveSet& set);
 
-// Removes capsules that one other capsule covers, then those that the union of the others covers
-// (certified to `tolerance_m`), fewest exclusive surface first, asking again after each removal.
-// Spheres stay. Mirrored capsules go together.
+// Removes capsules that one other capsule covers, then those that the union of the others covers.
+// Mirrored capsules go together; small ones are asked first. The union is certified by cutting the
+// capsule's slanted surface into patches until each is at most `tolerance_m` outside the others,
+// and its inside into cells of a tenth of its radius. Capsules that one end sphere swallows go
+// too: they are that sphere. Spheres stay, unless no capsule is left that uses them and another
+// capsule contains them. O(capsules^2) and some hundred cells for each capsule that goes.
 void RemoveCoveredCapsules(PrimitiveSet& set, double tolerance_m = 2e-4);
 
 }  // namespace capfit::capsule
