@@ -1,0 +1,28 @@
+// Colours of parts and gaps, and how light falls on them.
+#ifndef CAPFIT_CLIENT_PICTURE_COLOR_H_
+#define CAPFIT_CLIENT_PICTURE_COLOR_H_
+
+#include <Eigen/Core>
+#include <string>
+
+namespace capfit::client {
+
+using Color = Eigen::Vector3f;  // red, green, blue in [0, 1]
+
+inline const Color kPaper{1.0f, 1.0f, 1.0f};
+inline const Color kSkin{0.80f, 0.76f, 0.72f};
+inline const Color kInk{0.13f, 0.15f, 0.18f};
+
+// A colour for each body part ("torso", "left_arm", ...), left and right alike in tone; other words
+// get one of the same family. `shade` in [0, 1] tells neighbouring primitives of a part apart.
+[[nodiscard]] Color PartColor(const std::string& part, double shade);
+
+// From blue over white to red; `value` in [-1, 1].
+[[nodiscard]] Color SignedColor(double value);
+
+// The colour of a surface under the picture's lamps. `normal` is (right, up, towards the eye).
+[[nodiscard]] Color Lit(const Color& color, const Eigen::Vector3d& normal);
+
+}  // namespace capfit::client
+
+#endif  // CAPFIT_CLIENT_PICTURE_COLOR_H_

@@ -1,0 +1,283 @@
+#include "client/picture/render_command.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "client/picture/figure.h"
+#include "client/picture/file_bytes.h"
+#include "client/picture/picture.h"
+#include "client/picture/result_set.h"
+#include "core/base/status.h"
+#include "core/mesh/read_mesh.h"
+
+namespace capfit::client {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Arguments {
+  std::string body;
+  std::string result;
+  std::string output;
+  std::string up = "auto";
+  std::string title;
+  std::vector<std::string> views = {"front", "side", "back"};
+  bool heat = false;
+  double heat_limit_mm = 30.0;
+  double mm_per_unit = 1000.0;
+  int width = 1500;
+  int height = 1100;
+  std::string frames;
+  std::string centers;
+  std::vector<std::size_t> show = {0};
+};
+
+struct NamedView {
+  double yaw_deg;
+  const char* caption;
+};
+const std::map<std::string, NamedView>& Views() {
+  static const auto* const views = new std::map<std::string, NamedView>{
+      {"front", {0, "front"}},     {"three-quarter", {38, "three-quarter"}},
+      {"side", {90, "left side"}}, {"back-quarter", {142, "back, three-quarter"}},
+      {"back", {180, "back"}},     {"right", {270, "right side"}}};
+  return *views;
+}
+
+absl::Status CheckArguments(const Arguments& arguments) {
+  const std::string ending = FileEnding(arguments.output);
+  if (ending != ".png" && ending != ".svg") {
+    return InvalidField("output",
+                        absl::StrCat("is ", arguments.output, ", must end in .png or .svg"));
+  }
+  const auto check = [](const char* field, double value, double low, double high) {
+    if (value >= low && value <= high) return absl::OkStatus();
+    return InvalidField(field, absl::StrCat("is ", value, ", must be in [", low, ", ", high, "]"));
+  };
+  CAPFIT_RETURN_IF_ERROR(check("width", arguments.width, 200, 6000));
+  CAPFIT_RETURN_IF_ERROR(check("height", arguments.height, 300, 6000));
+  CAPFIT_RETURN_IF_ERROR(check("heat_limit_mm", arguments.heat_limit_mm, 0.01, 1e4));
+  CAPFIT_RETURN_IF_ERROR(check("mm_per_unit", arguments.mm_per_unit, 1e-6, 1e6));
+  if (arguments.result.empty() && (arguments.heat || !arguments.frames.empty())) {
+    return InvalidField("result", "is missing: --heat and --frames need the primitives");
+  }
+  if (arguments.frames.empty() != arguments.centers.empty()) {
+    return InvalidField(arguments.frames.empty() ? "frames" : "centers",
+                        "is missing: an animation needs both frames and centers");
+  }
+  return absl::OkStatus();
+}
+
+// Faces must stay within the vertices: a picture takes any other soup.
+absl::Status CheckSoup(const mesh::PolygonSoup& soup) {
+  if (soup.positions.empty()) return InvalidField("body", "has no vertices");
+  for (std::size_t i = 0; i < soup.positions.size(); ++i) {
+    if (!soup.positions[i].allFinite()) {
+      return InvalidField(absl::StrCat("body.positions[", i, "]"), "must be finite");
+    }
+  }
+  for (std::size_t i = 0; i < soup.face_vertices.size(); ++i) {
+    if (soup.face_vertices[i] < soup.positions.size()) continue;
+    return InvalidField(
+        absl::StrCat("body.face_vertices[", i, "]"),
+        absl::StrCat("is ", soup.face_vertices[i], ", must be below ", soup.positions.size()));
+  }
+  return absl::OkStatus();
+}
+
+// Frame `frame` of a file of little-endian float32, frames x `points` x 3.
+absl::StatusOr<std::vector<Vector3d>> FramePoints(const std::string& bytes, std::size_t frame,
+                                                  std::size_t points, const std::string& field) {
+  const std::size_t frame_bytes = points * 3 * sizeof(float);
+  if (frame_bytes == 0 || bytes.size() % frame_bytes != 0) {
+    return InvalidField(field, absl::StrCat("has ", bytes.size(), " bytes, must be a multiple of ",
+                                            frame_bytes, " (", points, " points in each frame)"));
+  }
+  if (frame >= bytes.size() / frame_bytes) {
+    return InvalidField("show", absl::StrCat("has frame ", frame, ", must be below ",
+                                             bytes.size() / frame_bytes, " for ", field));
+  }
+  std::vector<float> values(points * 3);
+  std::memcpy(values.data(), bytes.data() + frame * frame_bytes, frame_bytes);
+  std::vector<Vector3d> positions;
+  for (std::size_t i = 0; i < points; ++i) {
+    positions.emplace_back(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    if (positions.back().allFinite()) continue;
+    return InvalidField(absl::StrCat(field, "[", frame, "][", i, "]"), "must be finite");
+  }
+  return positions;
+}
+
+// What is drawn, and under which words.
+struct Scene {
+  std::vector<std::unique_ptr<Figure>> figures;
+  std::vector<PictureColumn> columns;
+};
+
+struct Inputs {
+  mesh::PolygonSoup soup;
+  ResultSet result;
+  Eigen::Matrix3d turn;
+};
+
+Scene StillScene(const Arguments& arguments, const Inputs& in,
+                 const std::vector<Vector3d>& centers) {
+  Scene scene;
+  scene.figures.push_back(std::make_unique<Figure>(
+      MakeFigure(in.soup, in.result, in.soup.positions, centers, in.turn)));
+  for (const std::string& name : arguments.views) {
+    const NamedView& view = Views().at(name);
+    scene.columns.push_back(
+        {scene.figures.back().get(), view.yaw_deg * std::numbers::pi / 180.0, view.caption});
+  }
+  return scene;
+}
+
+absl::StatusOr<Scene> AnimatedScene(const Arguments& arguments, const Inputs& in) {
+  CAPFIT_ASSIGN_OR_RETURN(const std::string frames, ReadFileBytes(arguments.frames));
+  CAPFIT_ASSIGN_OR_RETURN(const std::string centers, ReadFileBytes(arguments.centers));
+  Scene scene;
+  for (const std::size_t frame : arguments.show) {
+    CAPFIT_ASSIGN_OR_RETURN(const std::vector<Vector3d> positions,
+                            FramePoints(frames, frame, in.soup.positions.size(), "frames"));
+    CAPFIT_ASSIGN_OR_RETURN(const std::vector<Vector3d> moved,
+                            FramePoints(centers, frame, in.result.spheres.size(), "centers"));
+    scene.figures.push_back(
+        std::make_unique<Figure>(MakeFigure(in.soup, in.result, positions, moved, in.turn)));
+    const NamedView& view =
+        Views().at(arguments.views.size() == 1 ? arguments.views.front() : "three-quarter");
+    scene.columns.push_back({scene.figures.back().get(), view.yaw_deg * std::numbers::pi / 180.0,
+                             absl::StrCat("frame ", frame)});
+  }
+  return scene;
+}
+
+// "32 spheres + 32 capsules   E_r 0.512   E_M 1.21 %": what the result tells.
+std::string Subtitle(const ResultSet& result) {
+  std::string text =
+      absl::StrCat(result.spheres.size(), " spheres + ", result.capsules.size(), " capsules");
+  const auto add = [&](const char* name, const char* format) {
+    const auto found = result.metrics.find(name);
+    if (found == result.metrics.end()) return;
+    char value[64];
+    std::snprintf(value, sizeof(value), format, found->second);
+    absl::StrAppend(&text, "     ", value);
+  };
+  add("n_p", "n_p %.0f");
+  add("E_r", "E_r %.3f");
+  add("E_M", "E_M %.2f %%");
+  return text;
+}
+
+std::string FileName(const std::string& path) {
+  const std::size_t slash = path.find_last_of('/');
+  return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
+PictureUp ToUp(const std::string& word) {
+  if (word == "x") return PictureUp::kX;
+  if (word == "y") return PictureUp::kY;
+  return word == "z" ? PictureUp::kZ : PictureUp::kAuto;
+}
+
+absl::StatusOr<Inputs> ReadInputs(const Arguments& arguments) {
+  Inputs in;
+  CAPFIT_ASSIGN_OR_RETURN(const std::string body, ReadFileBytes(arguments.body));
+  CAPFIT_ASSIGN_OR_RETURN(in.soup, mesh::ReadMesh(std::as_bytes(std::span(body)),
+                                                  mesh::FormatFromFileName(arguments.body)));
+  CAPFIT_RETURN_IF_ERROR(CheckSoup(in.soup));
+  if (!arguments.result.empty()) {
+    CAPFIT_ASSIGN_OR_RETURN(const std::string result, ReadFileBytes(arguments.result));
+    CAPFIT_ASSIGN_OR_RETURN(in.result, ParseResultSet(result));
+  }
+  in.turn = TurnUpright(in.soup.positions, in.result, ToUp(arguments.up));
+  return in;
+}
+
+PictureOptions ToPictureOptions(const Arguments& arguments, const ResultSet& result) {
+  PictureOptions options;
+  options.width = arguments.width;
+  options.height = arguments.height;
+  if (arguments.heat) options.rows.front() = PanelStyle::kHeat;
+  options.title = arguments.title.empty() ? FileName(arguments.body) : arguments.title;
+  if (arguments.result.empty()) {
+    options.rows = {PanelStyle::kBody};
+  } else {
+    options.subtitle = Subtitle(result);
+  }
+  options.heat_limit = arguments.heat_limit_mm / arguments.mm_per_unit;
+  options.mm_per_unit = arguments.mm_per_unit;
+  return options;
+}
+
+absl::Status Run(const Arguments& arguments) {
+  CAPFIT_RETURN_IF_ERROR(CheckArguments(arguments));
+  CAPFIT_ASSIGN_OR_RETURN(const Inputs in, ReadInputs(arguments));
+  Scene scene;
+  if (arguments.frames.empty()) {
+    std::vector<Vector3d> centers;
+    for (const geometry::Sphere& sphere : in.result.spheres) centers.push_back(sphere.center_m);
+    scene = StillScene(arguments, in, centers);
+  } else {
+    CAPFIT_ASSIGN_OR_RETURN(scene, AnimatedScene(arguments, in));
+  }
+  const PictureFormat format =
+      FileEnding(arguments.output) == ".svg" ? PictureFormat::kSvg : PictureFormat::kPng;
+  CAPFIT_ASSIGN_OR_RETURN(
+      const std::string bytes,
+      DrawPicture(scene.columns, ToPictureOptions(arguments, in.result), format, ThreadPool()));
+  return WriteFileBytes(arguments.output, bytes);
+}
+
+void AddAnimationOptions(CLI::App& command, Arguments& arguments) {
+  command.add_option("--frames", arguments.frames,
+                     "Deformed vertices: float32, frames x vertices x 3");
+  command.add_option("--centers", arguments.centers,
+                     "Sphere centres: float32, frames x spheres x 3");
+  command.add_option("--show", arguments.show, "Frames to show, e.g. 0,20,60")
+      ->delimiter(',')
+      ->expected(1, 8);
+}
+
+}  // namespace
+
+void AddRenderCommand(CLI::App& app, int& exit_code) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command =
+      app.add_subcommand("render", "Draw a body with its primitives as a PNG or SVG picture");
+  command->add_option("body", arguments->body, "Mesh file")->required();
+  command->add_option("result", arguments->result,
+                      "RESULT.json of this body; without it the body is drawn alone");
+  command->add_option("-o,--output", arguments->output, "Picture to write, .png or .svg")
+      ->required();
+  command->add_option("--up", arguments->up, "Axis of the mesh that points up")
+      ->check(CLI::IsMember({"auto", "x", "y", "z"}))
+      ->capture_default_str();
+  command
+      ->add_option("--views", arguments->views,
+                   "Columns: front, three-quarter, side, back-quarter, back, right")
+      ->delimiter(',')
+      ->expected(1, 8)
+      ->check(CLI::IsMember({"front", "three-quarter", "side", "back-quarter", "back", "right"}))
+      ->capture_default_str();
+  command->add_option("--title", arguments->title, "Title; the body's file name without it");
+  command->add_option("--width", arguments->width, "Pixels")->capture_default_str();
+  command->add_option("--height", arguments->height, "Pixels")->capture_default_str();
+  command->add_flag("--heat", arguments->heat, "Colour the body by its gap to the primitives");
+  command->add_option("--heat-limit-mm", arguments->heat_limit_mm, "Gap of the strongest colour")
+      ->capture_default_str();
+  command->add_option("--mm-per-unit", arguments->mm_per_unit, "Length of the mesh's unit in mm")
+      ->capture_default_str();
+  AddAnimationOptions(*command, *arguments);
+  command->callback([arguments, &exit_code] { exit_code = ReportStatus(Run(*arguments)); });
+}
+
+}  // namespace capfit::client
