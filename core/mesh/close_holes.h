@@ -19,9 +19,8 @@ struct ClosedHoles {
 };
 
 // Fills each open loop of a consistently oriented `surface`; the new triangles come last and match
-// their neighbours' orientation. No vertex is added: OpenMesh's hole filler refines and smooths
-// its patches, and every vertex here must be one of the caller's. Where loops touch in a vertex
-// each is closed by itself. No edge gets more than two triangles.
+// their neighbours' orientation. No vertex is added: each must be one of the caller's. Where loops
+// touch in a vertex each is closed by itself. No edge gets more than two triangles.
 // FAILED_PRECONDITION (HOLE_NOT_CLOSED) where a loop cannot be filled so.
 [[nodiscard]] absl::StatusOr<ClosedHoles> CloseHoles(std::span<const Eigen::Vector3d> positions,
                                                      Surface& surface);

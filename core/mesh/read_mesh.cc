@@ -1,13 +1,15 @@
 #include "core/mesh/read_mesh.h"
 
 #include <algorithm>
-#include <cstring>
 #include <string_view>
 #include <utility>
 
 #include "core/base/status.h"
+#include "core/mesh/read_glb.h"
 #include "core/mesh/read_obj.h"
+#include "core/mesh/read_off.h"
 #include "core/mesh/read_ply.h"
+#include "core/mesh/read_stl.h"
 #include "core/mesh/text_scanner.h"
 
 namespace capfit::mesh {
@@ -18,6 +20,16 @@ char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + '
 bool StartsWithWord(std::string_view text, std::string_view word) {
   return text.substr(0, word.size()) == word &&
          (text.size() == word.size() || WordScanner::IsBlank(text[word.size()]));
+}
+
+// Whether the first statement begins like OFF.
+bool LooksLikeOff(std::string_view text) {
+  LineScanner lines(text.substr(0, 64 * 1024));
+  while (!lines.AtEnd()) {
+    const std::string_view word = WordScanner(lines.NextLine()).NextWord();
+    if (!word.empty() && word.front() != '#') return IsOffKeyword(word);
+  }
+  return false;
 }
 
 // Whether the first statements look like OBJ: vertices, or what may come before them.
@@ -31,14 +43,6 @@ bool LooksLikeObj(std::string_view text) {
     if (std::find(std::begin(kOther), std::end(kOther), keyword) == std::end(kOther)) return false;
   }
   return false;
-}
-
-// A binary STL may begin with any 80 bytes, but its size follows from its count.
-bool HasSizeOfBinaryStl(std::string_view bytes) {
-  if (bytes.size() < 84) return false;
-  std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + 80, sizeof(count));
-  return bytes.size() == 84 + std::uint64_t{50} * count;
 }
 
 }  // namespace
@@ -60,13 +64,9 @@ MeshFormat FormatFromBytes(std::span<const std::byte> bytes) {
   const std::string_view text = AsText(bytes);
   if (text.substr(0, 4) == "glTF") return MeshFormat::kGlb;
   if (StartsWithWord(text, "ply")) return MeshFormat::kPly;
-  if (HasSizeOfBinaryStl(text)) return MeshFormat::kStl;
+  if (HasSizeOfBinaryStl(bytes)) return MeshFormat::kStl;
   if (StartsWithWord(text, "solid")) return MeshFormat::kStl;
-  const std::string_view first_word = WordScanner(text.substr(0, 64)).NextWord();
-  if (first_word.size() >= 3 && first_word.size() <= 6 &&
-      first_word.substr(first_word.size() - 3) == "OFF") {
-    return MeshFormat::kOff;
-  }
+  if (LooksLikeOff(text)) return MeshFormat::kOff;
   if (LooksLikeObj(text)) return MeshFormat::kObj;
   return MeshFormat::kUnknown;
 }
@@ -81,8 +81,11 @@ absl::StatusOr<PolygonSoup> ReadMesh(std::span<const std::byte> bytes, MeshForma
     case MeshFormat::kPly:
       return ReadPly(bytes, limits);
     case MeshFormat::kStl:
+      return ReadStl(bytes, limits);
     case MeshFormat::kOff:
+      return ReadOff(AsText(bytes), limits);
     case MeshFormat::kGlb:
+      return ReadGlb(bytes, limits);
     case MeshFormat::kUnknown:
       break;
   }

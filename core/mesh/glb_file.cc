@@ -1,0 +1,247 @@
+#include "core/mesh/glb_file.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
+
+namespace capfit::mesh {
+namespace {
+
+using nlohmann::json;
+
+static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
+
+// Parsed JSON takes up to thirty times its text. The description of an avatar has some 100 kB.
+constexpr std::size_t kMostJsonBytes = 8 << 20;
+
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
+constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN"
+
+constexpr int kInt8 = 5120;
+constexpr int kUint8 = 5121;
+constexpr int kInt16 = 5122;
+constexpr int kUint16 = 5123;
+constexpr int kUint32 = 5125;
+constexpr int kFloat32 = 5126;
+
+template <typename Value>
+Value Load(const std::byte* bytes) {
+  Value value;
+  std::memcpy(&value, bytes, sizeof(Value));
+  return value;
+}
+
+std::uint32_t WordAt(std::span<const std::byte> bytes, std::size_t offset) {
+  return Load<std::uint32_t>(bytes.data() + offset);
+}
+
+// Only these are kept of the JSON: images, materials and animations may be large.
+bool IsWanted(const json& key) {
+  static constexpr const char* kWanted[] = {"scene",   "scenes",    "nodes",       "meshes",
+                                            "buffers", "accessors", "bufferViews", "skins"};
+  return std::any_of(std::begin(kWanted), std::end(kWanted),
+                     [&](const char* wanted) { return key == wanted; });
+}
+
+absl::StatusOr<json> ParseJson(std::span<const std::byte> chunk) {
+  const char* const text = reinterpret_cast<const char*>(chunk.data());
+  const json::parser_callback_t keep = [](int depth, json::parse_event_t event, json& parsed) {
+    if (event != json::parse_event_t::key) return true;
+    return depth == 1 ? IsWanted(parsed) : parsed != "extras";
+  };
+  json parsed = json::parse(text, text + chunk.size(), keep, /*allow_exceptions=*/false);
+  if (!parsed.is_object()) return InvalidField("file", "has a JSON chunk that is no JSON object");
+  return parsed;
+}
+
+std::optional<std::size_t> SizeOfComponent(int component_type) {
+  switch (component_type) {
+    case kInt8:
+    case kUint8:
+      return 1;
+    case kInt16:
+    case kUint16:
+      return 2;
+    case kUint32:
+    case kFloat32:
+      return 4;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::size_t ComponentsOf(const std::string& type) {
+  return type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 16;
+}
+
+template <typename Value>
+double LoadScaled(const std::byte* bytes, bool normalized) {
+  const auto value = static_cast<double>(Load<Value>(bytes));
+  if (!normalized) return value;
+  return std::max(value / static_cast<double>(std::numeric_limits<Value>::max()), -1.0);
+}
+
+// json[key] as a size; `fallback` where it is absent, nothing where it is anything else.
+std::optional<std::size_t> SizeAt(const json& parent, const char* key, std::size_t fallback) {
+  if (!parent.is_object() || !parent.contains(key)) return fallback;
+  // No size in a file can exceed that of the largest file that fits in memory.
+  return IndexAt(parent, key, std::size_t{1} << 48);
+}
+
+}  // namespace
+
+absl::StatusOr<GlbFile> OpenGlb(std::span<const std::byte> bytes) {
+  if (bytes.size() < 20 || WordAt(bytes, 0) != 0x46546C67) {
+    return InvalidField("file", "is no GLB file: it must begin with 'glTF' and a header");
+  }
+  if (WordAt(bytes, 4) != 2) return InvalidField("file", "must be of glTF version 2");
+  const std::size_t length = WordAt(bytes, 8);
+  if (length > bytes.size()) {
+    return InvalidField("file", absl::StrCat("ends early: its header claims ", length,
+                                             " bytes, but it has only ", bytes.size()));
+  }
+  bytes = bytes.first(std::max<std::size_t>(length, 20));
+  GlbFile file;
+  bool has_json = false;
+  for (std::size_t offset = 12; offset + 8 <= bytes.size();) {
+    const std::size_t size = WordAt(bytes, offset);
+    const std::uint32_t type = WordAt(bytes, offset + 4);
+    offset += 8;
+    if (size > bytes.size() - offset) {
+      return InvalidField("file",
+                          absl::StrCat("ends early: a chunk claims ", size, " bytes, but only ",
+                                       bytes.size() - offset, " follow"));
+    }
+    const std::span<const std::byte> chunk = bytes.subspan(offset, size);
+    if (type == kJsonChunk && !has_json) {
+      if (size > kMostJsonBytes) {
+        return InvalidField("file", absl::StrCat("has ", size, " bytes of JSON, must have at most ",
+                                                 kMostJsonBytes));
+      }
+      CAPFIT_ASSIGN_OR_RETURN(file.json, ParseJson(chunk));
+      has_json = true;
+    } else if (type == kBinaryChunk && file.binary.empty()) {
+      file.binary = chunk;
+    }
+    offset += std::min(bytes.size() - offset, (size + 3) / 4 * 4);
+  }
+  if (!has_json) return InvalidField("file", "has no JSON chunk");
+  return file;
+}
+
+std::optional<std::size_t> IndexAt(const json& parent, const char* key, std::size_t limit) {
+  if (!parent.is_object()) return std::nullopt;
+  const auto found = parent.find(key);
+  if (found == parent.end() || !found->is_number_unsigned()) return std::nullopt;
+  const auto value = found->get<std::uint64_t>();
+  if (value >= limit) return std::nullopt;
+  return value;
+}
+
+const json& ArrayAt(const json& parent, const char* key) {
+  static const json& kEmpty = *new json(json::array());  // never destroyed: safe at exit
+  if (!parent.is_object()) return kEmpty;
+  const auto found = parent.find(key);
+  return found != parent.end() && found->is_array() ? *found : kEmpty;
+}
+
+absl::StatusOr<GltfAccessor> GltfAccessor::Create(const GlbFile& file, std::size_t index,
+                                                  const std::string& type) {
+  const std::string name = absl::StrCat("accessor ", index);
+  const json& accessors = ArrayAt(file.json, "accessors");
+  if (index >= accessors.size()) return InvalidField("file", "has no " + name);
+  const json& accessor = accessors[index];
+  GltfAccessor result;
+  result.components_ = ComponentsOf(type);
+  if (!accessor.is_object() || !accessor.contains("type") || accessor["type"] != type) {
+    return InvalidField("file", absl::StrCat("must have ", name, " of type ", type));
+  }
+  if (accessor.contains("sparse")) {
+    return InvalidField("file", name +
+                                    " is sparse, which is not read: export without morph data "
+                                    "or with plain accessors");
+  }
+  result.normalized_ = accessor.contains("normalized") && accessor["normalized"] == true;
+  CAPFIT_RETURN_IF_ERROR(result.FindBytes(file, accessor, name));
+  return result;
+}
+
+absl::Status GltfAccessor::FindBytes(const GlbFile& file, const json& accessor,
+                                     const std::string& name) {
+  const json& views = ArrayAt(file.json, "bufferViews");
+  const std::optional<std::size_t> view_index = IndexAt(accessor, "bufferView", views.size());
+  if (!view_index.has_value()) return InvalidField("file", name + " has no buffer view");
+  const json& view = views[*view_index];
+  if (view.is_object() && view.contains("extensions")) {
+    const json& extensions = view["extensions"];
+    if (extensions.is_object() && extensions.contains("EXT_meshopt_compression")) {
+      return InvalidField("file", "is compressed with EXT_meshopt_compression, which is not read");
+    }
+  }
+  const std::string view_name = absl::StrCat("buffer view ", *view_index);
+  const json& buffers = ArrayAt(file.json, "buffers");
+  const std::optional<std::size_t> buffer = IndexAt(view, "buffer", buffers.size());
+  if (buffer != std::size_t{0} || !buffers[0].is_object() || buffers[0].contains("uri")) {
+    return InvalidField("file", view_name + " is not in the file's own binary chunk");
+  }
+  const std::optional<std::size_t> view_offset = SizeAt(view, "byteOffset", 0);
+  const std::optional<std::size_t> view_size = IndexAt(view, "byteLength", std::size_t{1} << 48);
+  if (!view_offset.has_value() || !view_size.has_value() || *view_offset > file.binary.size() ||
+      *view_size > file.binary.size() - *view_offset) {
+    return InvalidField("file", absl::StrCat(view_name, " is out of range: it must lie within the ",
+                                             file.binary.size(), " bytes of the binary chunk"));
+  }
+  const std::optional<std::size_t> type = IndexAt(accessor, "componentType", 10'000);
+  const std::optional<std::size_t> size = SizeOfComponent(static_cast<int>(type.value_or(0)));
+  if (!size.has_value()) return InvalidField("file", name + " has no known component type");
+  component_type_ = static_cast<int>(*type);
+  const std::size_t element = *size * components_;
+  const std::optional<std::size_t> stride = SizeAt(view, "byteStride", element);
+  const std::optional<std::size_t> offset = SizeAt(accessor, "byteOffset", 0);
+  const std::optional<std::size_t> count = IndexAt(accessor, "count", std::size_t{1} << 32);
+  if (!stride.has_value() || *stride < element || *stride > 255 || !offset.has_value() ||
+      !count.has_value()) {
+    return InvalidField("file", name + " has a bad stride, offset or count");
+  }
+  // count < 2^32 and stride < 2^8: no overflow.
+  const std::size_t needed = *count == 0 ? 0 : *offset + (*count - 1) * *stride + element;
+  if (needed > *view_size) {
+    return InvalidField("file", absl::StrCat(name, " is out of range: it needs ", needed,
+                                             " bytes of ", view_name, ", which has ", *view_size));
+  }
+  count_ = *count;
+  stride_ = *stride;
+  if (count_ > 0) bytes_ = file.binary.subspan(*view_offset + *offset, needed - *offset);
+  return absl::OkStatus();
+}
+
+bool GltfAccessor::IsUnsigned() const {
+  return component_type_ == kUint8 || component_type_ == kUint16 || component_type_ == kUint32;
+}
+
+double GltfAccessor::At(std::size_t element, std::size_t component) const {
+  const std::byte* const bytes =
+      bytes_.data() + element * stride_ + component * *SizeOfComponent(component_type_);
+  switch (component_type_) {
+    case kInt8:
+      return LoadScaled<std::int8_t>(bytes, normalized_);
+    case kUint8:
+      return LoadScaled<std::uint8_t>(bytes, normalized_);
+    case kInt16:
+      return LoadScaled<std::int16_t>(bytes, normalized_);
+    case kUint16:
+      return LoadScaled<std::uint16_t>(bytes, normalized_);
+    case kUint32:
+      return LoadScaled<std::uint32_t>(bytes, normalized_);
+    default:
+      return static_cast<double>(Load<float>(bytes));
+  }
+}
+
+}  // namespace capfit::mesh

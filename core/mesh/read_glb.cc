@@ -1,0 +1,244 @@
+#include "core/mesh/read_glb.h"
+
+#include <Eigen/Geometry>  // homogeneous
+#include <Eigen/LU>        // determinant, inverse
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
+#include "core/mesh/glb_file.h"
+#include "core/mesh/gltf_nodes.h"
+
+namespace capfit::mesh {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kTriangles = 4;  // `mode` of a primitive
+constexpr std::size_t kTriangleStrip = 5;
+constexpr std::size_t kTriangleFan = 6;
+
+// A skeleton of a human has some 70 joints, with every finger and hair strand some hundred.
+constexpr std::size_t kMostJoints = 4096;
+
+Eigen::Vector3d Apply(const Eigen::Matrix4d& transform, const Eigen::Vector3d& point) {
+  return (transform * point.homogeneous()).head<3>();
+}
+
+class GlbReader {
+ public:
+  GlbReader(const GlbFile& file, const GltfNodes& nodes, const MeshLimits& limits)
+      : file_(file), nodes_(nodes), limits_(limits) {}
+
+  absl::StatusOr<PolygonSoup> Run() {
+    const json& nodes = ArrayAt(file_.json, "nodes");
+    const json& meshes = ArrayAt(file_.json, "meshes");
+    for (const std::size_t n : nodes_.drawn) {
+      const std::optional<std::size_t> mesh = IndexAt(nodes[n], "mesh", meshes.size());
+      if (!mesh.has_value()) continue;
+      CAPFIT_ASSIGN_OR_RETURN(const Eigen::Matrix4d to_world, Place(nodes[n], n));
+      base_of_positions_.clear();
+      for (const json& primitive : ArrayAt(meshes[*mesh], "primitives")) {
+        CAPFIT_RETURN_IF_ERROR(AddPrimitive(primitive, to_world));
+      }
+    }
+    if (soup_.face_vertices.empty()) {
+      return InvalidField("file", "has no mesh: its scene draws no triangles");
+    }
+    return std::move(soup_);
+  }
+
+ private:
+  // Where a node's mesh stands. A skinned mesh follows its joints, not its node: at the bind pose
+  // each joint moves it by the same matrix, so the first joint's will do.
+  absl::StatusOr<Eigen::Matrix4d> Place(const json& node, std::size_t index) {
+    const json& skins = ArrayAt(file_.json, "skins");
+    const std::optional<std::size_t> skin_index = IndexAt(node, "skin", skins.size());
+    if (!skin_index.has_value()) return nodes_.to_world[index];
+    const json& skin = skins[*skin_index];
+    CAPFIT_ASSIGN_OR_RETURN(const std::vector<std::size_t> joints, JointsOf(skin));
+    CAPFIT_ASSIGN_OR_RETURN(const std::vector<Eigen::Matrix4d> to_joint,
+                            InverseBindMatrices(skin, joints.size()));
+    if (joints.empty()) return nodes_.to_world[index];
+    const bool has_bind_pose = !to_joint.empty();
+    const Eigen::Matrix4d to_world = has_bind_pose
+                                         ? Eigen::Matrix4d(nodes_.to_world[joints[0]] * to_joint[0])
+                                         : nodes_.to_world[index];
+    if (skins_read_.insert(*skin_index).second) {
+      for (std::size_t j = 0; j < joints.size(); ++j) {
+        AddJoint(joints[j], has_bind_pose ? Eigen::Matrix4d(to_world * to_joint[j].inverse())
+                                          : nodes_.to_world[joints[j]]);
+      }
+    }
+    return to_world;
+  }
+
+  void AddJoint(std::size_t node_index, const Eigen::Matrix4d& to_world) {
+    const json& node = ArrayAt(file_.json, "nodes")[node_index];
+    const Eigen::Vector3d position = to_world.col(3).head<3>();
+    if (!node.is_object() || !position.allFinite()) return;
+    const auto name = node.find("name");
+    if (name == node.end() || !name->is_string()) return;  // says nothing without a name
+    soup_.joints.push_back({name->get<std::string>(), position});
+  }
+
+  absl::StatusOr<std::vector<std::size_t>> JointsOf(const json& skin) const {
+    const json& entries = ArrayAt(skin, "joints");
+    if (entries.size() > kMostJoints) {
+      return InvalidField("file", absl::StrCat("has a skin with ", entries.size(),
+                                               " joints, must have at most ", kMostJoints));
+    }
+    std::vector<std::size_t> joints;
+    for (const json& entry : entries) {
+      if (!entry.is_number_unsigned() || entry.get<std::uint64_t>() >= nodes_.to_world.size()) {
+        return InvalidField("file", "has a skin whose joint is no node");
+      }
+      joints.push_back(entry.get<std::size_t>());
+    }
+    return joints;
+  }
+
+  // Empty where the file has none.
+  absl::StatusOr<std::vector<Eigen::Matrix4d>> InverseBindMatrices(const json& skin,
+                                                                   std::size_t joints) const {
+    std::vector<Eigen::Matrix4d> matrices;
+    if (!skin.is_object() || !skin.contains("inverseBindMatrices")) return matrices;
+    const std::optional<std::size_t> index =
+        IndexAt(skin, "inverseBindMatrices", ArrayAt(file_.json, "accessors").size());
+    if (!index.has_value()) return InvalidField("file", "has a skin without its matrices");
+    CAPFIT_ASSIGN_OR_RETURN(const GltfAccessor accessor,
+                            GltfAccessor::Create(file_, *index, "MAT4"));
+    if (accessor.count() < joints) {
+      return InvalidField("file", absl::StrCat("has a skin of ", joints, " joints with only ",
+                                               accessor.count(), " matrices"));
+    }
+    for (std::size_t j = 0; j < joints; ++j) {
+      Eigen::Matrix4d& matrix = matrices.emplace_back();
+      for (Eigen::Index k = 0; k < 16; ++k) matrix(k % 4, k / 4) = accessor.At(j, k);
+    }
+    return matrices;
+  }
+
+  absl::Status AddPrimitive(const json& primitive, const Eigen::Matrix4d& to_world) {
+    if (!primitive.is_object()) return InvalidField("file", "has a primitive that is no object");
+    const std::size_t mode =
+        primitive.contains("mode") ? IndexAt(primitive, "mode", 7).value_or(7) : kTriangles;
+    if (mode < kTriangles) return absl::OkStatus();  // points and lines
+    if (mode > kTriangleFan) return InvalidField("file", "has a primitive of unknown mode");
+    const auto extensions = primitive.find("extensions");
+    if (extensions != primitive.end() && extensions->is_object() &&
+        extensions->contains("KHR_draco_mesh_compression")) {
+      return InvalidField("file",
+                          "is compressed with Draco, which is not read: export uncompressed");
+    }
+    const auto attributes = primitive.find("attributes");
+    const std::optional<std::size_t> position =
+        attributes == primitive.end()
+            ? std::nullopt
+            : IndexAt(*attributes, "POSITION", ArrayAt(file_.json, "accessors").size());
+    if (!position.has_value()) return InvalidField("file", "has a primitive without POSITION");
+    CAPFIT_ASSIGN_OR_RETURN(const GltfAccessor positions,
+                            GltfAccessor::Create(file_, *position, "VEC3"));
+    CAPFIT_ASSIGN_OR_RETURN(const std::size_t base, AddPositions(*position, positions, to_world));
+    CAPFIT_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> corners,
+                            CornersOf(primitive, positions.count(), base));
+    return AddFaces(mode, corners, to_world.topLeftCorner<3, 3>().determinant() < 0.0);
+  }
+
+  // The soup's index of the accessor's first vertex.
+  absl::StatusOr<std::size_t> AddPositions(std::size_t accessor_index,
+                                           const GltfAccessor& positions,
+                                           const Eigen::Matrix4d& to_world) {
+    const auto [entry, is_new] =
+        base_of_positions_.try_emplace(accessor_index, soup_.positions.size());
+    if (!is_new) return entry->second;
+    if (positions.count() > limits_.max_vertices - soup_.positions.size()) {
+      return InvalidField("file",
+                          absl::StrCat("has more than ", limits_.max_vertices, " vertices"));
+    }
+    soup_.positions.reserve(soup_.positions.size() + positions.count());
+    for (std::size_t i = 0; i < positions.count(); ++i) {
+      soup_.positions.push_back(
+          Apply(to_world, {positions.At(i, 0), positions.At(i, 1), positions.At(i, 2)}));
+    }
+    return entry->second;
+  }
+
+  absl::StatusOr<std::vector<std::uint32_t>> CornersOf(const json& primitive, std::size_t vertices,
+                                                       std::size_t base) const {
+    std::vector<std::uint32_t> corners;
+    if (!primitive.contains("indices")) {
+      for (std::size_t i = 0; i < vertices; ++i) {
+        corners.push_back(static_cast<std::uint32_t>(base + i));
+      }
+      return corners;
+    }
+    const std::optional<std::size_t> index =
+        IndexAt(primitive, "indices", ArrayAt(file_.json, "accessors").size());
+    if (!index.has_value()) return InvalidField("file", "has a primitive without its indices");
+    CAPFIT_ASSIGN_OR_RETURN(const GltfAccessor indices,
+                            GltfAccessor::Create(file_, *index, "SCALAR"));
+    if (!indices.IsUnsigned()) {
+      return InvalidField("file", absl::StrCat("must have unsigned indices in accessor ", *index));
+    }
+    if (indices.count() > 3 * limits_.max_faces) return TooManyFaces();
+    corners.reserve(indices.count());
+    for (std::size_t i = 0; i < indices.count(); ++i) {
+      const double vertex = indices.At(i, 0);
+      if (!(vertex < static_cast<double>(vertices))) {
+        return InvalidField(
+            "file", absl::StrCat("has the index ", vertex, " at ", i, " of accessor ", *index,
+                                 ", must be below ", vertices));
+      }
+      corners.push_back(static_cast<std::uint32_t>(base + static_cast<std::size_t>(vertex)));
+    }
+    return corners;
+  }
+
+  // A mirroring transform turns faces inside out, which glTF undoes.
+  absl::Status AddFaces(std::size_t mode, const std::vector<std::uint32_t>& corners,
+                        bool is_mirrored) {
+    const std::size_t count = corners.size();
+    const std::size_t faces = mode == kTriangles ? count / 3 : count < 3 ? 0 : count - 2;
+    if (faces > limits_.max_faces - soup_.face_vertices.size() / 3) return TooManyFaces();
+    soup_.face_vertices.reserve(soup_.face_vertices.size() + 3 * faces);
+    for (std::size_t f = 0; f < faces; ++f) {
+      const std::size_t first = mode == kTriangles ? 3 * f : mode == kTriangleStrip ? f : 0;
+      const std::size_t second = mode == kTriangleFan ? f + 1 : first + 1;
+      const bool is_turned = mode == kTriangleStrip && f % 2 == 1;
+      std::uint32_t b = corners[second];
+      std::uint32_t c = corners[second + 1];
+      if (is_turned != is_mirrored) std::swap(b, c);
+      soup_.face_vertices.insert(soup_.face_vertices.end(), {corners[first], b, c});
+    }
+    return absl::OkStatus();
+  }
+
+  absl::Status TooManyFaces() const {
+    return InvalidField("file", absl::StrCat("has more than ", limits_.max_faces, " faces"));
+  }
+
+  const GlbFile& file_;
+  const GltfNodes& nodes_;
+  const MeshLimits& limits_;
+  PolygonSoup soup_;
+  std::map<std::size_t, std::size_t> base_of_positions_;  // of the mesh being read
+  std::set<std::size_t> skins_read_;
+};
+
+}  // namespace
+
+absl::StatusOr<PolygonSoup> ReadGlb(std::span<const std::byte> bytes, const MeshLimits& limits) {
+  CAPFIT_ASSIGN_OR_RETURN(const GlbFile file, OpenGlb(bytes));
+  CAPFIT_ASSIGN_OR_RETURN(const GltfNodes nodes, ReadGltfNodes(file.json));
+  return GlbReader(file, nodes, limits).Run();
+}
+
+}  // namespace capfit::mesh

@@ -1,0 +1,25 @@
+// OFF (Object File Format) from memory.
+#ifndef CAPFIT_CORE_MESH_READ_OFF_H_
+#define CAPFIT_CORE_MESH_READ_OFF_H_
+
+#include <string_view>
+
+#include "absl/status/statusor.h"
+#include "core/mesh/polygon_soup.h"
+#include "core/mesh/prepare_mesh.h"
+
+namespace capfit::mesh {
+
+// The vertices and faces of a text OFF file in three dimensions, in file order. Colours, normals
+// and texture coordinates behind a vertex or a face on its line are skipped, comments and blank
+// lines too. Counts are checked against the bytes present first. INVALID_ARGUMENT names the line.
+//
+// Not OpenMesh's reader: a comment before the counts makes it reserve faces without end.
+[[nodiscard]] absl::StatusOr<PolygonSoup> ReadOff(std::string_view text, const MeshLimits& limits);
+
+// Whether the word may begin an OFF file: OFF, COFF, NOFF, STCNOFF ...
+[[nodiscard]] bool IsOffKeyword(std::string_view word);
+
+}  // namespace capfit::mesh
+
+#endif  // CAPFIT_CORE_MESH_READ_OFF_H_
