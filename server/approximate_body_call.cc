@@ -101,7 +101,9 @@ absl::StatusOr<pipeline::FitResult> ApproximateBodyCall::ComputeGuarded() {
 }
 
 absl::StatusOr<pipeline::FitResult> ApproximateBodyCall::Compute() {
-  if (IsCancelled()) return GaveUp();
+  // A read that ends because the caller is gone looks like the end of the upload; only the context
+  // knows already.
+  if (IsCancelled() || context_->IsCancelled()) return GaveUp();
   CAPFIT_ASSIGN_OR_RETURN(const mesh::PolygonSoup soup, std::move(upload_).Finish());
   absl::StatusOr<pipeline::FitResult> result =
       services_.backend.fit(soup, options_, services_.pool, *this);

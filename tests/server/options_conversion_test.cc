@@ -1,0 +1,164 @@
+#include "proto/wire/options_conversion.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "core/base/status.h"
+
+namespace capfit::wire {
+namespace {
+
+using pipeline::FitOptions;
+
+void ExpectSame(const FitOptions& a, const FitOptions& b) {
+  EXPECT_EQ(a.max_primitives, b.max_primitives);
+  EXPECT_EQ(a.max_spheres, b.max_spheres);
+  EXPECT_EQ(a.max_capsules, b.max_capsules);
+  EXPECT_EQ(a.polygon_error, b.polygon_error);
+  EXPECT_EQ(a.fit, b.fit);
+  EXPECT_EQ(a.quality, b.quality);
+  EXPECT_EQ(a.skinning, b.skinning);
+  EXPECT_EQ(a.parts.torso, b.parts.torso);
+  EXPECT_EQ(a.parts.arms, b.parts.arms);
+  EXPECT_EQ(a.parts.legs, b.parts.legs);
+  EXPECT_EQ(a.parts.head, b.parts.head);
+  EXPECT_EQ(a.parts.hands, b.parts.hands);
+  EXPECT_EQ(a.parts.feet, b.parts.feet);
+  EXPECT_EQ(a.sex, b.sex);
+  EXPECT_EQ(a.unit, b.unit);
+  EXPECT_EQ(a.up, b.up);
+  EXPECT_EQ(a.landmarks, b.landmarks);
+  EXPECT_EQ(a.seed, b.seed);
+  EXPECT_EQ(a.want_polygons, b.want_polygons);
+}
+
+absl::StatusOr<FitOptions> RoundTrip(const FitOptions& options) {
+  v1::ApproximateBodyHeader header;
+  OptionsToWire(options, header);
+  return OptionsFromWire(header);
+}
+
+TEST(OptionsConversion, AnEmptyHeaderGivesTheDefaults) {
+  const auto options = OptionsFromWire({});
+  ASSERT_TRUE(options.ok()) << options.status();
+  ExpectSame(*options, FitOptions());
+}
+
+TEST(OptionsConversion, DefaultsComeBack) {
+  const auto options = RoundTrip({});
+  ASSERT_TRUE(options.ok()) << options.status();
+  ExpectSame(*options, FitOptions());
+}
+
+TEST(OptionsConversion, EveryOptionComesBack) {
+  FitOptions options;
+  options.max_primitives = 77;
+  options.fit = pipeline::FitMode::kBestFit;
+  options.quality = pipeline::Quality::kTight;
+  options.skinning = pipeline::SkinningMode::kDense;
+  options.parts = {.torso = false, .arms = true, .legs = false, .head = true, .feet = true};
+  options.sex = section::Sex::kFemale;
+  options.unit = body::Unit::kInch;
+  options.up = body::UpAxis::kZ;
+  options.landmarks = {{body::LandmarkId::kLeftWrist, {0.1, 1.0 / 3.0, -7e-300}},
+                       {body::LandmarkId::kCrotch, {1, 2, 3}}};
+  options.seed = std::numeric_limits<std::uint64_t>::max();
+  options.want_polygons = true;
+  const auto back = RoundTrip(options);
+  ASSERT_TRUE(back.ok()) << back.status();
+  ExpectSame(*back, options);
+}
+
+TEST(OptionsConversion, TheOtherBudgetsComeBack) {
+  FitOptions by_error;
+  by_error.polygon_error = 0.125;
+  FitOptions by_engine;
+  by_engine.max_spheres = 32;
+  by_engine.max_capsules = 31;
+  FitOptions spheres_only;
+  spheres_only.max_spheres = 20;
+  for (const FitOptions& options : {by_error, by_engine, spheres_only}) {
+    const auto back = RoundTrip(options);
+    ASSERT_TRUE(back.ok()) << back.status();
+    ExpectSame(*back, options);
+  }
+}
+
+struct Misuse {
+  std::string name;
+  std::function<void(v1::ApproximateBodyHeader&)> spoil;
+  std::string field;
+  friend void PrintTo(const Misuse& m, std::ostream* os) { *os << m.name; }
+};
+class OptionsMisuse : public testing::TestWithParam<Misuse> {};
+
+TEST_P(OptionsMisuse, NamesTheField) {
+  v1::ApproximateBodyHeader header;
+  GetParam().spoil(header);
+  const absl::Status status = OptionsFromWire(header).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
+  EXPECT_EQ(FieldOf(status).value_or("none"), GetParam().field) << status;
+}
+
+void AddLandmark(v1::ApproximateBodyHeader& header, const char* name, double x) {
+  v1::Landmark& landmark = *header.mutable_options()->add_landmarks();
+  landmark.set_name(name);
+  landmark.mutable_position()->set_x(x);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, OptionsMisuse,
+    testing::Values(
+        Misuse{"Unit", [](auto& h) { h.mutable_mesh()->set_unit(v1::LengthUnit(9)); }, "mesh.unit"},
+        Misuse{"Up", [](auto& h) { h.mutable_mesh()->set_up_axis(v1::UpAxis(9)); }, "mesh.up_axis"},
+        Misuse{"FitMode", [](auto& h) { h.mutable_options()->set_fit_mode(v1::FitMode(9)); },
+               "options.fit_mode"},
+        Misuse{"Skinning", [](auto& h) { h.mutable_options()->set_skinning(v1::SkinningForm(9)); },
+               "options.skinning"},
+        Misuse{
+            "EmptyBudget",
+            [](auto& h) { h.mutable_options()->mutable_budget()->mutable_spheres_and_capsules(); },
+            "options.budget.spheres_and_capsules"},
+        Misuse{"UnknownPart",
+               [](auto& h) {
+                 h.mutable_options()->add_parts(v1::BODY_PART_GROUP_ARMS);
+                 h.mutable_options()->add_parts(v1::BODY_PART_GROUP_UNSPECIFIED);
+               },
+               "options.parts[1]"},
+        Misuse{"PartTwice",
+               [](auto& h) {
+                 h.mutable_options()->add_parts(v1::BODY_PART_GROUP_ARMS);
+                 h.mutable_options()->add_parts(v1::BODY_PART_GROUP_ARMS);
+               },
+               "options.parts[1]"},
+        Misuse{"UnknownLandmark", [](auto& h) { AddLandmark(h, "left_antenna", 1); },
+               "options.landmarks[0].name"},
+        Misuse{"LandmarkTwice",
+               [](auto& h) {
+                 AddLandmark(h, "neck", 1);
+                 AddLandmark(h, "neck", 2);
+               },
+               "options.landmarks[1].name"},
+        Misuse{"LandmarkNotFinite",
+               [](auto& h) { AddLandmark(h, "neck", std::numeric_limits<double>::quiet_NaN()); },
+               "options.landmarks[0].position"},
+        Misuse{"LandmarkWithoutPosition",
+               [](auto& h) { h.mutable_options()->add_landmarks()->set_name("neck"); },
+               "options.landmarks[0].position"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(OptionsConversion, FormsThatAreNotMadeAreUnimplementedNotIgnored) {
+  for (const v1::SkinningForm form : {v1::SKINNING_FORM_SPARSE, v1::SKINNING_FORM_BONES}) {
+    v1::ApproximateBodyHeader header;
+    header.mutable_options()->set_skinning(form);
+    const absl::Status status = OptionsFromWire(header).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kUnimplemented);
+    EXPECT_THAT(std::string(status.message()), testing::HasSubstr("options.skinning"));
+  }
+}
+
+}  // namespace
+}  // namespace capfit::wire

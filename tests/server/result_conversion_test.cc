@@ -1,0 +1,129 @@
+#include "proto/wire/result_conversion.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/status.h"
+#include "tests/server/fake_fit.h"
+
+namespace capfit::wire {
+namespace {
+
+using server::HandMadeResult;
+
+TEST(ResultConversion, PrimitivesComeBackBitForBit) {
+  const capsule::PrimitiveSet set = HandMadeResult().primitives;
+  const auto back = PrimitivesFromWire(PrimitivesToWire(set));
+  ASSERT_TRUE(back.ok()) << back.status();
+  ASSERT_EQ(back->spheres.size(), set.spheres.size());
+  for (std::size_t i = 0; i < set.spheres.size(); ++i) {
+    EXPECT_EQ(back->spheres[i].center_m, set.spheres[i].center_m);
+    EXPECT_EQ(back->spheres[i].radius_m, set.spheres[i].radius_m);
+    EXPECT_EQ(back->origins[i].part, set.origins[i].part);
+    EXPECT_EQ(back->origins[i].polygon, set.origins[i].polygon);
+    EXPECT_EQ(back->origins[i].mirror, set.origins[i].mirror);
+  }
+  EXPECT_EQ(back->capsules, set.capsules);
+}
+
+TEST(ResultConversion, SummaryComesBack) {
+  const pipeline::FitResult result = HandMadeResult();
+  const v1::Summary wire = SummaryToWire(result, "job-7");
+  EXPECT_EQ(wire.request_id(), "job-7");
+  EXPECT_EQ(wire.stages_size(), 8) << "the stage that took no time is left out";
+  pipeline::FitResult back;
+  ASSERT_TRUE(SummaryFromWire(wire, back).ok());
+  EXPECT_EQ(back.metrics.n_p, result.metrics.n_p);
+  EXPECT_EQ(back.metrics.E_r, result.metrics.E_r);
+  EXPECT_EQ(back.metrics.outside, result.metrics.outside);
+  EXPECT_EQ(back.metrics.uncovered, result.metrics.uncovered);
+  EXPECT_EQ(back.metrics.E_M, result.metrics.E_M);
+  EXPECT_EQ(back.metrics.hausdorff, result.metrics.hausdorff);
+  EXPECT_EQ(back.metrics.max_gap_m, result.metrics.max_gap_m);
+  EXPECT_EQ(back.metrics.volume_ratio, result.metrics.volume_ratio);
+  EXPECT_EQ(back.metrics.mirror_error, result.metrics.mirror_error);
+  EXPECT_EQ(back.metrics.vertices_out, result.metrics.vertices_out);
+  EXPECT_EQ(back.metrics.max_out_m, result.metrics.max_out_m);
+  EXPECT_EQ(back.stage_seconds, result.stage_seconds);
+  EXPECT_EQ(back.seconds, result.seconds);
+  EXPECT_EQ(back.body_from_caller.rotation, result.body_from_caller.rotation);
+  EXPECT_EQ(back.body_from_caller.scale, result.body_from_caller.scale);
+  EXPECT_EQ(back.body_from_caller.translation, result.body_from_caller.translation);
+}
+
+TEST(ResultConversion, PolygonsLandmarksAndWarningsComeBack) {
+  const pipeline::FitResult result = HandMadeResult();
+  const auto polygon = PolygonFromWire(PolygonToWire(result.polygons[0]));
+  ASSERT_TRUE(polygon.ok()) << polygon.status();
+  EXPECT_EQ(polygon->name, "hip");
+  EXPECT_EQ(polygon->outline, result.polygons[0].outline);
+  ASSERT_EQ(polygon->circles.size(), 1U);
+  EXPECT_EQ(polygon->circles[0].radius_m, result.polygons[0].circles[0].radius_m);
+  EXPECT_EQ(polygon->outside_area_ratio, result.polygons[0].outside_area_ratio);
+
+  pipeline::FitResult back;
+  LandmarksFromWire(LandmarksToWire(result), back);
+  ASSERT_EQ(back.landmarks.size(), 2U);
+  EXPECT_EQ(back.landmarks[1].name, "left_wrist");
+  EXPECT_EQ(back.landmarks[1].position, result.landmarks[1].position);
+  EXPECT_EQ(back.landmarks[1].method, body::LandmarkMethod::kCaller);
+  EXPECT_EQ(back.landmarks[0].confidence, 0.75);
+
+  const Warning warning = WarningFromWire(WarningToWire(result.warnings[0]));
+  EXPECT_EQ(warning.code, "HOLES_CLOSED");
+  EXPECT_EQ(warning.message, "2 holes were closed");
+  EXPECT_EQ(warning.count, 2);
+}
+
+TEST(ResultConversion, WeightsComeBackInBlocksOfAnySize) {
+  const skinning::DenseWeights weights = *HandMadeResult(10).weights;
+  for (const std::size_t max_weights : {1U, 3U, 9U, 10U, 11U, 20U, 29U, 30U, 1000U}) {
+    skinning::DenseWeights back;
+    std::size_t sphere = 0;
+    std::size_t vertex = 0;
+    for (;;) {
+      const WeightBlock block = BlockAt(weights, sphere, vertex, max_weights);
+      if (block.sphere_count == 0) break;
+      EXPECT_LE(block.sphere_count * block.vertex_count, max_weights);
+      ASSERT_TRUE(AppendWeights(WeightsToWire(weights, block), back).ok());
+      vertex = block.first_vertex + block.vertex_count;
+      if (vertex == weights.vertex_count) {
+        sphere += block.sphere_count;
+        vertex = 0;
+      }
+    }
+    EXPECT_EQ(back.weights, weights.weights) << max_weights;
+    EXPECT_EQ(back.vertex_count, 10U);
+  }
+}
+
+TEST(ResultConversion, AMissingOrRepeatedBlockIsNoticed) {
+  const skinning::DenseWeights weights = *HandMadeResult(10).weights;
+  const v1::SkinningChunk second = WeightsToWire(weights, BlockAt(weights, 1, 0, 10));
+  skinning::DenseWeights back;
+  EXPECT_FALSE(AppendWeights(second, back).ok());
+  ASSERT_TRUE(AppendWeights(WeightsToWire(weights, BlockAt(weights, 0, 0, 10)), back).ok());
+  ASSERT_TRUE(AppendWeights(second, back).ok());
+  EXPECT_FALSE(AppendWeights(second, back).ok());
+}
+
+TEST(ResultConversion, WrongMessagesOfAServerAreRefused) {
+  v1::PrimitiveSet set = PrimitivesToWire(HandMadeResult().primitives);
+  set.mutable_capsules(1)->set_second_sphere(3);
+  EXPECT_EQ(FieldOf(PrimitivesFromWire(set).status()), "primitives.capsules[1]");
+  set.mutable_capsules(1)->set_first_sphere(2);
+  set.mutable_capsules(1)->set_second_sphere(1);
+  EXPECT_FALSE(PrimitivesFromWire(set).ok());
+  set = PrimitivesToWire(HandMadeResult().primitives);
+  set.mutable_spheres(2)->set_part(v1::BODY_PART_UNSPECIFIED);
+  EXPECT_EQ(FieldOf(PrimitivesFromWire(set).status()), "primitives.spheres[2].part");
+}
+
+TEST(ResultConversion, PlainTextIsShortAscii) {
+  EXPECT_EQ(PlainText("knee: 3 cm"), "knee: 3 cm");
+  EXPECT_EQ(PlainText("a\n\x01\xff\x7f"), "a????");
+  EXPECT_EQ(PlainText(std::string(5000, 'x')).size(), 1000U);
+}
+
+}  // namespace
+}  // namespace capfit::wire
