@@ -17,6 +17,7 @@
 #include "core/mesh/split_vertices.h"
 #include "core/mesh/surface.h"
 #include "core/mesh/surface_parts.h"
+#include "core/mesh/triangulate_faces.h"
 #include "core/mesh/weld_vertices.h"
 
 namespace capfit::mesh {
@@ -82,19 +83,9 @@ class MeshMender {
 
  private:
   void Triangulate(const PolygonSoup& soup) {
-    const std::vector<std::uint32_t>& v = soup.face_vertices;
-    surface_.triangles.reserve(v.size() / 3);
-    const bool all_triangles = soup.face_sizes.empty();
-    const std::size_t faces = all_triangles ? v.size() / 3 : soup.face_sizes.size();
-    std::size_t first = 0;
-    for (std::size_t f = 0; f < faces; ++f) {
-      const std::uint32_t size = all_triangles ? 3 : soup.face_sizes[f];
-      degenerate_ += size < 3;
-      for (std::uint32_t k = 2; k < size; ++k) {
-        AddTriangle({v[first], v[first + k - 1], v[first + k]});
-      }
-      first += size;
-    }
+    TriangulatedFaces faces = TriangulateFaces(soup);
+    surface_.triangles = std::move(faces.triangles);
+    degenerate_ = faces.degenerate;
   }
 
   void AddTriangle(const Triangle& triangle) {

@@ -24,10 +24,30 @@ struct PreparedMesh {
   std::vector<Warning> warnings;  // every repair, with counts
 };
 
-// Checks (finite positions, indices in range, sizes), welds equal vertices (within 1e-5 of the
-// diagonal), triangulates by fans, drops degenerate and duplicate faces, keeps the part with the
-// largest volume, turns faces the same way round and outward, and closes holes. O(n log n).
-// Errors name the first offender: "triangle_indices[17] is 90210, must be below 6890".
+// From any arrays to a mesh that keeps the promises of BodyMesh. A mesh that keeps them already
+// passes through with its vertices and triangles in order and without a warning. O(n log n).
+//
+// Steps, each of which warns with a count of what it changed:
+//   1. Sizes, finite positions, indices; unused vertices are ignored.          UNUSED_VERTICES
+//   2. Triangles (see triangulate_faces.h); degenerate ones are dropped.       DEGENERATE_FACES
+//   3. Copies of faces are dropped.                                            DUPLICATE_FACES
+//   4. Vertices of open edges are welded: equal ones, then those within 1e-5
+//      of the used vertices' diagonal. Closed surfaces that touch stay apart.  VERTICES_WELDED
+//   5. Loose faces at edges that have two faces already are dropped.           FINS_DROPPED
+//   6. At other edges of more than two faces the flattest pairs are joined.    NONMANIFOLD_EDGES
+//   7. The part with the largest volume is kept.                               PARTS_LEFT_OUT
+//   8. Faces are turned the same way round and outward.                        FACES_TURNED,
+//                                                                              INSIDE_OUT
+//   9. Holes are closed with triangles between their own vertices.             HOLES_CLOSED
+//  10. Vertices in which the surface touches itself are split.                 NONMANIFOLD_VERTICES
+//
+// New vertices (copies from step 10) come after the caller's. A surface that cuts through itself
+// is left as it is.
+//
+// INVALID_ARGUMENT names the first offender: "triangle_indices[17] is 90210, must be below 6890".
+// FAILED_PRECONDITION says why there is no body in it: NO_SURFACE, NO_VOLUME, TWO_BODIES (a second
+// part of half the volume or more), NOT_ORIENTABLE, HOLE_NOT_CLOSED, OPEN_SURFACE (the holes are
+// larger than a third of the surface), NOT_MANIFOLD.
 [[nodiscard]] absl::StatusOr<PreparedMesh> PrepareMesh(const PolygonSoup& soup,
                                                        const MeshLimits& limits = {});
 

@@ -1,4 +1,4 @@
-// Mesh files from memory: OBJ, PLY, STL, OFF (OpenMesh) and GLB (TinyGLTF).
+// Mesh files from memory: OBJ, PLY, STL, OFF and GLB.
 #ifndef CAPFIT_CORE_MESH_READ_MESH_H_
 #define CAPFIT_CORE_MESH_READ_MESH_H_
 
