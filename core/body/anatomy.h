@@ -49,6 +49,8 @@ inline constexpr int kChainCount = 5;  // the first five parts are chains
 // "torso", "left_arm", ...: the words in results.
 [[nodiscard]] std::string_view PartName(Part part);
 [[nodiscard]] Part PartOf(Segment segment);  // neck counts as torso
+// "torso", "left_upper_arm", ...: one for each segment.
+[[nodiscard]] std::string_view SegmentName(Segment segment);
 
 // The part on the other side; itself for torso and head.
 [[nodiscard]] Part MirrorPart(Part part);
@@ -94,7 +96,7 @@ enum class LandmarkId : std::uint8_t {
 };
 inline constexpr int kLandmarkCount = 26;
 
-// "left_wrist", "head_top", ...
+// "left_wrist", "head_top", "left_middle_fingertip", "left_big_toe_tip", "left_heel", ...
 [[nodiscard]] std::string_view LandmarkName(LandmarkId id);
 [[nodiscard]] std::optional<LandmarkId> LandmarkFromName(std::string_view name);
 [[nodiscard]] LandmarkId MirrorLandmark(LandmarkId id);

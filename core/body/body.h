@@ -30,9 +30,9 @@ struct MedialCurve {
   std::vector<double> arc_length_m;       // same size, starts at 0, strictly increasing
 
   [[nodiscard]] double length_m() const { return arc_length_m.back(); }
-  [[nodiscard]] Eigen::Vector3d PointAt(double arc_length_m) const;    // clamped to the ends
-  [[nodiscard]] Eigen::Vector3d TangentAt(double arc_length_m) const;  // unit, outward
-  // Arc length of the curve's point nearest to `point_m`.
+  [[nodiscard]] Eigen::Vector3d PointAt(double at_m) const;    // clamped to the ends
+  [[nodiscard]] Eigen::Vector3d TangentAt(double at_m) const;  // unit, outward
+  // `at_m`: arc length from the start. The inverse: arc length of the point nearest to `point_m`.
   [[nodiscard]] double Project(const Eigen::Vector3d& point_m) const;
 };
 

@@ -1,0 +1,49 @@
+// Where a plane cuts the surface, as closed loops.
+#ifndef CAPFIT_CORE_BODY_CROSS_SECTION_H_
+#define CAPFIT_CORE_BODY_CROSS_SECTION_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/mesh/body_mesh.h"
+
+namespace capfit::body {
+
+// The plane through `origin` across `normal` (length 1).
+struct CutPlane {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitY();
+
+  [[nodiscard]] double Height(const Eigen::Vector3d& p) const { return normal.dot(p - origin); }
+};
+
+// One loop of a section. Unit and frame are those of the points cut.
+struct SectionLoop {
+  std::vector<Eigen::Vector3d> outline;  // in order; the last joins the first when closed
+  bool is_closed = false;                // open where the triangles given end
+  double girth = 0.0;                    // length of the outline
+  double area = 0.0;                     // of the flat figure; negative for the rim of a hole
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // of the area
+
+  // Extent of the outline along a direction.
+  [[nodiscard]] double Max(const Eigen::Vector3d& direction) const;
+  [[nodiscard]] double Min(const Eigen::Vector3d& direction) const;
+};
+
+// All loops of the section, the largest area first. Outlines run counter-clockwise seen against
+// the normal where the surface's own orientation says so. O(triangles).
+[[nodiscard]] std::vector<SectionLoop> CutSection(std::span<const Eigen::Vector3d> points,
+                                                  std::span<const mesh::Triangle> triangles,
+                                                  const CutPlane& plane);
+
+// The closed loop whose centroid is nearest to the plane's origin, loops of less than
+// `min_girth` left out.
+[[nodiscard]] std::optional<SectionLoop> CutLoopAt(std::span<const Eigen::Vector3d> points,
+                                                   std::span<const mesh::Triangle> triangles,
+                                                   const CutPlane& plane, double min_girth);
+
+}  // namespace capfit::body
+
+#endif  // CAPFIT_CORE_BODY_CROSS_SECTION_H_

@@ -1,0 +1,49 @@
+// Which tips of the surface are the head, the hands and the feet.
+#ifndef CAPFIT_CORE_BODY_EXTREMITIES_H_
+#define CAPFIT_CORE_BODY_EXTREMITIES_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/body/branches.h"
+#include "core/body/surface_graph.h"
+
+namespace capfit::body {
+
+// The two hands and the two feet are told apart into left and right only later.
+enum class Tip : std::uint8_t { kHead, kHandA, kHandB, kFootA, kFootB };
+inline constexpr int kTipCount = 5;
+
+// A head, arm or leg: what the surface runs out into beyond the level where it joins the rest.
+struct Limb {
+  std::uint32_t tip = 0;
+  double junction = 0.0;                // distance at which it joins another limb
+  double tip_distance = 0.0;            // distance of the tip
+  std::vector<std::uint32_t> vertices;  // those farther than the junction
+};
+
+struct Extremities {
+  std::vector<double> distance;  // from the middle of the body, for every vertex
+  std::array<std::optional<Limb>, kTipCount> limbs;
+  double misfit = 0.0;  // how far the proportions are from a body's; 0.1 is usual
+
+  [[nodiscard]] const std::optional<Limb>& limb(Tip tip) const {
+    return limbs[static_cast<std::size_t>(tip)];
+  }
+  [[nodiscard]] int found() const;
+};
+
+// `points` in a frame where the surface's area is 1 and the body's centroid lies at the origin.
+// Lengths along the surface do not change when limbs bend, so neither does the answer: tips are
+// the maxima of the geodesic distance from the middle, and their roles follow from the lengths of
+// the ways between them (the head is near the hands, the feet are far from all). O(n log n).
+[[nodiscard]] Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
+                                          const SurfaceGraph& graph);
+
+}  // namespace capfit::body
+
+#endif  // CAPFIT_CORE_BODY_EXTREMITIES_H_

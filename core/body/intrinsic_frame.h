@@ -1,0 +1,44 @@
+// The body's own axes, found from its shape alone.
+#ifndef CAPFIT_CORE_BODY_INTRINSIC_FRAME_H_
+#define CAPFIT_CORE_BODY_INTRINSIC_FRAME_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/body/extremities.h"
+
+namespace capfit::body {
+
+// Centroids of the rings of equal distance of one limb, from its junction to its tip.
+using LevelCentroids = std::vector<Eigen::Vector3d>;
+
+// Number of rings a limb is cut into.
+inline constexpr int kLevels = 24;
+
+// The axes in the coordinates of the points that they were found from.
+struct IntrinsicFrame {
+  Eigen::Vector3d left = Eigen::Vector3d::UnitX();  // normal of the symmetry plane
+  Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+  Eigen::Vector3d forward = Eigen::Vector3d::UnitZ();
+  double plane_offset = 0.0;       // the symmetry plane: left . p = plane_offset
+  double facing_trust = 0.0;       // [0, 1]; how clear front and back are
+  bool first_is_left = true;       // the limbs kHandA and kFootA of the extremities are on the left
+  bool hands_are_swapped = false;  // kHandA is on the other side than kFootA
+};
+
+// Symmetry plane: least squares over what mirrors what (rings of left and right limbs, rings of
+// trunk and head onto themselves), with limbs in different poses weighed down. Up: in that plane,
+// so that the body would stand at rest on its soles, where that is near to the trunk's own
+// direction; else the trunk's direction. Forward: where the toes point, and the knees bend to.
+// Exact for bodies that are symmetric; the same for any turned, moved or scaled copy. Needs at
+// least three limbs, both legs or both arms among them. `up` given: taken as it is.
+[[nodiscard]] std::optional<IntrinsicFrame> FindIntrinsicFrame(
+    std::span<const Eigen::Vector3d> points, std::span<const double> vertex_areas,
+    const Extremities& extremities, const std::optional<Eigen::Vector3d>& up);
+
+}  // namespace capfit::body
+
+#endif  // CAPFIT_CORE_BODY_INTRINSIC_FRAME_H_

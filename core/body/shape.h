@@ -1,0 +1,54 @@
+// The body in its own frame while it is being understood: what the landmark finders work on.
+#ifndef CAPFIT_CORE_BODY_SHAPE_H_
+#define CAPFIT_CORE_BODY_SHAPE_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/body/body.h"
+#include "core/body/extremities.h"
+#include "core/body/limb_profile.h"
+#include "core/body/surface_graph.h"
+
+namespace capfit::body {
+
+inline constexpr int kLeft = 0;
+inline constexpr int kRight = 1;
+
+// Body frame, metres. The spans outlive the shape.
+struct Shape {
+  std::span<const Eigen::Vector3d> points;
+  std::span<const mesh::Triangle> triangles;
+  const SurfaceGraph* graph = nullptr;
+  double top_m = 0.0;      // extent along Y; the lowest point is at 0
+  double stature_m = 0.0;  // height of the whole body: what is cut off is added, by proportion
+  // By side; nothing where the limb is missing. Profiles run from the tip to the trunk.
+  std::array<std::optional<Limb>, 2> arms;
+  std::array<std::optional<Limb>, 2> legs;
+  std::optional<Limb> head;
+  std::array<std::optional<LimbProfile>, 2> arm_profiles;
+  std::array<std::optional<LimbProfile>, 2> leg_profiles;
+  // Whether the limb ends as nature made it, not in a flat cut.
+  bool has_head = false;
+  std::array<bool, 2> has_hand = {false, false};
+  std::array<bool, 2> has_foot = {false, false};
+};
+
+// The landmarks while they are being found, by LandmarkId.
+using Landmarks = std::array<std::optional<Landmark>, kLandmarkCount>;
+
+// The landmark of a pair on a side: Sided(kLeftWrist, kRight) is the right wrist.
+[[nodiscard]] inline std::size_t Sided(LandmarkId left, int side) {
+  return static_cast<std::size_t>(left) + static_cast<std::size_t>(side);
+}
+[[nodiscard]] inline std::size_t Index(LandmarkId id) { return static_cast<std::size_t>(id); }
+
+// +1 on the left, -1 on the right.
+[[nodiscard]] inline double SideSign(int side) { return side == kLeft ? 1.0 : -1.0; }
+
+}  // namespace capfit::body
+
+#endif  // CAPFIT_CORE_BODY_SHAPE_H_
