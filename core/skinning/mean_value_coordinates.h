@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_SKINNING_MEAN_VALUE_COORDINATES_H_
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -12,22 +13,34 @@
 
 namespace capfit::skinning {
 
-// Row-major: weights[sphere * vertex_count + vertex]. Each row sums to 1 (to float precision) and
-// reproduces the sphere's centre from the rest vertices to 1e-6 of the body's height. Vertices that
-// the mesh left out (unused, other parts) weigh 0; welded copies share their weight evenly.
+// Row-major: weights[sphere * vertex_count + vertex]. Each row sums to 1 within 1e-9 (added up in
+// double) and reproduces the sphere's centre from the rest vertices to 1e-6 of the body's height.
+// Vertices that the mesh left out (unused, other parts) weigh 0; welded copies share their weight
+// evenly. Weights may be negative where the surface is seen from behind.
 struct DenseWeights {
   std::size_t sphere_count = 0;
   std::size_t vertex_count = 0;  // the caller's vertices, in the caller's order
   std::vector<float> weights;
+
+  [[nodiscard]] std::span<const float> Row(std::size_t sphere) const& {
+    return std::span(weights).subspan(sphere * vertex_count, vertex_count);
+  }
+  std::span<const float> Row(std::size_t sphere) && = delete;
 };
 
-// O(centres * triangles), centres in parallel. Centres may lie inside, on or outside the surface.
+// O(centres * triangles): about 0.4 ms for a centre and 64k triangles; centres in parallel.
+// Finite centres may lie inside, on or outside the surface: on a vertex all weight is that
+// vertex's, on a face or edge the weights are the barycentric ones. Weight of a vertex that no
+// caller's vertex maps to (the middle of a closed hole) goes to its neighbours. Every row depends
+// on its own centre only, and its bits on nothing else. Cancelled: rows not reached are 0.
 [[nodiscard]] DenseWeights MeanValueWeights(const mesh::BodyMesh& mesh,
                                             std::span<const Eigen::Vector3d> centers_m,
                                             const ThreadPool& pool, const FitObserver& observer);
 
-// Centres carried by the deformed vertices (the caller's vertices, any frame): sum of weight *
-// position. O(spheres * vertices).
+// Centres carried by the deformed vertices: sum of weight * position. `vertices` are the caller's,
+// weights.vertex_count of them, all finite, in any frame and unit: a turn, move or uniform scale of
+// the vertices turns, moves or scales the centres with them, however far from the origin.
+// O(spheres * vertices): about 2 ms for 64 x 32k.
 [[nodiscard]] std::vector<Eigen::Vector3d> Apply(const DenseWeights& weights,
                                                  std::span<const Eigen::Vector3d> vertices,
                                                  const ThreadPool& pool);

@@ -1,0 +1,158 @@
+#include "core/skinning/linear_precision.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace capfit::skinning {
+namespace {
+
+// Rounding a weight below 2^-9 to float moves it by at most 2^-34.
+constexpr float kFineWeight = 0x1p-9f;
+constexpr double kSumTolerance = 1e-10;
+// Below this share of the absolute sum, a sum of weights is noise and must not be divided by.
+constexpr double kUsableSum = 1e-9;
+// Directions in which the vertices' spread is this much smaller than in others count as flat.
+constexpr double kSupplyRank = 1e-12;
+
+// The vector (1, (p - c) / scale) of one vertex for four centres.
+struct Moments {
+  Moments(const Eigen::Vector3d& p, const std::array<Lanes, 3>& center, double inverse_scale)
+      : values{Lanes::Ones(), (p.x() - center[0]) * inverse_scale,
+               (p.y() - center[1]) * inverse_scale, (p.z() - center[2]) * inverse_scale} {}
+  std::array<Lanes, 4> values;
+};
+
+std::array<Lanes, 3> ByAxis(const std::array<Eigen::Vector3d, kLanes>& centers) {
+  std::array<Lanes, 3> axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int lane = 0; lane < kLanes; ++lane) axes[axis][lane] = centers[lane][axis];
+  }
+  return axes;
+}
+
+double Extent(std::span<const Eigen::Vector3d> vertices) {
+  double extent = 0.0;
+  for (const Eigen::Vector3d& p : vertices) {
+    extent = std::max(extent, (p - vertices.front()).lpNorm<Eigen::Infinity>());
+  }
+  return extent;
+}
+
+void Normalise(std::vector<Lanes>& weights) {
+  Lanes sum = Lanes::Zero();
+  Lanes absolute = Lanes::Zero();
+  for (const Lanes& w : weights) {
+    sum += w;
+    absolute += w.abs();
+  }
+  const auto usable = (sum.abs() > kUsableSum * absolute).eval();
+  const Lanes inverse = usable.select(sum, absolute).inverse();
+  for (Lanes& w : weights) w = usable.select(w, w.abs()) * inverse;
+}
+
+// What is missing, and how much of it a change of a and b supplies.
+struct Defect {
+  std::array<Eigen::Matrix4d, kLanes> supply;
+  std::array<Eigen::Vector4d, kLanes> missing;
+};
+
+Defect MeasureDefect(std::span<const Eigen::Vector3d> vertices, const std::array<Lanes, 3>& center,
+                     double inverse_scale, const std::vector<Lanes>& weights) {
+  std::array<Lanes, 10> supply;
+  std::array<Lanes, 4> present;
+  supply.fill(Lanes::Zero());
+  present.fill(Lanes::Zero());
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const Moments m(vertices[i], center, inverse_scale);
+    const Lanes weight = weights[i];
+    const Lanes size = weight.abs();
+    std::size_t entry = 0;
+    for (std::size_t row = 0; row < 4; ++row) {
+      present[row] += weight * m.values[row];
+      const Lanes scaled = size * m.values[row];
+      for (std::size_t column = row; column < 4; ++column) {
+        supply[entry++] += scaled * m.values[column];
+      }
+    }
+  }
+  Defect defect;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    std::size_t entry = 0;
+    for (int row = 0; row < 4; ++row) {
+      defect.missing[lane][row] = (row == 0 ? 1.0 : 0.0) - present[row][lane];
+      for (int column = row; column < 4; ++column, ++entry) {
+        defect.supply[lane](row, column) = supply[entry][lane];
+        defect.supply[lane](column, row) = supply[entry][lane];
+      }
+    }
+  }
+  return defect;
+}
+
+// Lays the row on a grid fine enough for a float and gives the difference to the largest weight.
+void LayOnGrid(std::span<float> row) {
+  const auto largest = std::max_element(row.begin(), row.end(),
+                                        [](float a, float b) { return std::abs(a) < std::abs(b); });
+  int exponent = 0;
+  std::frexp(std::max(1.0f, std::abs(*largest)), &exponent);
+  const double step = std::ldexp(1.0, (std::abs(*largest) < 1.0f ? 0 : exponent) - 24);
+  double sum = 0.0;
+  for (float& weight : row) {
+    weight = static_cast<float>(std::nearbyint(weight / step) * step);
+    sum += weight;
+  }
+  *largest = static_cast<float>(*largest + (1.0 - sum));
+}
+
+double Sum(std::span<const float> row) {
+  double sum = 0.0;
+  for (const float weight : row) sum += weight;
+  return sum;
+}
+
+}  // namespace
+
+void MakeLinearlyPrecise(std::span<const Eigen::Vector3d> vertices,
+                         const std::array<Eigen::Vector3d, kLanes>& centers,
+                         std::vector<Lanes>& weights) {
+  Normalise(weights);
+  const std::array<Lanes, 3> center = ByAxis(centers);
+  const double inverse_scale = 1.0 / Extent(vertices);
+  const Defect defect = MeasureDefect(vertices, center, inverse_scale, weights);
+  std::array<Lanes, 4> change;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    // Few vertices (a centre on a face) supply only part of the space: the rest is left as it is.
+    Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix4d> solver;
+    solver.setThreshold(kSupplyRank);
+    solver.compute(defect.supply[lane]);
+    const Eigen::Vector4d solution = solver.solve(defect.missing[lane]);
+    for (std::size_t k = 0; k < 4; ++k) change[k][lane] = solution[static_cast<Eigen::Index>(k)];
+  }
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const Moments m(vertices[i], center, inverse_scale);
+    const Lanes factor =
+        change[0] + change[1] * m.values[1] + change[2] * m.values[2] + change[3] * m.values[3];
+    weights[i] += weights[i].abs() * factor;
+  }
+}
+
+void MendFloatSum(std::span<float> row) {
+  double sum = 0.0;
+  float* finest = nullptr;  // the largest of the fine weights: the smallest change for it
+  for (float& weight : row) {
+    sum += weight;
+    const float size = std::abs(weight);
+    if (size == 0.0f || size >= kFineWeight) continue;
+    if (finest == nullptr || size > std::abs(*finest)) finest = &weight;
+  }
+  if (std::abs(1.0 - sum) <= kSumTolerance) return;
+  if (finest != nullptr) {
+    *finest = static_cast<float>(*finest + (1.0 - sum));
+    if (std::abs(1.0 - Sum(row)) <= kSumTolerance) return;
+  }
+  LayOnGrid(row);
+}
+
+}  // namespace capfit::skinning

@@ -1,0 +1,157 @@
+#include "core/skinning/mean_value_coordinates.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdint>
+
+#include "core/skinning/linear_precision.h"
+#include "core/skinning/spherical_triangles.h"
+
+namespace capfit::skinning {
+namespace {
+
+// How weights of mesh vertices become weights of the caller's vertices.
+class SourceMap {
+ public:
+  explicit SourceMap(const mesh::BodyMesh& mesh)
+      : vertex_of_source_(mesh.vertex_of_source()), share_(mesh.vertices().size(), 0.0) {
+    for (const std::int32_t vertex : vertex_of_source_) {
+      if (vertex >= 0) share_[static_cast<std::size_t>(vertex)] += 1.0;
+    }
+    for (double& share : share_) share = share > 0.0 ? 1.0 / share : 0.0;
+    FindHeirs(mesh);
+  }
+
+  [[nodiscard]] std::span<const std::int32_t> vertex_of_source() const { return vertex_of_source_; }
+  // What one copy of the vertex gets: 1 / number of copies, 0 where the caller has none.
+  [[nodiscard]] double share(std::size_t vertex) const { return share_[vertex]; }
+
+  // Moves the weight of vertices that the caller does not have to their neighbours.
+  void PassOn(std::vector<Lanes>& weights) const {
+    for (const Heirs& heirs : heirs_) {
+      if (heirs.neighbours.empty()) continue;
+      const Lanes part = weights[heirs.vertex] / static_cast<double>(heirs.neighbours.size());
+      for (const std::uint32_t neighbour : heirs.neighbours) weights[neighbour] += part;
+      weights[heirs.vertex] = Lanes::Zero();
+    }
+  }
+
+ private:
+  struct Heirs {
+    std::uint32_t vertex = 0;
+    std::vector<std::uint32_t> neighbours;
+  };
+
+  void FindHeirs(const mesh::BodyMesh& mesh) {
+    std::vector<std::int32_t> slot(share_.size(), -1);
+    for (std::size_t vertex = 0; vertex < share_.size(); ++vertex) {
+      if (share_[vertex] > 0.0) continue;
+      slot[vertex] = static_cast<std::int32_t>(heirs_.size());
+      heirs_.push_back({static_cast<std::uint32_t>(vertex), {}});
+    }
+    if (heirs_.empty()) return;
+    for (const mesh::Triangle& triangle : mesh.triangles()) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        // The mesh is closed: the next corner over all triangles runs through all neighbours.
+        const std::uint32_t next = triangle[(k + 1) % 3];
+        const std::int32_t at = slot[triangle[k]];
+        if (at < 0 || share_[next] == 0.0) continue;
+        heirs_[static_cast<std::size_t>(at)].neighbours.push_back(next);
+      }
+    }
+  }
+
+  std::span<const std::int32_t> vertex_of_source_;
+  std::vector<double> share_;
+  std::vector<Heirs> heirs_;
+};
+
+std::span<float> MutableRow(DenseWeights& weights, std::size_t sphere) {
+  return std::span(weights.weights).subspan(sphere * weights.vertex_count, weights.vertex_count);
+}
+
+// The weights of a centre on the surface, as weights of all mesh vertices.
+void PutHit(const SurfaceHit& hit, int lane, std::vector<Lanes>& weights) {
+  for (Lanes& weight : weights) weight[lane] = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) weights[hit.vertices[k]][lane] += hit.weights[k];
+}
+
+// Rows of up to four centres, starting with `first`.
+void FillRows(const mesh::BodyMesh& mesh, const SourceMap& sources,
+              std::span<const Eigen::Vector3d> centers, std::size_t first, DenseWeights& result) {
+  const std::size_t count = std::min<std::size_t>(kLanes, centers.size() - first);
+  std::array<Eigen::Vector3d, kLanes> batch;
+  for (std::size_t k = 0; k < kLanes; ++k) batch[k] = centers[first + std::min(k, count - 1)];
+
+  RawWeights raw = MeanValueRawWeights(mesh, batch);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (raw.hits[lane]) PutHit(*raw.hits[lane], lane, raw.weights);
+  }
+  sources.PassOn(raw.weights);
+  MakeLinearlyPrecise(mesh.vertices(), batch, raw.weights);
+
+  for (std::size_t v = 0; v < raw.weights.size(); ++v) raw.weights[v] *= sources.share(v);
+  const std::span<const std::int32_t> vertex_of_source = sources.vertex_of_source();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::span<float> row = MutableRow(result, first + k);
+    for (std::size_t s = 0; s < row.size(); ++s) {
+      const std::int32_t vertex = vertex_of_source[s];
+      if (vertex < 0) continue;
+      row[s] = static_cast<float>(
+          raw.weights[static_cast<std::size_t>(vertex)][static_cast<Eigen::Index>(k)]);
+    }
+    MendFloatSum(row);
+  }
+}
+
+}  // namespace
+
+DenseWeights MeanValueWeights(const mesh::BodyMesh& mesh,
+                              std::span<const Eigen::Vector3d> centers_m, const ThreadPool& pool,
+                              const FitObserver& observer) {
+  DenseWeights result;
+  result.sphere_count = centers_m.size();
+  result.vertex_count = mesh.vertex_of_source().size();
+  result.weights.assign(result.sphere_count * result.vertex_count, 0.0f);
+  const SourceMap sources(mesh);
+  const std::size_t batches = (centers_m.size() + kLanes - 1) / kLanes;
+  pool.ForEach(batches, [&](std::size_t batch) {
+    if (observer.IsCancelled()) return;
+    FillRows(mesh, sources, centers_m, batch * kLanes, result);
+  });
+  return result;
+}
+
+std::vector<Eigen::Vector3d> Apply(const DenseWeights& weights,
+                                   std::span<const Eigen::Vector3d> vertices,
+                                   const ThreadPool& pool) {
+  assert(vertices.size() == weights.vertex_count);
+  assert(weights.weights.size() == weights.sphere_count * weights.vertex_count);
+  std::vector<Eigen::Vector3d> centers(weights.sphere_count, Eigen::Vector3d::Zero());
+  if (vertices.empty()) return centers;
+  // Relative to one vertex: what a row's sum lacks to 1 is then not multiplied by the distance from
+  // the origin.
+  const Eigen::Vector3d origin = vertices.front();
+  pool.ForEach((centers.size() + kLanes - 1) / kLanes, [&](std::size_t batch) {
+    const std::size_t first = batch * kLanes;
+    const std::size_t count = std::min<std::size_t>(kLanes, centers.size() - first);
+    std::array<const float*, kLanes> rows{};
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      rows[k] = weights.Row(first + std::min(k, count - 1)).data();
+    }
+    std::array<Lanes, kLanes> sums;  // x, y, z and an unused number
+    sums.fill(Lanes::Zero());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Eigen::Vector3d d = vertices[i] - origin;
+      const Lanes step(d.x(), d.y(), d.z(), 0.0);
+      for (std::size_t k = 0; k < kLanes; ++k) sums[k] += static_cast<double>(rows[k][i]) * step;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      centers[first + k] = origin + sums[k].head<3>().matrix();
+    }
+  });
+  return centers;
+}
+
+}  // namespace capfit::skinning
