@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace capfit::client {
@@ -23,10 +24,20 @@ constexpr auto kPartColors = std::to_array<std::pair<const char*, std::array<flo
 
 Color Mix(const Color& a, const Color& b, double t) { return a + static_cast<float>(t) * (b - a); }
 
+// Once around the colours, muted.
+Color SpectralColor(double turn) {
+  Color color;
+  for (int k = 0; k < 3; ++k) {
+    color[k] = static_cast<float>(
+        0.58 + 0.26 * std::cos(2.0 * std::numbers::pi * (turn - static_cast<double>(k) / 3.0)));
+  }
+  return color;
+}
+
 }  // namespace
 
 Color PartColor(const std::string& part, double shade) {
-  Color color(.55f, .57f, .62f);
+  Color color = SpectralColor(shade);
   for (const auto& [name, rgb] : kPartColors) {
     if (part == name) color = Color(rgb[0], rgb[1], rgb[2]);
   }
@@ -35,12 +46,15 @@ Color PartColor(const std::string& part, double shade) {
 }
 
 Color SignedColor(double value) {
-  const Color inside(.13f, .30f, .68f);
-  const Color middle(.96f, .95f, .90f);
-  const Color far(.72f, .07f, .13f);
+  // At -1, 0, 1/4, 1/2 and 1.
+  const Color covered(.13f, .30f, .68f);
+  const std::array<Color, 4> ramp = {Color(.96f, .95f, .90f), Color(.98f, .82f, .50f),
+                                     Color(.90f, .46f, .28f), Color(.55f, .04f, .16f)};
   const double t = std::clamp(value, -1.0, 1.0);
-  // The square root spreads the small gaps, which are most of them.
-  return t < 0 ? Mix(middle, inside, std::sqrt(-t)) : Mix(middle, far, std::sqrt(t));
+  if (t < 0.0) return Mix(ramp[0], covered, -t);
+  if (t < 0.25) return Mix(ramp[0], ramp[1], 4.0 * t);
+  if (t < 0.5) return Mix(ramp[1], ramp[2], 4.0 * t - 1.0);
+  return Mix(ramp[2], ramp[3], 2.0 * t - 1.0);
 }
 
 Color Lit(const Color& color, const Eigen::Vector3d& normal) {

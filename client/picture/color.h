@@ -13,11 +13,11 @@ inline const Color kPaper{1.0f, 1.0f, 1.0f};
 inline const Color kSkin{0.80f, 0.76f, 0.72f};
 inline const Color kInk{0.13f, 0.15f, 0.18f};
 
-// A colour for each body part ("torso", "left_arm", ...), left and right alike in tone; other words
-// get one of the same family. `shade` in [0, 1] tells neighbouring primitives of a part apart.
+// A colour for each body part ("torso", "left_arm", ...), lighter or darker by `shade` in [0, 1],
+// which tells the primitives of a part apart. Other words: any colour, by `shade` alone.
 [[nodiscard]] Color PartColor(const std::string& part, double shade);
 
-// From blue over white to red; `value` in [-1, 1].
+// From blue (-1) over near white (0) and orange to dark red (1).
 [[nodiscard]] Color SignedColor(double value);
 
 // The colour of a surface under the picture's lamps. `normal` is (right, up, towards the eye).

@@ -53,6 +53,18 @@ class BodyCageMaker {
            ring.hip * (shape_.hip_factor - 1.0);
   }
 
+  // A ring of the head, grown about the top of the neck.
+  [[nodiscard]] TrunkRing HeadRing(TrunkRing r) const {
+    const double neck = proportions_.trunk.back().y_side;
+    for (double* const y : {&r.y_front, &r.y_side, &r.y_back}) {
+      *y = neck + shape_.head_factor * (*y - neck);
+    }
+    for (double* const reach : {&r.half_width, &r.z_front, &r.z_side, &r.z_back}) {
+      *reach *= shape_.head_factor;
+    }
+    return r;
+  }
+
   // From the middle in front over the left side to the middle behind.
   Ring AddTrunkRing(const TrunkRing& r) {
     const double factor = GirthFactor(r);
@@ -105,11 +117,12 @@ class BodyCageMaker {
       return;
     }
     for (const TrunkRing& r : proportions_.head) {
-      const Ring ring = AddTrunkRing(r);
+      const Ring ring = AddTrunkRing(HeadRing(r));
       builder_.Bridge(ring, below, false);
       below = ring;
     }
-    CapHalfRing(below, proportions_.crown_y - proportions_.head.back().y_side);
+    CapHalfRing(below,
+                shape_.head_factor * (proportions_.crown_y - proportions_.head.back().y_side));
   }
 
   [[nodiscard]] double LegFactor(double y) const {
@@ -224,9 +237,9 @@ class BodyCageMaker {
     double angle_rad;
   };
   [[nodiscard]] AxisPoint ArmAxisAt(const Vector3d& start, double t) const {
-    constexpr double kTurnLength = 0.06;
+    constexpr double kTurnLength = 0.055;
     constexpr int kSteps = 64;
-    const double first = 0.60 + 0.55 * shape_.arm_angle_rad;
+    const double first = 0.50 + 0.60 * shape_.arm_angle_rad;
     const auto angle_at = [&](double s) {
       return first + (shape_.arm_angle_rad - first) * SmoothStep(s / kTurnLength);
     };
@@ -242,12 +255,16 @@ class BodyCageMaker {
     const AxisPoint axis = ArmAxisAt(armhole, r.t);
     const Vector3d up(std::cos(axis.angle_rad), std::sin(axis.angle_rad), 0.0);
     const double swell = kLimbSwell * ArmFactor(r.t);
+    // The middle finger is the longest.
+    const double shortfall = 0.35 * std::max(0.0, r.t - 0.415);
+    const Vector3d along(std::sin(axis.angle_rad), -std::cos(axis.angle_rad), 0.0);
     Ring ring;
     for (int k = 0; k < kLimbColumns; ++k) {
       const double angle = pi / 4.0 - k * 2.0 * pi / kLimbColumns;
-      ring.push_back(
-          builder_.Add(axis.position + swell * r.half_height * std::cos(angle) * up +
-                       Vector3d(0, 0, r.forward + swell * r.half_depth * std::sin(angle))));
+      Vector3d p = axis.position + swell * r.half_height * std::cos(angle) * up;
+      p.z() += r.forward + swell * r.half_depth * std::sin(angle);
+      p -= shortfall * std::pow(std::sin(angle), 2) * along;
+      ring.push_back(builder_.Add(p));
     }
     return ring;
   }

@@ -18,6 +18,7 @@ struct BodyShape {
   double waist_factor = 1.0;
   double hip_factor = 1.0;
   double arm_angle_rad = 0.8;  // from straight down
+  double head_factor = 1.0;    // of its size: a child's is larger
   bool with_head = true;
   bool with_hands = true;
   bool with_feet = true;

@@ -17,26 +17,46 @@ void AddTrunkBumps(const BodyShape& shape, std::vector<Bump>& bumps) {
   const double hip = shape.hip_factor;
   if (shape.sex == MannequinSex::kFemale) {
     bumps.push_back(
-        Level({.045 * bust, .722, .058 * bust}, {.052, .058, .09}, {.004, -.004, .030}));
+        Level({.044 * bust, .727, .060 * bust}, {.050, .056, .09}, {.003, -.004, .022}));
     bumps.push_back(
-        Level({.048 * bust, .710, .066 * bust}, {.038, .036, .08}, {.002, -.003, .012}));
+        Level({.047 * bust, .715, .068 * bust}, {.038, .036, .08}, {.002, -.003, .011}));
   } else {
-    bumps.push_back(Level({.050 * bust, .745, .06 * bust}, {.052, .050, .08}, {.001, -.002, .009}));
+    bumps.push_back(
+        Level({.050 * bust, .745, .060 * bust}, {.056, .046, .08}, {.002, -.002, .008}));
+    bumps.push_back(Level({0, .745, .064 * bust}, {.010, .050, .06}, {0, 0, -.003}));  // breastbone
   }
-  bumps.push_back(Level({.047 * hip, .505, -.068 * hip}, {.055, .065, .08}, {.002, -.004, -.020}));
-  bumps.push_back(Level({0, .500, -.070 * hip}, {.012, .050, .08}, {0, 0, .012}));       // cleft
-  bumps.push_back(Level({0, .680, -.055 * bust}, {.022, .13, .05}, {0, 0, .006}));       // spine
-  bumps.push_back(Level({.050, .765, -.070 * bust}, {.035, .045, .05}, {0, 0, -.004}));  // blade
+  bumps.push_back(Level({.046 * hip, .508, -.066 * hip}, {.060, .062, .08}, {.001, -.002, -.014}));
+  bumps.push_back(Level({0, .490, .050}, {.050, .042, .06}, {0, 0, .0025}));             // pubis
+  bumps.push_back(Level({0, .500, -.070 * hip}, {.012, .045, .08}, {0, 0, .010}));       // cleft
+  bumps.push_back(Level({0, .680, -.055 * bust}, {.022, .13, .05}, {0, 0, .005}));       // spine
+  bumps.push_back(Level({.050, .772, -.070 * bust}, {.035, .045, .05}, {0, 0, -.004}));  // blade
+  bumps.push_back(Level({.042, .826, .024}, {.045, .007, .03}, {0, .001, .003}));  // collarbone
 }
 
-void AddFaceBumps(std::vector<Bump>& bumps) {
-  bumps.push_back(Level({0, .921, .070}, {.012, .016, .03}, {0, -.003, .016}));  // tip of the nose
-  bumps.push_back(Level({0, .934, .068}, {.009, .022, .03}, {0, 0, .008}));      // its bridge
-  bumps.push_back(Level({.018, .939, .062}, {.015, .012, .03}, {0, 0, -.007}));  // eye socket
-  bumps.push_back(Level({0, .878, .064}, {.018, .014, .03}, {0, -.001, .006}));  // chin
-  bumps.push_back(Level({0, .902, .068}, {.018, .005, .03}, {0, 0, .004}));      // lips
-  bumps.push_back(Level({0, .893, .068}, {.018, .006, .03}, {0, 0, -.003}));
-  bumps.push_back(Level({.048, .930, -.004}, {.02, .018, .010}, {.008, 0, -.003}));  // ear
+// In the frame of a head of the usual size.
+std::vector<Bump> FaceBumps() {
+  std::vector<Bump> bumps;
+  bumps.push_back(Level({0, .918, .066}, {.011, .013, .03}, {0, -.002, .011}));  // tip of the nose
+  bumps.push_back(Level({0, .932, .066}, {.008, .022, .03}, {0, 0, .005}));      // its bridge
+  bumps.push_back(Level({.018, .939, .060}, {.016, .011, .03}, {0, 0, -.006}));  // eye socket
+  bumps.push_back(Level({.018, .939, .060}, {.009, .006, .03}, {0, 0, .0035}));  // eye
+  bumps.push_back(Level({0, .880, .062}, {.018, .013, .03}, {0, -.001, .005}));  // chin
+  bumps.push_back(Level({0, .902, .066}, {.016, .0045, .03}, {0, 0, .003}));     // lips
+  bumps.push_back(Level({0, .895, .066}, {.015, .0045, .03}, {0, 0, .002}));
+  bumps.push_back(Level({.049, .930, -.006}, {.02, .018, .011}, {.007, 0, -.004}));  // ear
+  return bumps;
+}
+
+// The head grows about the top of the neck.
+void AddFaceBumps(const BodyShape& shape, std::vector<Bump>& bumps) {
+  const double factor = shape.head_factor;
+  const Vector3d neck(0, ProportionsOf(shape.sex).trunk.back().y_side, 0);
+  for (Bump bump : FaceBumps()) {
+    bump.center = neck + factor * (bump.center - neck);
+    bump.radii *= factor;
+    bump.push *= factor;
+    bumps.push_back(bump);
+  }
 }
 
 // Three shallow furrows between the fingers, on both sides of the hand.
@@ -49,7 +69,7 @@ void AddFingerBumps(const ArmFrame& arm, std::vector<Bump>& bumps) {
     for (const double across : {-.0125, 0.0, .0125}) {
       const Vector3d center =
           arm.origin + .432 * arm.along + side * .0085 * arm.up + Vector3d(0, 0, .026 + across);
-      bumps.push_back({center, axes, {.030, .007, .0055}, -side * .003 * arm.up});
+      bumps.push_back({center, axes, {.048, .007, .0055}, -side * .003 * arm.up});
     }
   }
 }
@@ -76,8 +96,8 @@ std::vector<Bump> BodyBumps(const BodyShape& shape, const BodyCage& cage) {
   std::vector<Bump> bumps;
   AddTrunkBumps(shape, bumps);
   const double knee_x = 0.38 * cage.leg_x_at_crotch + 0.62 * cage.leg_x_at_ankle;
-  bumps.push_back(Level({knee_x, .288, .035}, {.024, .026, .03}, {0, 0, .005}));
-  if (shape.with_head) AddFaceBumps(bumps);
+  bumps.push_back(Level({knee_x, .288, .035}, {.028, .034, .04}, {0, 0, .0022}));
+  if (shape.with_head) AddFaceBumps(shape, bumps);
   if (shape.with_hands) AddFingerBumps(cage.arm, bumps);
   return bumps;
 }

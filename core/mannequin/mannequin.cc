@@ -116,6 +116,11 @@ Girths WantedGirths(const MannequinOptions& options) {
           ratio(options.hip_m, usual.hip_girth)};
 }
 
+// The smaller the person, the younger, and the larger the head: a third at 0.8 m.
+double HeadFactor(double height_m) {
+  return 1.0 + 0.35 * std::clamp((1.55 - height_m) / 0.75, 0.0, 1.0);
+}
+
 struct FittedShape {
   BodyShape shape;
   double height = 1.0;  // of the smooth surface, soles to crown, in the cage's unit
@@ -130,6 +135,7 @@ FittedShape FitShape(const MannequinOptions& options) {
   FittedShape fitted;
   fitted.shape.sex = options.sex;
   fitted.shape.arm_angle_rad = ArmAngle(options);
+  fitted.shape.head_factor = HeadFactor(options.height_m);
   for (int step = 0; step < kMaxSteps; ++step) {
     const BodyCage cage = BuildBodyCage(fitted.shape);
     const SmoothSurface surface(WithMirrorImage(cage.half), 2);
