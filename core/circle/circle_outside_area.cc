@@ -1,0 +1,135 @@
+#include "core/circle/circle_outside_area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace capfit::circle {
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// What walking along the outline, seen from the circle's centre, adds up to.
+//
+// The part of the walk inside the disc sweeps triangles (eq. 3's A_tri), twice whose area goes to
+// `twice_inside`. The part outside is replaced by its central projection onto the circle: an angle
+// and the chord between its ends. Green's theorem then gives the area of disc-and-outline as
+// twice_inside / 2 + r^2 angle / 2, signs included, wherever the centre lies.
+//
+// Angles of one outside stretch telescope: only its ends need an arc tangent, and the turns in
+// between are counted where the walk crosses the negative x axis.
+class Walk {
+ public:
+  explicit Walk(double radius) : radius_(radius), radius2_(radius * radius) {}
+
+  void Edge(double ux, double uy, double u2, double vx, double vy, double v2) {
+    const double cross = ux * vy - uy * vx;
+    const bool u_inside = u2 <= radius2_;
+    const bool v_inside = v2 <= radius2_;
+    if (u_inside && v_inside) {
+      twice_inside_ += cross;
+      return;
+    }
+    const double ex = vx - ux;
+    const double ey = vy - uy;
+    const double length2 = ex * ex + ey * ey;
+    const double half_b = ux * ex + uy * ey;  // |u + t e|^2 = u2 + 2 t half_b + t^2 length2
+    const double root2 = half_b * half_b - length2 * (u2 - radius2_);
+    if (!u_inside && !v_inside && (root2 <= 0.0 || half_b >= 0.0 || half_b + length2 <= 0.0)) {
+      CountCrossing(uy, vy, cross);
+      return;
+    }
+    const double root = std::sqrt(std::max(0.0, root2));
+    const double t_in = u_inside ? 0.0 : std::clamp((-half_b - root) / length2, 0.0, 1.0);
+    const double t_out = v_inside ? 1.0 : std::clamp((-half_b + root) / length2, t_in, 1.0);
+    const double ax = ux + t_in * ex;
+    const double ay = uy + t_in * ey;
+    const double bx = ux + t_out * ex;
+    const double by = uy + t_out * ey;
+    twice_inside_ += ax * by - ay * bx;
+    if (!u_inside) {
+      CountCrossing(uy, ay, ux * ay - uy * ax);
+      Enter(ax, ay);
+    }
+    if (!v_inside) {
+      Leave(bx, by);
+      CountCrossing(by, vy, bx * vy - by * vx);
+    }
+  }
+
+  [[nodiscard]] OutsideArea Result() const {
+    OutsideArea result;
+    const double outside_angle = kTwoPi * (1.0 - turns_) - angle_;
+    result.area_m2 = std::clamp(0.5 * radius2_ * outside_angle - 0.5 * twice_inside_, 0.0,
+                                std::numbers::pi * radius2_);
+    result.by_radius_m = radius_ * outside_angle;
+    // A move of the circle gains area on its outside arcs: minus the integral of the normal over
+    // the arcs inside the outline, because over the whole circle it is 0.
+    result.by_center_m = Eigen::Vector2d(-radius_ * chord_y_, radius_ * chord_x_);
+    return result;
+  }
+
+ private:
+  // An outside stretch ends, respectively begins, at this point of the circle. Adding 0.0 turns
+  // -0.0 into +0.0, so that the arc tangent and the crossing count agree on the side.
+  void Enter(double x, double y) {
+    angle_ += std::atan2(y + 0.0, x);
+    Chord(x, y, 1.0);
+  }
+  void Leave(double x, double y) {
+    angle_ -= std::atan2(y + 0.0, x);
+    Chord(x, y, -1.0);
+  }
+  void Chord(double x, double y, double sign) {
+    const double scale = sign / std::sqrt(x * x + y * y);
+    chord_x_ += scale * x;
+    chord_y_ += scale * y;
+  }
+  void CountCrossing(double from_y, double to_y, double cross) {
+    if (from_y >= 0.0 && to_y < 0.0 && cross > 0.0) ++turns_;
+    if (from_y < 0.0 && to_y >= 0.0 && cross < 0.0) --turns_;
+  }
+
+  double radius_;
+  double radius2_;
+  double twice_inside_ = 0.0;
+  double angle_ = 0.0;
+  double chord_x_ = 0.0;
+  double chord_y_ = 0.0;
+  int turns_ = 0;
+};
+
+}  // namespace
+
+OutsideArea CircleOutsideAreaWithGradient(const Circle& circle, const section::Polygon& outline) {
+  if (!(circle.radius_m > 0.0)) return {};
+  const std::span<const Eigen::Vector2d> vertices = outline.vertices();
+  const double cx = circle.center_m.x();
+  const double cy = circle.center_m.y();
+  Walk walk(circle.radius_m);
+  double ux = vertices.back().x() - cx;
+  double uy = vertices.back().y() - cy;
+  double u2 = ux * ux + uy * uy;
+  for (const Eigen::Vector2d& vertex : vertices) {
+    const double vx = vertex.x() - cx;
+    const double vy = vertex.y() - cy;
+    const double v2 = vx * vx + vy * vy;
+    walk.Edge(ux, uy, u2, vx, vy, v2);
+    ux = vx;
+    uy = vy;
+    u2 = v2;
+  }
+  return walk.Result();
+}
+
+double CircleOutsideArea(const Circle& circle, const section::Polygon& outline) {
+  return CircleOutsideAreaWithGradient(circle, outline).area_m2;
+}
+
+double CircleOutsideAreaSum(std::span<const Circle> circles, const section::Polygon& outline) {
+  double sum = 0.0;
+  for (const Circle& circle : circles) sum += CircleOutsideArea(circle, outline);
+  return sum;
+}
+
+}  // namespace capfit::circle

@@ -1,0 +1,286 @@
+#include "core/circle/variational_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "core/base/random.h"
+#include "core/circle/circle_outside_area.h"
+#include "core/circle/partition.h"
+#include "core/circle/union_area.h"
+
+namespace capfit::circle {
+namespace {
+
+// Fitting steps inside a Lloyd round, where the points will change anyway, and at the end.
+constexpr int kRoundSteps = 3;
+constexpr int kFinalSteps = 24;
+// A round or a teleport that saves less than this share counts as no improvement.
+constexpr double kSignificantGain = 2e-3;
+// Rounds without improvement that make a local minimum.
+constexpr int kIdleRounds = 2;
+
+// Ends of the outline's longest diagonal.
+std::pair<Eigen::Vector2d, Eigen::Vector2d> LongestDiagonal(
+    std::span<const Eigen::Vector2d> points) {
+  const std::vector<Eigen::Vector2d> hull = ConvexHull(points);
+  std::pair<Eigen::Vector2d, Eigen::Vector2d> ends{hull.front(), hull.front()};
+  double longest = 0.0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    for (std::size_t j = i + 1; j < hull.size(); ++j) {
+      const double length = (hull[j] - hull[i]).squaredNorm();
+      if (length <= longest) continue;
+      longest = length;
+      ends = {hull[i], hull[j]};
+    }
+  }
+  return ends;
+}
+
+class Search {
+ public:
+  Search(const Region& region, const section::Polygon& outline, const CircleOptions& options,
+         const FitObserver& observer)
+      : region_(region),
+        outline_(outline),
+        options_(options),
+        observer_(observer),
+        random_(options.seed) {}
+
+  // The best of several local minima.
+  std::vector<Cluster> Run(std::vector<Seed> seeds) {
+    std::vector<Cluster> best = Descend(std::move(seeds));
+    double least = Waste(best);
+    int idle = 0;
+    while (idle < options_.max_idle_teleports && best.size() > 1 && least > 0.0 &&
+           !observer_.IsCancelled()) {
+      std::vector<Cluster> next = Descend(Teleport(best));
+      const double waste = Waste(next);
+      idle = waste < (1.0 - kSignificantGain) * least ? 0 : idle + 1;
+      if (waste < least) {
+        least = waste;
+        best = std::move(next);
+      }
+    }
+    for (Cluster& cluster : best) Fit(cluster, kFinalSteps);
+    return best;
+  }
+
+  // Evenly on the longest diagonal of the region.
+  std::vector<Seed> FreeSeeds(int count) const {
+    const auto [a, b] = LongestDiagonal(region_.points_m);
+    std::vector<Seed> seeds;
+    const Place place = region_.kind == Region::Kind::kHalf ? Place::kPaired : Place::kFree;
+    for (int i = 0; i < count; ++i) {
+      seeds.push_back({a + (i + 0.5) / count * (b - a), place});
+    }
+    return seeds;
+  }
+
+  // Pairs evenly across, centred circles evenly from back to front.
+  std::vector<Seed> FoldedSeeds(int pairs, int centred) const {
+    Eigen::Vector2d low = region_.points_m.front();
+    Eigen::Vector2d high = low;
+    for (const Eigen::Vector2d& p : region_.points_m) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    std::vector<Seed> seeds;
+    for (int i = 0; i < centred; ++i) {
+      const double t = (i + 0.5) / centred;
+      seeds.push_back({{0.0, low.y() + t * (high.y() - low.y())}, Place::kCentred});
+    }
+    const int across = 2 * pairs + std::min(centred, 1);
+    for (int i = 0; i < pairs; ++i) {
+      const double x = high.x() * (across - 1 - 2 * i) / across;
+      seeds.push_back({{x, 0.5 * (low.y() + high.y())}, Place::kPaired});
+    }
+    return seeds;
+  }
+
+ private:
+  // Partition and fit until nothing improves; the best round's clusters.
+  std::vector<Cluster> Descend(std::vector<Seed> seeds) {
+    std::vector<Cluster> best;
+    std::vector<int> owners;
+    double least = 0.0;
+    int idle = 0;
+    for (int round = 0; round < options_.max_iterations && idle < kIdleRounds; ++round) {
+      std::vector<int> next = Partition(region_.points_m, seeds, outline_);
+      if (next == owners) break;
+      owners = std::move(next);
+      std::vector<Cluster> clusters = FitAll(seeds, owners);
+      const double sum = OutsideAreaSum(clusters);
+      idle = !best.empty() && sum > (1.0 - kSignificantGain) * least ? idle + 1 : 0;
+      for (std::size_t i = 0; i < seeds.size(); ++i) {
+        seeds[i].center_m = clusters[i].circle.center_m;
+      }
+      if (best.empty() || sum < least) {
+        least = sum;
+        best = std::move(clusters);
+      }
+      if (observer_.IsCancelled()) break;
+    }
+    return best;
+  }
+
+  std::vector<Cluster> FitAll(std::span<const Seed> seeds, std::span<const int> owners) const {
+    std::vector<Cluster> clusters(seeds.size());
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      clusters[i].place = seeds[i].place;
+      clusters[i].circle.center_m = seeds[i].center_m;
+    }
+    for (std::size_t p = 0; p < owners.size(); ++p) {
+      clusters[static_cast<std::size_t>(owners[p])].points.push_back(static_cast<int>(p));
+    }
+    FillEmpty(clusters);
+    for (Cluster& cluster : clusters) {
+      cluster.hull = HullOf(cluster);
+      Fit(cluster, kRoundSteps);
+    }
+    return clusters;
+  }
+
+  // A cluster without points takes half of the largest cluster's.
+  static void FillEmpty(std::vector<Cluster>& clusters) {
+    for (Cluster& cluster : clusters) {
+      if (!cluster.points.empty()) continue;
+      Cluster& largest = *std::max_element(
+          clusters.begin(), clusters.end(),
+          [](const Cluster& a, const Cluster& b) { return a.points.size() < b.points.size(); });
+      if (largest.points.size() < 2) continue;
+      const auto middle =
+          largest.points.begin() + static_cast<std::ptrdiff_t>(largest.points.size() / 2);
+      cluster.points.assign(middle, largest.points.end());
+      largest.points.erase(middle, largest.points.end());
+    }
+  }
+
+  std::vector<Eigen::Vector2d> HullOf(const Cluster& cluster) const {
+    std::vector<Eigen::Vector2d> points;
+    points.reserve(cluster.points.size());
+    for (const int p : cluster.points) {
+      points.push_back(region_.points_m[static_cast<std::size_t>(p)]);
+    }
+    return ConvexHull(points);  // indices rise, so the points are still sorted
+  }
+
+  void Fit(Cluster& cluster, int steps) const {
+    if (cluster.hull.empty()) {
+      cluster.circle.radius_m = 0.0;
+      cluster.outside_area_m2 = 0.0;
+      return;
+    }
+    const CircleFit fit =
+        FitCircle(outline_, cluster.hull, cluster.circle.center_m, cluster.place, steps);
+    cluster.circle = fit.circle;
+    cluster.outside_area_m2 = fit.outside_area_m2;
+  }
+
+  // Local minima are compared by what they really waste: overlaps count once.
+  double Waste(std::span<const Cluster> clusters) const {
+    return UnionOutsideArea(AllCircles(clusters), outline_);
+  }
+
+  // Seeds of the clusters without the most overlapped one, the most wasteful one split in two.
+  std::vector<Seed> Teleport(std::span<const Cluster> clusters) {
+    const std::size_t deleted = MostOverlapped(clusters);
+    const std::size_t split = MostWasteful(clusters, deleted);
+    std::vector<Seed> seeds;
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+      const std::size_t from = i == deleted || i == split ? split : i;
+      const Eigen::Vector2d center =
+          from == split ? RandomPoint(clusters[split]) : clusters[i].circle.center_m;
+      const bool centred = clusters[i].place == Place::kCentred;
+      seeds.push_back({centred ? Eigen::Vector2d(0.0, center.y()) : center, clusters[i].place});
+    }
+    return seeds;
+  }
+
+  static std::size_t MostOverlapped(std::span<const Cluster> clusters) {
+    const std::vector<double> ratios = OverlapRatios(AllCircles(clusters));
+    std::size_t most = 0;
+    double highest = -1.0;
+    std::size_t circle = 0;
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+      if (ratios[circle] > highest) {
+        highest = ratios[circle];
+        most = i;
+      }
+      circle += static_cast<std::size_t>(CircleCount(clusters[i].place));
+    }
+    return most;
+  }
+
+  static std::size_t MostWasteful(std::span<const Cluster> clusters, std::size_t except) {
+    std::size_t most = except == 0 ? 1 : 0;
+    for (std::size_t i = most + 1; i < clusters.size(); ++i) {
+      if (i != except && clusters[i].outside_area_m2 > clusters[most].outside_area_m2) most = i;
+    }
+    return most;
+  }
+
+  Eigen::Vector2d RandomPoint(const Cluster& cluster) {
+    std::vector<int> candidates;
+    for (const int p : cluster.points) {
+      if (region_.is_interior[static_cast<std::size_t>(p)]) candidates.push_back(p);
+    }
+    if (candidates.empty()) candidates = cluster.points;
+    if (candidates.empty()) return cluster.circle.center_m;
+    const auto index = static_cast<std::size_t>(random_.NextBelow(candidates.size()));
+    return region_.points_m[static_cast<std::size_t>(candidates[index])];
+  }
+
+  const Region& region_;
+  const section::Polygon& outline_;
+  const CircleOptions& options_;
+  const FitObserver& observer_;
+  Random random_;
+};
+
+}  // namespace
+
+double OutsideAreaSum(std::span<const Cluster> clusters) {
+  double sum = 0.0;
+  for (const Cluster& c : clusters) sum += CircleCount(c.place) * c.outside_area_m2;
+  return sum;
+}
+
+Region MakeRegion(Region::Kind kind, std::span<const Eigen::Vector2d> boundary_m,
+                  std::span<const Eigen::Vector2d> interior_m) {
+  std::vector<std::pair<Eigen::Vector2d, bool>> marked;
+  const auto add = [&](const Eigen::Vector2d& p, bool is_interior) {
+    if (kind == Region::Kind::kWhole || p.x() >= 0.0) marked.emplace_back(p, is_interior);
+  };
+  for (const Eigen::Vector2d& p : boundary_m) add(p, false);
+  for (const Eigen::Vector2d& p : interior_m) add(p, true);
+  std::sort(marked.begin(), marked.end(), [](const auto& a, const auto& b) {
+    return a.first.x() != b.first.x() ? a.first.x() < b.first.x() : a.first.y() < b.first.y();
+  });
+  Region region;
+  region.kind = kind;
+  for (const auto& [point, is_interior] : marked) {
+    region.points_m.push_back(point);
+    region.is_interior.push_back(is_interior);
+  }
+  return region;
+}
+
+std::vector<Cluster> SearchClusters(const Region& region, const section::Polygon& outline,
+                                    int circle_count, const CircleOptions& options,
+                                    const FitObserver& observer) {
+  Search search(region, outline, options, observer);
+  if (region.kind == Region::Kind::kWhole) return search.Run(search.FreeSeeds(circle_count));
+  if (region.kind == Region::Kind::kHalf) return search.Run(search.FreeSeeds(circle_count / 2));
+  const int pairs = circle_count / 2;
+  std::vector<Cluster> best = search.Run(search.FoldedSeeds(pairs, circle_count - 2 * pairs));
+  if (pairs == 0) return best;
+  std::vector<Cluster> other =
+      search.Run(search.FoldedSeeds(pairs - 1, circle_count - 2 * pairs + 2));
+  const double waste = UnionOutsideArea(AllCircles(best), outline);
+  const double other_waste = UnionOutsideArea(AllCircles(other), outline);
+  return other_waste < waste ? other : best;
+}
+
+}  // namespace capfit::circle
