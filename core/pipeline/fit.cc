@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/base/status.h"
+#include "core/circle/error_curve.h"
 #include "core/coverage/cover_vertices.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/pipeline/circle_stage.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
 #include "core/pipeline/to_caller_frame.h"
@@ -103,12 +103,15 @@ class BodyFit {
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer_));
 
     clock_.Begin(Stage::kCircle);
-    CircleStage circles(features.polygons, options_.seed, pool_, observer_);
-    circles.Prepare(kCirclesFittedAhead);
+    circle::CircleOptions circle_options;
+    circle_options.seed = options_.seed;
+    const circle::ErrorCurves curves(features.polygons, kMaxCirclesPerPolygon, circle_options,
+                                     observer_);
+    curves.Prepare(kCirclesFittedAhead, pool_);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer_));
 
     clock_.Begin(Stage::kCapsule);
-    PrimitiveStage stage = BuildUnderBudget(*body_, options_, features.polygons, circles);
+    PrimitiveStage stage = BuildUnderBudget(*body_, options_, features.polygons, curves);
     set_ = std::move(stage.set);
     if (options_.want_polygons) {
       result_.polygons = PolygonResults(features.polygons, stage.approximations, caller_from_body_);
@@ -147,6 +150,7 @@ class BodyFit {
     return CheckCancelled(observer_);
   }
 
+  static constexpr int kMaxCirclesPerPolygon = 8;
   // Most polygons end up with at most this many circles; the rest is fitted when asked for.
   static constexpr int kCirclesFittedAhead = 4;
 

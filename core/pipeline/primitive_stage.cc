@@ -9,7 +9,6 @@
 namespace capfit::pipeline {
 namespace {
 
-constexpr int kMaxCirclesPerPolygon = 8;
 // Primitives that may stay unused: what the cheapest mirrored pair of circles costs.
 constexpr int kUnusedAllowed = 3;
 constexpr int kMaxRounds = 6;
@@ -38,10 +37,10 @@ int Unused(const Counts& counts, const circle::Budget& budget) {
 
 PrimitiveStage Build(const body::Body& body, const FitOptions& options,
                      std::span<const section::FeaturePolygon> polygons,
-                     const std::vector<int>& circle_counts, CircleStage& circles) {
+                     const std::vector<int>& circle_counts, const circle::ErrorCurves& curves) {
   PrimitiveStage stage;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    stage.approximations.push_back(circles.Approximation(static_cast<int>(i), circle_counts[i]));
+    stage.approximations.push_back(curves.Approximation(static_cast<int>(i), circle_counts[i]));
   }
   stage.set = capsule::BuildPrimitives(polygons, stage.approximations, /*link_limbs=*/true);
   capsule::AddEndBalls(body, options.parts, stage.set);
@@ -51,10 +50,10 @@ PrimitiveStage Build(const body::Body& body, const FitOptions& options,
 
 PrimitiveStage BuildByThreshold(const body::Body& body, const FitOptions& options,
                                 std::span<const section::FeaturePolygon> polygons,
-                                const circle::ErrorOf& error_m2, CircleStage& circles) {
-  const std::vector<int> counts = circle::AllocateByThreshold(polygons, *options.polygon_error,
-                                                              kMaxCirclesPerPolygon, error_m2);
-  return Build(body, options, polygons, counts, circles);
+                                const circle::ErrorCurves& curves) {
+  const std::vector<int> counts = circle::AllocateByThreshold(
+      polygons, *options.polygon_error, curves.max_circles(), curves.AsErrorOf());
+  return Build(body, options, polygons, counts, curves);
 }
 
 // `budget` with `more` primitives on top of each limit that is set.
@@ -69,12 +68,9 @@ circle::Budget Raised(circle::Budget budget, int more) {
 
 PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
                                 std::span<const section::FeaturePolygon> polygons,
-                                CircleStage& circles) {
-  const circle::ErrorOf error_m2 = [&circles](int polygon, int count) {
-    return circles.Error_m2(polygon, count);
-  };
+                                const circle::ErrorCurves& curves) {
   if (options.polygon_error.has_value()) {
-    return BuildByThreshold(body, options, polygons, error_m2, circles);
+    return BuildByThreshold(body, options, polygons, curves);
   }
   const circle::Budget total = TotalBudget(options);
   const circle::Budget chains = ChainBudget(total, OverheadOf(body, options.parts));
@@ -82,11 +78,11 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
   std::vector<int> tried;
   int bonus = 0;  // what pruning is expected to free again
   for (int round = 0; round < kMaxRounds; ++round) {
-    const std::vector<int> counts = circle::AllocateUnderBudget(polygons, Raised(chains, bonus),
-                                                                kMaxCirclesPerPolygon, error_m2);
+    const std::vector<int> counts = circle::AllocateUnderBudget(
+        polygons, Raised(chains, bonus), curves.max_circles(), curves.AsErrorOf());
     if (counts == tried) break;
     tried = counts;
-    PrimitiveStage stage = Build(body, options, polygons, counts, circles);
+    PrimitiveStage stage = Build(body, options, polygons, counts, curves);
     const Counts spent = CountsOf(stage.set);
     const bool fits = Fits(spent, total);
     if (round == 0 || (fits && Unused(spent, total) < Unused(CountsOf(best.set), total))) {

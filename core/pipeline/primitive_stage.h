@@ -9,7 +9,7 @@
 #include "core/capsule/primitive_set.h"
 #include "core/circle/allocation.h"
 #include "core/circle/approximate_polygon.h"
-#include "core/pipeline/circle_stage.h"
+#include "core/circle/error_curve.h"
 #include "core/pipeline/fit.h"
 #include "core/section/feature_polygon.h"
 
@@ -26,7 +26,7 @@ struct PrimitiveStage {
 // can be bought. Never above the budget unless one circle per polygon already is.
 [[nodiscard]] PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
                                               std::span<const section::FeaturePolygon> polygons,
-                                              CircleStage& circles);
+                                              const circle::ErrorCurves& curves);
 
 }  // namespace capfit::pipeline
 
