@@ -1,0 +1,36 @@
+// The flags of `capfit approximate` that say what is wanted.
+#ifndef CAPFIT_CLIENT_APPROXIMATE_FLAGS_H_
+#define CAPFIT_CLIENT_APPROXIMATE_FLAGS_H_
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/pipeline/fit.h"
+
+namespace capfit::client {
+
+struct FitFlags {
+  pipeline::FitOptions options;
+  std::vector<std::string> parts;  // words; empty: torso, arms, legs
+  std::string landmarks_file;      // empty: none
+};
+
+// Adds the flags to `command`; CLI11 checks words and that there is one budget at most. Ranges of
+// numbers are checked by pipeline::ValidateOptions.
+void AddFitFlags(CLI::App& command, FitFlags& flags);
+// --unit and --up alone, for commands that only look at a body.
+void AddFrameFlags(CLI::App& command, body::Unit& unit, body::UpAxis& up);
+// --parts alone.
+void AddPartsFlag(CLI::App& command, std::vector<std::string>& parts);
+
+// "torso", "arms", ...; "all" for all six. No words: the default selection.
+[[nodiscard]] body::PartSelection PartsOf(const std::vector<std::string>& words);
+
+// The options, with the landmarks read. NOT_FOUND and INVALID_ARGUMENT for the landmarks file.
+[[nodiscard]] absl::StatusOr<pipeline::FitOptions> OptionsOf(const FitFlags& flags);
+
+}  // namespace capfit::client
+
+#endif  // CAPFIT_CLIENT_APPROXIMATE_FLAGS_H_

@@ -1,0 +1,63 @@
+// Calls a capfit server from C++.
+//
+//   const BodyClient client = BodyClient::Connect("127.0.0.1:50051");
+//   absl::StatusOr<pipeline::FitResult> result = client.ApproximateFile(bytes, format, options);
+#ifndef CAPFIT_CLIENT_BODY_CLIENT_H_
+#define CAPFIT_CLIENT_BODY_CLIENT_H_
+
+#include <grpcpp/channel.h>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "capfit/v1/service.grpc.pb.h"
+#include "core/mesh/read_mesh.h"
+#include "core/pipeline/fit.h"
+
+namespace capfit::client {
+
+// Called for each progress message, on the calling thread.
+using ProgressFunction = std::function<void(Stage stage, double fraction_done)>;
+
+// What may be set about one call.
+struct CallOptions {
+  double timeout_seconds = 300.0;  // of the whole call, upload and queueing included; > 0
+  std::string request_id;          // at most 128 bytes; comes back in logs of the server
+  ProgressFunction on_progress;    // may be empty
+};
+
+// Cheap to copy; safe to use from several threads at once. Calls block. A server that is full or
+// not reachable is asked up to four times, with the pauses that it names.
+//
+// Errors have the server's code and message, and its FieldOf and ReasonOf; besides: UNAVAILABLE
+// (not reachable), DEADLINE_EXCEEDED, INTERNAL (the answer breaks the contract).
+class BodyClient {
+ public:
+  // Does not block: the connection is made by the first call.
+  [[nodiscard]] static BodyClient Connect(const std::string& host_and_port);
+  explicit BodyClient(const std::shared_ptr<grpc::Channel>& channel);
+
+  // Uploads a mesh file as it is, in chunks of 256 KiB. kUnknown: the server looks at the bytes.
+  [[nodiscard]] absl::StatusOr<pipeline::FitResult> ApproximateFile(
+      std::span<const std::byte> bytes, mesh::MeshFormat format,
+      const pipeline::FitOptions& options, const CallOptions& call = {}) const;
+
+  // Uploads arrays, in double precision and chunks of 256 KiB. Joints are not sent.
+  [[nodiscard]] absl::StatusOr<pipeline::FitResult> ApproximateMesh(
+      const mesh::PolygonSoup& soup, const pipeline::FitOptions& options,
+      const CallOptions& call = {}) const;
+
+  [[nodiscard]] absl::StatusOr<v1::GetServerInfoResponse> GetServerInfo(
+      double timeout_seconds = 10.0) const;
+
+ private:
+  std::shared_ptr<v1::BodyApproximationService::Stub> stub_;
+};
+
+}  // namespace capfit::client
+
+#endif  // CAPFIT_CLIENT_BODY_CLIENT_H_

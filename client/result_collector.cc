@@ -1,0 +1,84 @@
+#include "client/result_collector.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
+#include "proto/wire/enum_conversion.h"
+#include "proto/wire/result_conversion.h"
+
+namespace capfit::client {
+namespace {
+
+using Response = v1::ApproximateBodyResponse;
+
+absl::Status Broken(const std::string& problem) {
+  return absl::InternalError(absl::StrCat("the server's answer breaks the contract: ", problem));
+}
+
+// Parts that come more than once.
+bool MayRepeat(int part) {
+  return part == Response::kProgress || part == Response::kWarning ||
+         part == Response::kFeaturePolygon || part == Response::kSkinning;
+}
+
+}  // namespace
+
+absl::Status ResultCollector::Add(const v1::ApproximateBodyResponse& response) {
+  const int part = response.part_case();
+  if (part == Response::PART_NOT_SET) return absl::OkStatus();
+  if (part < last_part_ || (part == last_part_ && !MayRepeat(part))) {
+    return Broken(absl::StrCat("part ", part, " after part ", last_part_));
+  }
+  last_part_ = part;
+  const absl::Status status = AddPart(response);
+  return status.ok() ? status : Broken(std::string(status.message()));
+}
+
+absl::Status ResultCollector::AddPart(const v1::ApproximateBodyResponse& response) {
+  switch (response.part_case()) {
+    case Response::kProgress: {
+      const std::optional<Stage> stage = wire::FromWire(response.progress().stage());
+      if (stage && on_progress_) on_progress_(*stage, response.progress().fraction_done());
+      return absl::OkStatus();
+    }
+    case Response::kWarning:
+      result_.warnings.push_back(wire::WarningFromWire(response.warning()));
+      return absl::OkStatus();
+    case Response::kLandmarks:
+      wire::LandmarksFromWire(response.landmarks(), result_);
+      return absl::OkStatus();
+    case Response::kFeaturePolygon: {
+      CAPFIT_ASSIGN_OR_RETURN(pipeline::PolygonResult polygon,
+                              wire::PolygonFromWire(response.feature_polygon()));
+      result_.polygons.push_back(std::move(polygon));
+      return absl::OkStatus();
+    }
+    case Response::kPrimitives: {
+      CAPFIT_ASSIGN_OR_RETURN(result_.primitives, wire::PrimitivesFromWire(response.primitives()));
+      return absl::OkStatus();
+    }
+    case Response::kSkinning:
+      if (!result_.weights) result_.weights.emplace();
+      return wire::AppendWeights(response.skinning(), *result_.weights);
+    case Response::kSummary:
+      return wire::SummaryFromWire(response.summary(), result_);
+    case Response::PART_NOT_SET:
+      break;
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<pipeline::FitResult> ResultCollector::Finish() && {
+  if (last_part_ != Response::kSummary) return Broken("it ends without a summary");
+  if (result_.weights) {
+    const skinning::DenseWeights& weights = *result_.weights;
+    if (weights.weights.size() != weights.sphere_count * weights.vertex_count) {
+      return Broken(absl::StrCat("it brings ", weights.weights.size(), " weights of ",
+                                 weights.sphere_count * weights.vertex_count));
+    }
+  }
+  return std::move(result_);
+}
+
+}  // namespace capfit::client

@@ -1,0 +1,33 @@
+// Puts the messages of an answer together to one result, and holds the server to the contract.
+#ifndef CAPFIT_CLIENT_RESULT_COLLECTOR_H_
+#define CAPFIT_CLIENT_RESULT_COLLECTOR_H_
+
+#include <functional>
+
+#include "absl/status/statusor.h"
+#include "capfit/v1/service.pb.h"
+#include "core/pipeline/fit.h"
+
+namespace capfit::client {
+
+// Use: Add() each message in order, then Finish(). Errors are INTERNAL: out of order, twice,
+// missing or malformed. Parts of a later version of the contract are ignored.
+class ResultCollector {
+ public:
+  explicit ResultCollector(std::function<void(Stage, double)> on_progress)
+      : on_progress_(std::move(on_progress)) {}
+
+  [[nodiscard]] absl::Status Add(const v1::ApproximateBodyResponse& response);
+  [[nodiscard]] absl::StatusOr<pipeline::FitResult> Finish() &&;
+
+ private:
+  [[nodiscard]] absl::Status AddPart(const v1::ApproximateBodyResponse& response);
+
+  std::function<void(Stage, double)> on_progress_;
+  pipeline::FitResult result_;
+  int last_part_ = 0;
+};
+
+}  // namespace capfit::client
+
+#endif  // CAPFIT_CLIENT_RESULT_COLLECTOR_H_

@@ -1,0 +1,21 @@
+// A result as a table for people.
+#ifndef CAPFIT_CLIENT_RESULT_TABLE_H_
+#define CAPFIT_CLIENT_RESULT_TABLE_H_
+
+#include <string>
+
+#include "core/metrics/measure.h"
+#include "core/pipeline/fit.h"
+
+namespace capfit::client {
+
+// Spheres and capsules of each part, then the metrics, then the time of each stage, then warnings:
+// aligned columns, with units, ending with a newline.
+[[nodiscard]] std::string ResultTable(const pipeline::FitResult& result);
+
+// The metrics alone.
+[[nodiscard]] std::string MetricsTable(const metrics::Metrics& metrics);
+
+}  // namespace capfit::client
+
+#endif  // CAPFIT_CLIENT_RESULT_TABLE_H_
