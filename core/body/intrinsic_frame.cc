@@ -19,9 +19,15 @@ constexpr int kRobustIterations = 30;
 constexpr double kMinCosineToTrunk = 0.966;
 // Height of the slice at the bottom in which the soles are looked for.
 constexpr double kSoleSlice = 0.12;
-// How far a foot's tip must reach out to count as full evidence of the facing.
+// What tells front from back: how far it must show to be clear, and its say.
 constexpr double kClearToe = 0.06;
-constexpr double kClearKnee = 0.01;
+constexpr double kToeWeight = 1.0;
+constexpr double kClearCalf = 0.010;
+constexpr double kCalfWeight = 0.5;
+constexpr double kClearElbow = 0.005;
+constexpr double kElbowWeight = 0.1;
+constexpr double kClearHead = 0.2;  // slope
+constexpr double kHeadWeight = 0.5;
 
 // Sums of vertices by level, each vertex shared between the two nearest levels.
 class LevelSums {
@@ -226,22 +232,39 @@ std::optional<Eigen::Vector3d> UpAtRest(std::span<const Eigen::Vector3d> points,
   return std::nullopt;
 }
 
-// Positive when the limb says that `forward` is the front. A foot sticks out to the front; a knee
-// bends to the front.
-double FacingEvidence(const LevelCentroids& leg, const Eigen::Vector3d& tip,
-                      const Eigen::Vector3d& up, const Eigen::Vector3d& forward) {
-  // The heel's end of the foot is where the rings stop sinking; above it is the shin.
-  const std::size_t shin = kLevels * 2 / 3;
-  const Eigen::Vector3d reach = tip - leg[shin];
-  const Eigen::Vector3d down = (leg[shin] - leg[kLevels / 3]).normalized();
+// How far `middle` stands out to the front of the straight line between the two ends.
+double Bulge(const Eigen::Vector3d& a, const Eigen::Vector3d& middle, const Eigen::Vector3d& b,
+             const Eigen::Vector3d& forward) {
+  const Eigen::Vector3d chord = b - a;
+  const double share = (middle - a).dot(chord) / std::max(chord.squaredNorm(), 1e-12);
+  return (middle - a - share * chord).dot(forward);
+}
+
+double Clear(double value, double clear) { return std::clamp(value / clear, -1.0, 1.0); }
+
+// Positive when the leg says that `forward` is the front: toes reach out to the front, the calf
+// bulges to the back.
+double LegFacing(const LevelCentroids& leg, const Eigen::Vector3d& tip,
+                 const Eigen::Vector3d& forward) {
+  const Eigen::Vector3d& shin = leg[kLevels * 2 / 3];
+  const Eigen::Vector3d down = (shin - leg[kLevels / 3]).normalized();
+  const Eigen::Vector3d reach = tip - shin;
   const double toe = (reach - reach.dot(down) * down).dot(forward);
-  const Eigen::Vector3d& hip = leg[2];
-  const Eigen::Vector3d& ankle = leg[kLevels * 3 / 4];
-  const Eigen::Vector3d& knee = leg[kLevels * 7 / 16];
-  const double share = (knee - hip).dot(ankle - hip) / (ankle - hip).squaredNorm();
-  const double bend = (knee - hip - share * (ankle - hip)).dot(forward);
-  (void)up;
-  return std::clamp(toe / kClearToe, -1.0, 1.0) + 0.3 * std::clamp(bend / kClearKnee, -1.0, 1.0);
+  const double calf =
+      Bulge(leg[kLevels * 7 / 16], leg[kLevels * 5 / 8], leg[kLevels * 3 / 4], forward);
+  return kToeWeight * Clear(toe, kClearToe) - kCalfWeight * Clear(calf, kClearCalf);
+}
+
+// The same for arms (the elbow stands out to the back) and the head (it leans to the front).
+double ArmFacing(const LevelCentroids& arm, const Eigen::Vector3d& forward) {
+  const double elbow = Bulge(arm[kLevels / 8], arm[kLevels / 2], arm[kLevels * 5 / 6], forward);
+  return -kElbowWeight * Clear(elbow, kClearElbow);
+}
+
+double HeadFacing(const LevelCentroids& head, const Eigen::Vector3d& tip, const Eigen::Vector3d& up,
+                  const Eigen::Vector3d& forward) {
+  const Eigen::Vector3d reach = tip - head.front();
+  return kHeadWeight * Clear(reach.dot(forward) / std::max(reach.dot(up), 1e-3), kClearHead);
 }
 
 double Facing(const Rings& rings, std::span<const Eigen::Vector3d> points,
@@ -250,7 +273,14 @@ double Facing(const Rings& rings, std::span<const Eigen::Vector3d> points,
   double evidence = 0.0;
   for (const Tip tip : {Tip::kFootA, Tip::kFootB}) {
     if (!rings.limb(tip)) continue;
-    evidence += FacingEvidence(*rings.limb(tip), points[extremities.limb(tip)->tip], up, forward);
+    evidence += LegFacing(*rings.limb(tip), points[extremities.limb(tip)->tip], forward);
+  }
+  for (const Tip tip : {Tip::kHandA, Tip::kHandB}) {
+    if (rings.limb(tip)) evidence += ArmFacing(*rings.limb(tip), forward);
+  }
+  if (rings.limb(Tip::kHead)) {
+    evidence +=
+        HeadFacing(*rings.limb(Tip::kHead), points[extremities.limb(Tip::kHead)->tip], up, forward);
   }
   return evidence;
 }

@@ -21,6 +21,8 @@ constexpr double kPalmWiderThanWrist = 1.25;
 constexpr double kAnkleFrom = 0.060;
 constexpr double kAnkleTo = 0.165;
 constexpr double kToeReach = 0.055;
+// The heel's tip is looked for below this height.
+constexpr double kHeelHeight = 0.012;
 // The ankle joint lies this far above the heel's greatest girth.
 constexpr double kAnkleAboveHeelGirth = 0.015;
 
@@ -36,12 +38,19 @@ constexpr double kShoulderLeanPerRadian = 0.20;
 constexpr double kElbowShare = 0.495;
 constexpr double kElbowShareSpread = 0.015;
 
-// Thigh. Knee between ankle (0) and crotch (1); the joint is where the leg is narrowest near that.
+// Thigh. The knee on the way from the ankle (0) to the height of the crotch (1).
 constexpr double kKneeShare = 0.563;
-constexpr double kKneeWindow = 0.030;
-// Hip joint above and beside the crotch.
+constexpr double kKneeShareSpread = 0.010;
+// The hip joint above, beside and before the crotch.
 constexpr double kHipAboveCrotch = 0.043;
 constexpr double kHipBeside = 0.061;
+constexpr double kHipBeforeCrotch = 0.009;
+
+// Where the corner of a bent limb is looked for: this share of its length to both sides. A bone
+// that runs a fiftieth of the limb's length beside the line weighs as much as one spread.
+constexpr double kBendReach = 0.06;
+constexpr int kBendSteps = 15;
+constexpr double kBendTolerance = 0.02;
 
 std::uint32_t NearestVertex(const Shape& shape, std::span<const std::uint32_t> among,
                             const Eigen::Vector3d& point) {
@@ -66,6 +75,48 @@ Landmark ByRatio(const Eigen::Vector3d& position_m, double confidence) {
 Eigen::Vector3d CutEnd(const LimbProfile& profile) {
   const Station& first = profile.stations.front();
   return first.center - first.arc * first.normal;
+}
+
+// Arc of the profile nearest to the point, or as far past the profile's end as the point is.
+double ArcOf(const LimbProfile& profile, const Eigen::Vector3d& point) {
+  const double nearest = profile.NearestArc(point);
+  if (nearest < profile.end()) return nearest;
+  return nearest + (point - profile.stations.back().center).norm();
+}
+
+// The joint of a limb of two bones on the middle line: the place that makes the two straight bones
+// fit the line between the arcs `outer` and `inner` best, not far from the usual share of the way.
+// A straight limb says nothing, so the share decides; a bent one has a corner.
+double BendArc(const LimbProfile& limb, double outer, double inner, double usual_share,
+               double spread) {
+  const double length = inner - outer;
+  const Eigen::Vector3d outer_end = limb.At(outer).center;
+  const Eigen::Vector3d inner_end = limb.At(inner).center;
+  double best = std::numeric_limits<double>::infinity();
+  double best_share = usual_share;
+  for (int i = -kBendSteps; i <= kBendSteps; ++i) {
+    const double share = usual_share + i * kBendReach / kBendSteps;
+    const double arc = outer + share * length;
+    const Eigen::Vector3d joint = limb.At(arc).center;
+    double misfit = 0.0;
+    int count = 0;
+    for (const Station& s : limb.stations) {
+      if (s.arc < outer || s.arc > inner) continue;
+      const Eigen::Vector3d& end = s.arc < arc ? outer_end : inner_end;
+      const Eigen::Vector3d bone = (end - joint).normalized();
+      const Eigen::Vector3d off = s.center - joint;
+      misfit += (off - off.dot(bone) * bone).squaredNorm();
+      ++count;
+    }
+    const double deviation = (share - usual_share) / spread;
+    const double tolerance = kBendTolerance * length;
+    const double cost =
+        misfit / std::max(1, count) / (tolerance * tolerance) + deviation * deviation;
+    if (cost >= best) continue;
+    best = cost;
+    best_share = share;
+  }
+  return outer + best_share * length;
 }
 
 }  // namespace
@@ -105,28 +156,12 @@ void FindAnkle(Shape& shape, int side, Landmarks& landmarks) {
   landmarks[Sided(LandmarkId::kLeftToe, side)] = Measured(toe, 0.8);
   // The heel: farthest from the toe along the foot, below the ankle.
   const Eigen::Vector3d back = Eigen::Vector3d(ankle.x() - toe.x(), 0, ankle.z() - toe.z());
-  Eigen::Vector3d heel = ankle;
+  Eigen::Vector3d heel(ankle.x(), 0.0, ankle.z());
   for (const std::uint32_t v : shape.legs[side]->vertices) {
     const Eigen::Vector3d& p = shape.points[v];
-    if (p.y() < ankle.y() && back.dot(p) > back.dot(heel)) heel = p;
+    if (p.y() < kHeelHeight * stature && back.dot(p) > back.dot(heel)) heel = p;
   }
   landmarks[Sided(LandmarkId::kLeftHeel, side)] = Measured(heel, 0.8);
-}
-
-void FindThigh(const Shape& shape, int side, Landmarks& landmarks) {
-  const LimbProfile& leg = *shape.leg_profiles[side];
-  const double stature = shape.stature_m;
-  const Eigen::Vector3d crotch = landmarks[Index(LandmarkId::kCrotch)]->position_m;
-  const Eigen::Vector3d ankle = landmarks[Sided(LandmarkId::kLeftAnkle, side)]->position_m;
-  const double ankle_arc = leg.NearestArc(ankle);
-  const double crotch_arc = std::min(leg.end(), ankle_arc + (crotch - ankle).norm());
-  const double expected = ankle_arc + kKneeShare * (crotch_arc - ankle_arc);
-  const double knee_arc =
-      leg.NarrowestArc(expected - kKneeWindow * stature, expected + kKneeWindow * stature);
-  landmarks[Sided(LandmarkId::kLeftKnee, side)] = Measured(leg.At(knee_arc).center, 0.8);
-  const Eigen::Vector3d hip = crotch + Eigen::Vector3d(SideSign(side) * kHipBeside * stature,
-                                                       kHipAboveCrotch * stature, 0.0);
-  landmarks[Sided(LandmarkId::kLeftHip, side)] = ByRatio(hip, 0.6);
 }
 
 namespace {
@@ -187,37 +222,6 @@ ShoulderCut CutShoulder(const Shape& shape, const Armpit& armpit) {
   return cut;
 }
 
-// The point of the middle line that makes wrist-elbow-shoulder fit it best, not far from the usual
-// share of the way.
-double ElbowArc(const LimbProfile& arm, double wrist_arc, double shoulder_arc,
-                const Eigen::Vector3d& wrist, const Eigen::Vector3d& shoulder) {
-  const double length = shoulder_arc - wrist_arc;
-  double best = std::numeric_limits<double>::infinity();
-  double elbow_arc = wrist_arc + kElbowShare * length;
-  for (double share = kElbowShare - 0.06; share <= kElbowShare + 0.06; share += 0.004) {
-    const double arc = wrist_arc + share * length;
-    const Eigen::Vector3d elbow = arm.At(arc).center;
-    double misfit = 0.0;
-    int count = 0;
-    for (const Station& s : arm.stations) {
-      if (s.arc < wrist_arc || s.arc > shoulder_arc) continue;
-      const Eigen::Vector3d& end = s.arc < arc ? wrist : shoulder;
-      const Eigen::Vector3d bone = (end - elbow).normalized();
-      const Eigen::Vector3d off = s.center - elbow;
-      misfit += (off - off.dot(bone) * bone).squaredNorm();
-      ++count;
-    }
-    const double deviation = (share - kElbowShare) / kElbowShareSpread;
-    // A bone that runs 2 % of the arm's length beside the line weighs as much as one spread.
-    const double cost =
-        misfit / std::max(1, count) / (4e-4 * length * length) + deviation * deviation;
-    if (cost >= best) continue;
-    best = cost;
-    elbow_arc = arc;
-  }
-  return elbow_arc;
-}
-
 }  // namespace
 
 void FindUpperArm(const Shape& shape, int side, Landmarks& landmarks) {
@@ -234,12 +238,22 @@ void FindUpperArm(const Shape& shape, int side, Landmarks& landmarks) {
   landmarks[Sided(LandmarkId::kLeftShoulder, side)] = Measured(shoulder, 0.7);
   const LimbProfile& arm = *shape.arm_profiles[side];
   const Eigen::Vector3d wrist = landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m;
-  const double wrist_arc = arm.NearestArc(wrist);
-  const double nearest = arm.NearestArc(shoulder);
-  const double shoulder_arc =
-      nearest + (nearest >= arm.end() ? (shoulder - arm.At(nearest).center).norm() : 0.0);
-  landmarks[Sided(LandmarkId::kLeftElbow, side)] =
-      Measured(arm.At(ElbowArc(arm, wrist_arc, shoulder_arc, wrist, shoulder)).center, 0.8);
+  const double arc =
+      BendArc(arm, arm.NearestArc(wrist), ArcOf(arm, shoulder), kElbowShare, kElbowShareSpread);
+  landmarks[Sided(LandmarkId::kLeftElbow, side)] = Measured(arm.At(arc).center, 0.8);
+}
+
+void FindThigh(const Shape& shape, int side, Landmarks& landmarks) {
+  const LimbProfile& leg = *shape.leg_profiles[side];
+  const double stature = shape.stature_m;
+  const Eigen::Vector3d crotch = landmarks[Index(LandmarkId::kCrotch)]->position_m;
+  const Eigen::Vector3d ankle = landmarks[Sided(LandmarkId::kLeftAnkle, side)]->position_m;
+  const double arc =
+      BendArc(leg, leg.NearestArc(ankle), leg.NearestArc(crotch), kKneeShare, kKneeShareSpread);
+  landmarks[Sided(LandmarkId::kLeftKnee, side)] = Measured(leg.At(arc).center, 0.8);
+  const Eigen::Vector3d hip = crotch + stature * Eigen::Vector3d(SideSign(side) * kHipBeside,
+                                                                 kHipAboveCrotch, kHipBeforeCrotch);
+  landmarks[Sided(LandmarkId::kLeftHip, side)] = ByRatio(hip, 0.6);
 }
 
 }  // namespace capfit::body

@@ -22,10 +22,18 @@ constexpr double kNeckRadius = 0.200;
 constexpr double kCapTiltRad = 0.17;
 constexpr double kCapTiltPerRadian = 0.37;
 constexpr double kCapForward = 0.24;
-constexpr double kCapInside = 0.017;
-constexpr double kElbowAbove = 0.005;
+constexpr double kArmpitMargin = 0.005;
+constexpr double kCapInside = 0.0165;
+constexpr double kWristBeyond = 0.005;
+constexpr double kKneeBelow = 0.012;
+constexpr double kAnkleAbove = 0.011;
 // Groin: from below the crotch up and out to the hip bone.
-constexpr double kGroinBelowCrotch = 0.022;
+constexpr double kGroinAlong = 0.78;
+constexpr double kGroinOut = 0.55;
+constexpr double kGroinForward = 0.09;
+constexpr double kGroinBelowCrotch = 0.0145;
+// Jaw and nape: the plane that parts head and neck rises from the front to the back.
+constexpr double kJawAboveNeck = 0.035;
 
 // A way over the surface stops where it comes to the inner side of the plane within the radius.
 struct Barrier {
@@ -36,11 +44,13 @@ struct Barrier {
   }
 };
 
-void Flood(const Shape& shape, std::uint32_t tip, const Barrier& barrier, Segment segment,
-           std::vector<Segment>& segments) {
+// Labels what can be reached from `start` (itself included) and returns it.
+std::vector<std::uint32_t> Flood(const Shape& shape, std::vector<std::uint32_t> start,
+                                 const Barrier& barrier, Segment segment,
+                                 std::vector<Segment>& segments) {
   std::vector<char> seen(shape.points.size(), 0);
-  std::vector<std::uint32_t> reached = {tip};
-  seen[tip] = 1;
+  for (const std::uint32_t v : start) seen[v] = 1;
+  std::vector<std::uint32_t> reached = std::move(start);
   for (std::size_t i = 0; i < reached.size(); ++i) {
     segments[reached[i]] = segment;
     for (const std::uint32_t n : shape.graph->Neighbours(reached[i])) {
@@ -49,6 +59,7 @@ void Flood(const Shape& shape, std::uint32_t tip, const Barrier& barrier, Segmen
       reached.push_back(n);
     }
   }
+  return reached;
 }
 
 Segment OnSide(Segment left, int side) {
@@ -93,12 +104,20 @@ class Labeller {
     const double raised = std::acos(std::clamp(-(elbow - shoulder).normalized().y(), -1.0, 1.0));
     const double tilt = kCapTiltRad + kCapTiltPerRadian * raised;
     const Eigen::Vector3d cap(SideSign(side) * std::cos(tilt), std::sin(tilt), kCapForward);
-    Flood(shape_, tip, Across(shoulder, cap, -kCapInside, kShoulderRadius),
-          OnSide(Segment::kLeftUpperArm, side), segments_);
-    Flood(shape_, tip, Across(elbow, wrist - shoulder, -kElbowAbove, kElbowRadius),
+    // First all that lies beyond the armpit, then on to the cap's plane: an arm that hangs beside
+    // the ribs crosses that plane again below the armpit.
+    const Eigen::Vector3d outward = (elbow - shoulder).normalized() - Eigen::Vector3d::UnitY();
+    const Segment upper_arm = OnSide(Segment::kLeftUpperArm, side);
+    std::vector<std::uint32_t> beyond =
+        Flood(shape_, {tip},
+              Across(At(LandmarkId::kLeftArmpit, side), outward, kArmpitMargin, kShoulderRadius),
+              upper_arm, segments_);
+    Flood(shape_, std::move(beyond), Across(shoulder, cap, -kCapInside, kShoulderRadius), upper_arm,
+          segments_);
+    Flood(shape_, {tip}, Across(elbow, wrist - shoulder, 0.0, kElbowRadius),
           OnSide(Segment::kLeftForearm, side), segments_);
     if (!shape_.has_hand[side]) return;
-    Flood(shape_, tip, Across(wrist, wrist - elbow, 0.0, kWristRadius),
+    Flood(shape_, {tip}, Across(wrist, wrist - elbow, kWristBeyond, kWristRadius),
           OnSide(Segment::kLeftHand, side), segments_);
   }
 
@@ -107,17 +126,19 @@ class Labeller {
     const std::uint32_t tip = shape_.legs[side]->tip;
     const Eigen::Vector3d knee = At(LandmarkId::kLeftKnee, side);
     const Eigen::Vector3d ankle = At(LandmarkId::kLeftAnkle, side);
-    const Eigen::Vector3d groin(SideSign(side) * 0.60, -0.78, 0.13);
-    const Eigen::Vector3d below =
-        At(LandmarkId::kCrotch) - Eigen::Vector3d(0, kGroinBelowCrotch * shape_.stature_m, 0);
-    Flood(shape_, tip, Across(below, groin, 0.0, kHipRadius), OnSide(Segment::kLeftThigh, side),
-          segments_);
+    // The groin's plane turns half as far as the thigh when that is lifted.
+    const Eigen::Vector3d thigh = (knee - At(LandmarkId::kLeftHip, side)).normalized();
+    const Eigen::Vector3d half = (thigh - Eigen::Vector3d::UnitY()).normalized();
+    const Eigen::Vector3d groin =
+        kGroinAlong * half + Eigen::Vector3d(SideSign(side) * kGroinOut, 0.0, kGroinForward);
+    Flood(shape_, {tip}, Across(At(LandmarkId::kCrotch), groin, kGroinBelowCrotch, kHipRadius),
+          OnSide(Segment::kLeftThigh, side), segments_);
     const Eigen::Vector3d knee_normal(SideSign(side) * 0.28, -0.86, -0.42);
-    Flood(shape_, tip, Across(knee, knee_normal, 0.0115, kKneeRadius),
+    Flood(shape_, {tip}, Across(knee, knee_normal, kKneeBelow, kKneeRadius),
           OnSide(Segment::kLeftCalf, side), segments_);
     if (!shape_.has_foot[side]) return;
     const Eigen::Vector3d ankle_normal(0.0, -0.97, 0.24);
-    Flood(shape_, tip, Across(ankle, ankle_normal, -0.0115, kAnkleRadius),
+    Flood(shape_, {tip}, Across(ankle, ankle_normal, -kAnkleAbove, kAnkleRadius),
           OnSide(Segment::kLeftFoot, side), segments_);
   }
 
@@ -126,10 +147,9 @@ class Labeller {
     const std::uint32_t tip = shape_.head->tip;
     const Eigen::Vector3d neck = At(LandmarkId::kNeck);
     if (!shape_.has_head) return;
-    Flood(shape_, tip, Across(neck, Eigen::Vector3d(0, 0.96, 0.28), 0.0, kNeckRadius),
+    Flood(shape_, {tip}, Across(neck, Eigen::Vector3d(0, 0.96, 0.28), 0.0, kNeckRadius),
           Segment::kNeck, segments_);
-    const Eigen::Vector3d skull = neck + Eigen::Vector3d(0, 0.036, 0.02) * shape_.stature_m;
-    Flood(shape_, tip, Across(skull, Eigen::Vector3d(0, 0.75, 0.66), 0.0, kNeckRadius),
+    Flood(shape_, {tip}, Across(neck, Eigen::Vector3d(0, 0.745, 0.667), kJawAboveNeck, kNeckRadius),
           Segment::kHead, segments_);
   }
 

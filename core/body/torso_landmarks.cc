@@ -13,6 +13,7 @@ namespace {
 
 // Where on the leg, counted from its tip, the knees are that the cleft is looked for between.
 constexpr double kKneeArc = 0.36;
+constexpr double kCrotchBehindThighs = 0.022;
 // The neck leans forward by about this angle; its sections are cut across that direction.
 constexpr double kNeckLeanRad = 0.30;
 constexpr double kLevelStep = 0.004;
@@ -87,9 +88,10 @@ void FindCrotch(const Shape& shape, Landmarks& landmarks) {
   const auto cleft =
       FindCleft(shape.points, *shape.graph, knees[kLeft], knees[kRight], -Eigen::Vector3d::UnitY());
   if (!cleft) return;
-  // The perineum is nearly flat from front to back; the middle between the thighs is a steadier
-  // choice along it than the cleft's own vertex.
-  Eigen::Vector3d crotch(0.0, shape.points[*cleft].y(), thighs.z());
+  // The perineum is nearly flat from front to back; a place behind the middle of the thighs is a
+  // steadier choice along it than the cleft's own vertex.
+  Eigen::Vector3d crotch(0.0, shape.points[*cleft].y(),
+                         thighs.z() - kCrotchBehindThighs * shape.stature_m);
   crotch.y() = CrotchHeightAt(shape, crotch);
   landmarks[Index(LandmarkId::kCrotch)] = Measured(crotch, 0.9);
 }
