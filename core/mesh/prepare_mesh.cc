@@ -65,13 +65,13 @@ class MeshMender {
   }
 
   absl::StatusOr<PreparedMesh> Run() {
+    EdgeMates mates = FindMates();
+    if (!mates.IsClosedAndOriented()) mates = Join(std::move(mates));
     if (surface_.triangles.empty()) {
       return CannotFit("NO_SURFACE", absl::StrCat("all ", degenerate_,
                                                   " faces are degenerate: none has three "
                                                   "different vertices"));
     }
-    EdgeMates mates = FindMates();
-    if (!mates.IsClosedAndOriented()) mates = Join(std::move(mates));
     surface_.mate = std::move(mates.mate);
     CAPFIT_RETURN_IF_ERROR(KeepMainPart());
     CAPFIT_RETURN_IF_ERROR(CloseAllHoles());

@@ -26,8 +26,9 @@ std::uint32_t CountIn(std::span<const std::byte> bytes) {
   return count;
 }
 
-// Collects corners; equal ones are stored once. The map is only looked up, never walked.
-template <typename Coordinate>
+// Collects corners; equal ones are stored once. The map is only looked up, never walked, and by
+// bits, for a NaN equals nothing, not even itself.
+template <typename Coordinate, typename Bits>
 class CornerMerger {
  public:
   using Corner = std::array<Coordinate, 3>;
@@ -37,10 +38,11 @@ class CornerMerger {
     soup_.positions.reserve(triangles / 2 + 3);
     vertex_at_.reserve(triangles / 2 + 3);
   }
-  void Add(Corner corner) {
-    for (Coordinate& value : corner) value += Coordinate{0};  // -0 becomes 0
+  void Add(const Corner& corner) {
+    std::array<Bits, 3> bits;
+    for (int k = 0; k < 3; ++k) bits[k] = std::bit_cast<Bits>(corner[k] + Coordinate{0});  // no -0
     const auto [entry, is_new] =
-        vertex_at_.try_emplace(corner, static_cast<std::uint32_t>(soup_.positions.size()));
+        vertex_at_.try_emplace(bits, static_cast<std::uint32_t>(soup_.positions.size()));
     if (is_new) soup_.positions.emplace_back(corner[0], corner[1], corner[2]);
     soup_.face_vertices.push_back(entry->second);
   }
@@ -50,7 +52,7 @@ class CornerMerger {
 
  private:
   PolygonSoup soup_;
-  absl::flat_hash_map<Corner, std::uint32_t> vertex_at_;
+  absl::flat_hash_map<std::array<Bits, 3>, std::uint32_t> vertex_at_;
 };
 
 absl::Status TooMany(const char* what, std::size_t limit) {
@@ -66,7 +68,7 @@ absl::StatusOr<PolygonSoup> ReadBinary(std::span<const std::byte> bytes, const M
                              " bytes, but has only ", bytes.size()));
   }
   if (count > limits.max_faces) return TooMany("faces", limits.max_faces);
-  CornerMerger<float> corners;
+  CornerMerger<float, std::uint32_t> corners;
   corners.Reserve(count);
   const std::byte* triangle = bytes.data() + kHeaderBytes;
   for (std::uint32_t t = 0; t < count; ++t, triangle += kBytesPerTriangle) {
@@ -123,7 +125,7 @@ class TextReader {
 
   LineScanner lines_;
   const MeshLimits& limits_;
-  CornerMerger<double> corners_;
+  CornerMerger<double, std::uint64_t> corners_;
   std::size_t loop_start_ = 0;
   bool is_finished_ = false;
 };

@@ -1,0 +1,77 @@
+#include "tests/fuzz/mesh_promises.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace capfit::fuzz {
+namespace {
+
+using mesh::BodyMesh;
+using mesh::Triangle;
+
+std::string BrokenByTriangles(const BodyMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> runs;  // of each directed edge
+  for (const Triangle& t : mesh.triangles()) {
+    for (int k = 0; k < 3; ++k) {
+      if (t[k] >= mesh.vertices().size()) return "a corner is out of range";
+      if (t[k] == t[(k + 1) % 3]) return "a triangle has two equal corners";
+      ++runs[{t[k], t[(k + 1) % 3]}];
+    }
+  }
+  for (const auto& [edge, count] : runs) {
+    if (count != 1) return "an edge is run twice the same way";
+    if (runs.count({edge.second, edge.first}) != 1) return "an edge has one triangle only";
+  }
+  return {};
+}
+
+std::string BrokenByVertices(const BodyMesh& mesh, std::size_t source_vertices) {
+  std::vector<bool> used(mesh.vertices().size(), false);
+  for (const Triangle& t : mesh.triangles()) used[t[0]] = used[t[1]] = used[t[2]] = true;
+  if (std::find(used.begin(), used.end(), false) != used.end()) return "a vertex is unused";
+  for (const Eigen::Vector3d& v : mesh.vertices()) {
+    if (!v.allFinite()) return "a coordinate is not finite";
+  }
+  if (mesh.vertex_of_source().size() != source_vertices) return "vertex_of_source has a wrong size";
+  for (const std::int32_t v : mesh.vertex_of_source()) {
+    if (v < -1 || v >= static_cast<std::int64_t>(used.size())) return "vertex_of_source is wrong";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string BrokenPromise(const BodyMesh& mesh, std::size_t source_vertices) {
+  if (mesh.triangles().empty()) return "the mesh is empty";
+  if (std::string broken = BrokenByTriangles(mesh); !broken.empty()) return broken;
+  if (std::string broken = BrokenByVertices(mesh, source_vertices); !broken.empty()) return broken;
+  if (!(mesh.volume() > 0.0)) return "the volume is not positive";
+  return {};
+}
+
+std::string BrokenPromiseOfPrepare(const mesh::PreparedMesh& prepared,
+                                   std::size_t source_vertices) {
+  const BodyMesh& mesh = prepared.mesh;
+  if (std::string broken = BrokenPromise(mesh, source_vertices); !broken.empty()) return broken;
+  mesh::PolygonSoup soup;
+  soup.positions.assign(mesh.vertices().begin(), mesh.vertices().end());
+  for (const Triangle& t : mesh.triangles()) {
+    soup.face_vertices.insert(soup.face_vertices.end(), t.begin(), t.end());
+  }
+  mesh::MeshLimits limits;
+  limits.max_faces = soup.face_vertices.size();
+  const auto again = mesh::PrepareMesh(soup, limits);
+  if (!again.ok()) return "a prepared mesh is refused: " + again.status().ToString();
+  if (!again->warnings.empty())
+    return "a prepared mesh gets the warning " + again->warnings[0].code;
+  const bool same = std::equal(mesh.triangles().begin(), mesh.triangles().end(),
+                               again->mesh.triangles().begin(), again->mesh.triangles().end()) &&
+                    std::equal(mesh.vertices().begin(), mesh.vertices().end(),
+                               again->mesh.vertices().begin(), again->mesh.vertices().end());
+  return same ? std::string() : "a prepared mesh is changed";
+}
+
+}  // namespace capfit::fuzz

@@ -1,0 +1,78 @@
+#include "tests/fuzz/mesh_targets.h"
+
+#include <cstdint>
+
+#include "core/mesh/prepare_mesh.h"
+#include "core/mesh/read_mesh.h"
+#include "tests/fuzz/mesh_promises.h"
+
+namespace capfit::fuzz {
+namespace {
+
+constexpr int kFormats = 6;
+
+// Hands out bytes; zeros when they are used up.
+class ByteSource {
+ public:
+  explicit ByteSource(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  [[nodiscard]] bool IsEmpty() const { return bytes_.empty(); }
+  std::uint8_t Next() {
+    if (bytes_.empty()) return 0;
+    const auto value = static_cast<std::uint8_t>(bytes_.front());
+    bytes_ = bytes_.subspan(1);
+    return value;
+  }
+
+ private:
+  std::span<const std::byte> bytes_;
+};
+
+// First byte: switches. Second byte: number of vertices. Then three signed bytes for each vertex,
+// then the faces.
+mesh::PolygonSoup SoupFrom(ByteSource source) {
+  const std::uint8_t switches = source.Next();
+  const bool has_polygons = (switches & 1) != 0;
+  const bool may_be_out_of_range = (switches & 2) != 0;
+  const double offset = (switches & 4) != 0 ? 1e6 : 0.0;
+  const double scale = (switches & 8) != 0 ? 1e-6 : 1.0;  // below the tolerance of welding
+  const unsigned vertices = 3 + source.Next() % 62u;
+  mesh::PolygonSoup soup;
+  for (unsigned i = 0; i < vertices; ++i) {
+    Eigen::Vector3d& position = soup.positions.emplace_back();
+    for (int axis = 0; axis < 3; ++axis) {
+      position[axis] = static_cast<std::int8_t>(source.Next());
+    }
+    if (i % 2 == 1) position *= scale;
+    position.array() += offset;
+  }
+  const unsigned indices = vertices + (may_be_out_of_range ? 1 : 0);
+  while (!source.IsEmpty()) {
+    const unsigned corners = has_polygons ? source.Next() % 9u : 3;
+    for (unsigned k = 0; k < corners; ++k) soup.face_vertices.push_back(source.Next() % indices);
+    if (has_polygons) soup.face_sizes.push_back(corners);
+  }
+  return soup;
+}
+
+std::string TryPrepare(const mesh::PolygonSoup& soup, const mesh::MeshLimits& limits) {
+  const auto prepared = mesh::PrepareMesh(soup, limits);
+  return prepared.ok() ? BrokenPromiseOfPrepare(*prepared, soup.positions.size()) : std::string();
+}
+
+}  // namespace
+
+std::string TryReadMesh(std::span<const std::byte> bytes) {
+  if (bytes.empty()) return {};
+  mesh::MeshLimits limits;
+  limits.max_vertices = 100'000;
+  limits.max_faces = 100'000;
+  const auto format = static_cast<mesh::MeshFormat>(static_cast<unsigned>(bytes[0]) % kFormats);
+  const auto soup = mesh::ReadMesh(bytes.subspan(1), format, limits);
+  return soup.ok() ? TryPrepare(*soup, limits) : std::string();
+}
+
+std::string TryPrepareMesh(std::span<const std::byte> bytes) {
+  return TryPrepare(SoupFrom(ByteSource(bytes)), {});
+}
+
+}  // namespace capfit::fuzz
