@@ -251,6 +251,21 @@ class BodyCageMaker {
     return {p, angle_at(t)};
   }
 
+  // How far out the trunk's side is at this height, and a little further below the armpit: a
+  // hanging arm must not enter the trunk.
+  [[nodiscard]] double TrunkSideAt(double y) const {
+    const auto rings = proportions_.trunk;
+    const auto side = [&](std::size_t i) {
+      return WidthFactor(GirthFactor(rings[i])) * rings[i].half_width;
+    };
+    if (y >= rings[kAcromionRing].y_side || y <= rings[0].y_side) return 0.0;
+    std::size_t i = 0;
+    while (rings[i + 1].y_side < y) ++i;
+    const double u = (y - rings[i].y_side) / (rings[i + 1].y_side - rings[i].y_side);
+    const double below = std::max(0.0, rings[kArmpitRing].y_side - y);
+    return (1 - u) * side(i) + u * side(i + 1) + 0.004 + std::min(0.15 * below, 0.015);
+  }
+
   Ring AddArmRing(const ArmRing& r, const Vector3d& armhole) {
     const AxisPoint axis = ArmAxisAt(armhole, r.t);
     const Vector3d up(std::cos(axis.angle_rad), std::sin(axis.angle_rad), 0.0);
@@ -264,6 +279,7 @@ class BodyCageMaker {
       Vector3d p = axis.position + swell * r.half_height * std::cos(angle) * up;
       p.z() += r.forward + swell * r.half_depth * std::sin(angle);
       p -= shortfall * std::pow(std::sin(angle), 2) * along;
+      p.x() = std::max(p.x(), TrunkSideAt(p.y()));
       ring.push_back(builder_.Add(p));
     }
     return ring;
@@ -318,7 +334,7 @@ class BodyCageMaker {
     for (const std::uint32_t v : root) center += builder_.position(v) / 6.0;
     const Vector3d ahead = Vector3d::UnitZ();
     const Vector3d along =
-        (0.75 * cage_.arm.along + 0.62 * ahead - 0.22 * cage_.arm.up).normalized();
+        (0.70 * cage_.arm.along + 0.70 * ahead - 0.20 * cage_.arm.up).normalized();
     const Vector3d across = along.cross(cage_.arm.up).normalized();
     const Vector3d up = across.cross(along);
     Ring inner = root;

@@ -26,7 +26,7 @@ void AddTrunkBumps(const BodyShape& shape, std::vector<Bump>& bumps) {
     bumps.push_back(Level({0, .745, .064 * bust}, {.010, .050, .06}, {0, 0, -.003}));  // breastbone
   }
   bumps.push_back(Level({.046 * hip, .508, -.066 * hip}, {.060, .062, .08}, {.001, -.002, -.014}));
-  bumps.push_back(Level({0, .490, .050}, {.050, .042, .06}, {0, 0, .0025}));             // pubis
+  bumps.push_back(Level({0, .490, .050}, {.075, .058, .08}, {0, 0, .0025}));             // pubis
   bumps.push_back(Level({0, .500, -.070 * hip}, {.012, .045, .08}, {0, 0, .010}));       // cleft
   bumps.push_back(Level({0, .680, -.055 * bust}, {.022, .13, .05}, {0, 0, .005}));       // spine
   bumps.push_back(Level({.050, .772, -.070 * bust}, {.035, .045, .05}, {0, 0, -.004}));  // blade

@@ -11,7 +11,7 @@
 #include "core/mannequin/body_cage.h"
 #include "core/mannequin/body_details.h"
 #include "core/mannequin/catmull_clark.h"
-#include "core/mannequin/girth.h"
+#include "core/mannequin/fit_shape.h"
 #include "core/mannequin/proportions.h"
 #include "core/mannequin/quad_sampling.h"
 
@@ -69,44 +69,6 @@ double ArmAngle(const MannequinOptions& options) {
   return std::numbers::pi / 12;
 }
 
-// A sampled half body in body heights, with all details.
-struct HalfBody {
-  QuadMesh mesh;
-  std::size_t trunk_quads = 0;  // its first ones
-};
-
-Divisions Even(const QuadMesh& cage, int pieces) {
-  Divisions divisions;
-  divisions.faces.assign(cage.quads.size(), {pieces, pieces});
-  return divisions;
-}
-
-HalfBody SampleBody(const BodyShape& shape, const BodyCage& cage, const SmoothSurface& surface,
-                    const Divisions& divisions) {
-  HalfBody body{Sample(cage.half, surface, divisions)};
-  for (std::size_t f = 0; f < cage.trunk_end; ++f) {
-    body.trunk_quads += static_cast<std::size_t>(divisions.faces[f][0]) *
-                        static_cast<std::size_t>(divisions.faces[f][1]);
-  }
-  ApplyBumps(BodyBumps(shape, cage), body.mesh.vertices);
-  return body;
-}
-
-// Girths of a body, each as a part of its height.
-struct Girths {
-  double bust, waist, hip;
-};
-
-Girths MeasureGirths(const HalfBody& body, double height) {
-  const std::vector<Quad> trunk(
-      body.mesh.quads.begin(),
-      body.mesh.quads.begin() + static_cast<std::ptrdiff_t>(body.trunk_quads));
-  const auto girth = [&](double level) {
-    return HalfBodyGirth(body.mesh.vertices, trunk, level * height) / height;
-  };
-  return {girth(kBustLevel), girth(kWaistLevel), girth(kHipLevel)};
-}
-
 Girths WantedGirths(const MannequinOptions& options) {
   const Proportions& usual = ProportionsOf(options.sex);
   const auto ratio = [&](const std::optional<double>& girth_m, double usual_ratio) {
@@ -121,47 +83,15 @@ double HeadFactor(double height_m) {
   return 1.0 + 0.35 * std::clamp((1.55 - height_m) / 0.75, 0.0, 1.0);
 }
 
-struct FittedShape {
+BodyShape UsualShape(const MannequinOptions& options) {
   BodyShape shape;
-  double height = 1.0;  // of the smooth surface, soles to crown, in the cage's unit
-};
-
-// Girths follow their factors almost in proportion and hardly each other's, so that correcting each
-// by what is missing converges in a few steps.
-FittedShape FitShape(const MannequinOptions& options) {
-  constexpr int kMaxSteps = 12;
-  constexpr double kTolerance = 5e-4;
-  const Girths wanted = WantedGirths(options);
-  FittedShape fitted;
-  fitted.shape.sex = options.sex;
-  fitted.shape.arm_angle_rad = ArmAngle(options);
-  fitted.shape.head_factor = HeadFactor(options.height_m);
-  for (int step = 0; step < kMaxSteps; ++step) {
-    const BodyCage cage = BuildBodyCage(fitted.shape);
-    const SmoothSurface surface(WithMirrorImage(cage.half), 2);
-    const HalfBody body = SampleBody(fitted.shape, cage, surface, Even(cage.half, 4));
-    fitted.height = 0.0;
-    for (const Vector3d& p : body.mesh.vertices) fitted.height = std::max(fitted.height, p.y());
-    const Girths found = MeasureGirths(body, fitted.height);
-    const Girths ratio{wanted.bust / found.bust, wanted.waist / found.waist,
-                       wanted.hip / found.hip};
-    if (std::max({std::abs(ratio.bust - 1), std::abs(ratio.waist - 1), std::abs(ratio.hip - 1)}) <
-        kTolerance) {
-      break;
-    }
-    fitted.shape.bust_factor *= ratio.bust;
-    fitted.shape.waist_factor *= ratio.waist;
-    fitted.shape.hip_factor *= ratio.hip;
-  }
-  return fitted;
-}
-
-// How finely the smooth surface must be known for these divisions; beyond 2^4 points along an edge
-// of the cage (about 3 mm) straight lines between them are as good as the surface.
-int LevelsFor(const Divisions& divisions) {
-  int levels = 2;
-  while (levels < 4 && (1 << levels) < divisions.largest) ++levels;
-  return levels;
+  shape.sex = options.sex;
+  shape.arm_angle_rad = ArmAngle(options);
+  shape.head_factor = HeadFactor(options.height_m);
+  shape.with_head = options.with_head;
+  shape.with_hands = options.with_hands;
+  shape.with_feet = options.with_feet;
+  return shape;
 }
 
 mesh::PolygonSoup ToSoup(const QuadMesh& half, double scale_m, bool quads) {
@@ -191,17 +121,15 @@ mesh::PolygonSoup ToSoup(const QuadMesh& half, double scale_m, bool quads) {
 
 absl::StatusOr<mesh::PolygonSoup> MakeMannequin(const MannequinOptions& options) {
   CAPFIT_RETURN_IF_ERROR(Validate(options));
-  FittedShape fitted = FitShape(options);
-  fitted.shape.with_head = options.with_head;
-  fitted.shape.with_hands = options.with_hands;
-  fitted.shape.with_feet = options.with_feet;
-  const BodyCage cage = BuildBodyCage(fitted.shape);
-  const QuadMesh whole = WithMirrorImage(cage.half);
+  BodyShape shape = UsualShape(options);
+  const double height = WholeHeight(shape);
   const Divisions divisions =
-      ChooseDivisions(cage.half, SmoothSurface(whole, 2), options.faces / (options.quads ? 2 : 4));
-  const HalfBody body =
-      SampleBody(fitted.shape, cage, SmoothSurface(whole, LevelsFor(divisions)), divisions);
-  return ToSoup(body.mesh, options.height_m / fitted.height, options.quads);
+      FitShape(WantedGirths(options), height, options.faces / (options.quads ? 2 : 4), shape);
+  const BodyCage cage = BuildBodyCage(shape);
+  const SmoothSurface surface(WithMirrorImage(cage.half), LevelsFor(divisions));
+  QuadMesh half = Sample(cage.half, surface, divisions);
+  ApplyBumps(BodyBumps(shape, cage), half.vertices);
+  return ToSoup(half, options.height_m / height, options.quads);
 }
 
 }  // namespace capfit::mannequin
