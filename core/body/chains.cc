@@ -10,6 +10,8 @@ namespace capfit::body {
 namespace {
 
 constexpr int kCurvePoints = 33;
+// Share of the stature.
+constexpr double kArmpitBelowNeck = 0.12;
 
 // Evenly spaced along the polyline; nothing when it has no length.
 std::optional<MedialCurve> Evenly(const std::vector<Eigen::Vector3d>& line) {
@@ -65,7 +67,7 @@ std::optional<MedialCurve> TrunkCurve(const Shape& shape, const Eigen::Vector3d&
   std::vector<Eigen::Vector3d> line = {crotch};
   for (double y = crotch.y() + 0.02 * stature; y < armpit_y - 0.01 * stature; y += 0.01 * stature) {
     const CutPlane plane = {Eigen::Vector3d(0, y, 0), Eigen::Vector3d::UnitY()};
-    for (const SectionLoop& loop : CutSection(shape.points, shape.triangles, plane)) {
+    for (const SectionLoop& loop : shape.surface->Cut(plane)) {
       if (!loop.is_closed) continue;
       if (loop.Min(Eigen::Vector3d::UnitX()) < 0.0 && loop.Max(Eigen::Vector3d::UnitX()) > 0.0) {
         line.push_back(loop.centroid);
@@ -103,14 +105,13 @@ std::array<std::optional<MedialCurve>, kChainCount> BuildChains(const Shape& sha
     }
   }
   const auto& crotch = landmarks[Index(LandmarkId::kCrotch)];
-  const auto& neck = landmarks[Index(LandmarkId::kNeck)];
-  if (crotch && neck) {
-    const auto& left = at(LandmarkId::kLeftArmpit, kLeft);
-    const auto& right = at(LandmarkId::kLeftArmpit, kRight);
-    double armpit_y = neck->position_m.y() - 0.10 * shape.stature_m;
-    if (left) armpit_y = std::min(armpit_y, left->position_m.y());
-    if (right) armpit_y = std::min(armpit_y, right->position_m.y());
-    chains[0] = TrunkCurve(shape, crotch->position_m, neck->position_m, armpit_y);
+  if (crotch && shape.neck_middle_m) {
+    double armpit_y = shape.neck_middle_m->y() - kArmpitBelowNeck * shape.stature_m;
+    for (const int side : {kLeft, kRight}) {
+      const auto& armpit = at(LandmarkId::kLeftArmpit, side);
+      if (armpit) armpit_y = std::min(armpit_y, armpit->position_m.y());
+    }
+    chains[0] = TrunkCurve(shape, crotch->position_m, *shape.neck_middle_m, armpit_y);
   }
   return chains;
 }

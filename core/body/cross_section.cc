@@ -11,6 +11,10 @@ namespace {
 
 using EdgeKey = std::uint64_t;
 
+constexpr std::size_t kGroupSize = 16;
+// Rounding must not lose a triangle that just touches the plane.
+constexpr double kBallSlack = 1.000001;
+
 EdgeKey KeyOf(std::uint32_t a, std::uint32_t b) {
   return (static_cast<EdgeKey>(std::min(a, b)) << 32) | std::max(a, b);
 }
@@ -32,27 +36,21 @@ Eigen::Vector3d Crossing(std::span<const Eigen::Vector3d> points, const CutPlane
   return points[a] + (ha / (ha - hb)) * (points[b] - points[a]);
 }
 
-std::vector<Piece> CutTriangles(std::span<const Eigen::Vector3d> points,
-                                std::span<const mesh::Triangle> triangles, const CutPlane& plane) {
-  std::vector<Piece> pieces;
-  for (const mesh::Triangle& t : triangles) {
-    const bool above[3] = {plane.Height(points[t[0]]) >= 0.0, plane.Height(points[t[1]]) >= 0.0,
-                           plane.Height(points[t[2]]) >= 0.0};
-    if (above[0] == above[1] && above[1] == above[2]) continue;
-    Piece piece;
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t a = t[k];
-      const std::uint32_t b = t[(k + 1) % 3];
-      if (above[k] == above[(k + 1) % 3]) continue;
-      // Going up along the edge leaves the section on its left: outlines run counter-clockwise.
-      (above[k] ? piece.from : piece.to) = KeyOf(a, b);
-      (above[k] ? piece.start : piece.end) = Crossing(points, plane, a, b);
-    }
-    pieces.push_back(piece);
+void CutTriangle(std::span<const Eigen::Vector3d> points, const mesh::Triangle& t,
+                 const CutPlane& plane, std::vector<Piece>& pieces) {
+  const bool above[3] = {plane.Height(points[t[0]]) >= 0.0, plane.Height(points[t[1]]) >= 0.0,
+                         plane.Height(points[t[2]]) >= 0.0};
+  if (above[0] == above[1] && above[1] == above[2]) return;
+  Piece piece;
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t a = t[k];
+    const std::uint32_t b = t[(k + 1) % 3];
+    if (above[k] == above[(k + 1) % 3]) continue;
+    // Outward normals: the outline comes in where the triangle's edge goes down.
+    (above[k] ? piece.from : piece.to) = KeyOf(a, b);
+    (above[k] ? piece.start : piece.end) = Crossing(points, plane, a, b);
   }
-  std::sort(pieces.begin(), pieces.end(),
-            [](const Piece& a, const Piece& b) { return a.from < b.from; });
-  return pieces;
+  pieces.push_back(piece);
 }
 
 // Fan around the first point: exact for any simple outline.
@@ -117,10 +115,36 @@ double SectionLoop::Max(const Eigen::Vector3d& direction) const {
 
 double SectionLoop::Min(const Eigen::Vector3d& direction) const { return -Max(-direction); }
 
-std::vector<SectionLoop> CutSection(std::span<const Eigen::Vector3d> points,
-                                    std::span<const mesh::Triangle> triangles,
-                                    const CutPlane& plane) {
-  std::vector<SectionLoop> loops = Link(CutTriangles(points, triangles, plane));
+CutSurface::CutSurface(std::span<const Eigen::Vector3d> points,
+                       std::span<const mesh::Triangle> triangles)
+    : points_(points), triangles_(triangles) {
+  groups_.reserve(triangles.size() / kGroupSize + 1);
+  for (std::size_t first = 0; first < triangles.size(); first += kGroupSize) {
+    const std::size_t last = std::min(first + kGroupSize, triangles.size());
+    Eigen::Vector3d low = points[triangles[first][0]];
+    Eigen::Vector3d high = low;
+    for (std::size_t i = first; i < last; ++i) {
+      for (const std::uint32_t v : triangles[i]) {
+        low = low.cwiseMin(points[v]);
+        high = high.cwiseMax(points[v]);
+      }
+    }
+    groups_.push_back({0.5 * (low + high), 0.5 * (high - low).norm()});
+  }
+}
+
+std::vector<SectionLoop> CutSurface::Cut(const CutPlane& plane) const {
+  std::vector<Piece> pieces;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (std::abs(plane.Height(groups_[g].center)) > groups_[g].radius * kBallSlack) continue;
+    const std::size_t last = std::min((g + 1) * kGroupSize, triangles_.size());
+    for (std::size_t i = g * kGroupSize; i < last; ++i) {
+      CutTriangle(points_, triangles_[i], plane, pieces);
+    }
+  }
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece& a, const Piece& b) { return a.from < b.from; });
+  std::vector<SectionLoop> loops = Link(pieces);
   for (SectionLoop& loop : loops) Measure(loop, plane.normal);
   std::stable_sort(loops.begin(), loops.end(), [](const SectionLoop& a, const SectionLoop& b) {
     return std::abs(a.area) > std::abs(b.area);
@@ -128,12 +152,10 @@ std::vector<SectionLoop> CutSection(std::span<const Eigen::Vector3d> points,
   return loops;
 }
 
-std::optional<SectionLoop> CutLoopAt(std::span<const Eigen::Vector3d> points,
-                                     std::span<const mesh::Triangle> triangles,
-                                     const CutPlane& plane, double min_girth) {
+std::optional<SectionLoop> CutSurface::CutNearest(const CutPlane& plane, double min_girth) const {
   std::optional<SectionLoop> best;
   double best_distance = std::numeric_limits<double>::infinity();
-  for (SectionLoop& loop : CutSection(points, triangles, plane)) {
+  for (SectionLoop& loop : Cut(plane)) {
     if (!loop.is_closed || loop.girth < min_girth) continue;
     const double distance = (loop.centroid - plane.origin).norm();
     if (distance >= best_distance) continue;

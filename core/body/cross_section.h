@@ -32,17 +32,34 @@ struct SectionLoop {
   [[nodiscard]] double Min(const Eigen::Vector3d& direction) const;
 };
 
-// All loops of the section, the largest area first. Outlines run counter-clockwise seen against
-// the normal where the surface's own orientation says so. O(triangles).
-[[nodiscard]] std::vector<SectionLoop> CutSection(std::span<const Eigen::Vector3d> points,
-                                                  std::span<const mesh::Triangle> triangles,
-                                                  const CutPlane& plane);
+// Triangles that will be cut by many planes. Neighbouring triangles are looked at in groups, each
+// with a ball around it, so that a plane touches few of them when neighbours in the list are
+// neighbours in space.
+class CutSurface {
+ public:
+  // Both spans must outlive this. O(triangles).
+  CutSurface(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles);
 
-// The closed loop whose centroid is nearest to the plane's origin, loops of less than
-// `min_girth` left out.
-[[nodiscard]] std::optional<SectionLoop> CutLoopAt(std::span<const Eigen::Vector3d> points,
-                                                   std::span<const mesh::Triangle> triangles,
-                                                   const CutPlane& plane, double min_girth);
+  // All loops of the section, the largest area first. Outlines run counter-clockwise as seen
+  // against the normal.
+  [[nodiscard]] std::vector<SectionLoop> Cut(const CutPlane& plane) const;
+
+  // The closed loop whose centroid is nearest to the plane's origin, loops of less than
+  // `min_girth` left out.
+  [[nodiscard]] std::optional<SectionLoop> CutNearest(const CutPlane& plane,
+                                                      double min_girth) const;
+
+  [[nodiscard]] std::span<const Eigen::Vector3d> points() const { return points_; }
+
+ private:
+  struct Group {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    double radius = 0.0;
+  };
+  std::span<const Eigen::Vector3d> points_;
+  std::span<const mesh::Triangle> triangles_;
+  std::vector<Group> groups_;
+};
 
 }  // namespace capfit::body
 

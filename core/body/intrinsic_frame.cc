@@ -285,52 +285,60 @@ double Facing(const Rings& rings, std::span<const Eigen::Vector3d> points,
   return evidence;
 }
 
+// Whether limb `a` of a pair lies to the left of `b`; of the plane, where one of them is missing.
+bool IsLeft(const Rings& rings, Tip a, Tip b, const IntrinsicFrame& frame) {
+  double x = 0.0;
+  for (const auto& [tip, sign] : {std::pair(a, 1.0), std::pair(b, -1.0)}) {
+    if (!rings.limb(tip)) continue;
+    for (const Eigen::Vector3d& c : *rings.limb(tip)) {
+      x += sign * (frame.left.dot(c) - frame.plane_offset);
+    }
+  }
+  return x > 0.0;
+}
+
 }  // namespace
 
-std::optional<IntrinsicFrame> FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
-                                                 std::span<const double> vertex_areas,
-                                                 const Extremities& extremities,
-                                                 const std::optional<Eigen::Vector3d>& up) {
+IntrinsicFrame TurnedAbout(const IntrinsicFrame& frame) {
+  IntrinsicFrame turned = frame;
+  turned.left = -frame.left;
+  turned.plane_offset = -frame.plane_offset;
+  turned.forward = -frame.forward;
+  turned.first_hand_is_left = !frame.first_hand_is_left;
+  turned.first_foot_is_left = !frame.first_foot_is_left;
+  return turned;
+}
+
+IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
+                                  std::span<const double> vertex_areas,
+                                  const Extremities& extremities,
+                                  const std::optional<Eigen::Vector3d>& up) {
   Rings rings;
   for (int i = 0; i < kTipCount; ++i) {
     if (!extremities.limbs[i]) continue;
     rings.limbs[i] = LimbCentroids(points, vertex_areas, extremities, *extremities.limbs[i]);
   }
   rings.trunk = TrunkCentroids(points, vertex_areas, extremities);
-  Plane plane = SymmetryPlane(rings);
+  const Plane plane = SymmetryPlane(rings);
   IntrinsicFrame frame;
-  if (up) plane.normal = (plane.normal - plane.normal.dot(*up) * *up).normalized();
   frame.left = plane.normal;
   frame.plane_offset = plane.offset;
-  frame.up = TrunkDirection(rings);
-  frame.up = (frame.up - frame.up.dot(frame.left) * frame.left).normalized();
-  frame.forward = frame.left.cross(frame.up);
+  const Eigen::Vector3d trunk = TrunkDirection(rings).normalized();
   if (up) {
     frame.up = *up;
-  } else if (const auto at_rest = UpAtRest(points, frame.up, frame.forward)) {
-    frame.up = *at_rest;
+    frame.left = (plane.normal - plane.normal.dot(*up) * *up).normalized();
+  } else {
+    frame.up = (trunk - trunk.dot(frame.left) * frame.left).normalized();
+    const auto at_rest = UpAtRest(points, frame.up, frame.left.cross(frame.up));
+    if (at_rest) frame.up = *at_rest;
   }
+  frame.up_agreement = frame.up.dot(trunk);
   frame.forward = frame.left.cross(frame.up);
+  frame.first_hand_is_left = IsLeft(rings, Tip::kHandA, Tip::kHandB, frame);
+  frame.first_foot_is_left = IsLeft(rings, Tip::kFootA, Tip::kFootB, frame);
   const double facing = Facing(rings, points, extremities, frame.up, frame.forward);
   frame.facing_trust = std::min(1.0, std::abs(facing));
-  if (facing < 0.0) {
-    frame.left = -frame.left;
-    frame.plane_offset = -frame.plane_offset;
-    frame.forward = -frame.forward;
-  }
-  const auto is_left = [&](Tip a, Tip b) {
-    double x = 0.0;
-    for (const auto& [tip, sign] : {std::pair(a, 1.0), std::pair(b, -1.0)}) {
-      if (!rings.limb(tip)) continue;
-      for (int i = 0; i < kLevels; ++i) {
-        x += sign * (frame.left.dot((*rings.limb(tip))[i]) - frame.plane_offset);
-      }
-    }
-    return x > 0.0;
-  };
-  frame.first_is_left = is_left(Tip::kFootA, Tip::kFootB);
-  frame.hands_are_swapped = is_left(Tip::kHandA, Tip::kHandB) != frame.first_is_left;
-  return frame;
+  return facing < 0.0 ? TurnedAbout(frame) : frame;
 }
 
 }  // namespace capfit::body

@@ -25,19 +25,24 @@ struct IntrinsicFrame {
   Eigen::Vector3d forward = Eigen::Vector3d::UnitZ();
   double plane_offset = 0.0;       // the symmetry plane: left . p = plane_offset
   double facing_trust = 0.0;       // [0, 1]; how clear front and back are
-  bool first_is_left = true;       // the limbs kHandA and kFootA of the extremities are on the left
-  bool hands_are_swapped = false;  // kHandA is on the other side than kFootA
+  double up_agreement = 1.0;       // cosine between `up` and the way from the legs to the head
+  bool first_hand_is_left = true;  // kHandA of the extremities
+  bool first_foot_is_left = true;  // kFootA
 };
 
 // Symmetry plane: least squares over what mirrors what (rings of left and right limbs, rings of
 // trunk and head onto themselves), with limbs in different poses weighed down. Up: in that plane,
 // so that the body would stand at rest on its soles, where that is near to the trunk's own
 // direction; else the trunk's direction. Forward: where the toes point, and the knees bend to.
-// Exact for bodies that are symmetric; the same for any turned, moved or scaled copy. Needs at
-// least three limbs, both legs or both arms among them. `up` given: taken as it is.
-[[nodiscard]] std::optional<IntrinsicFrame> FindIntrinsicFrame(
-    std::span<const Eigen::Vector3d> points, std::span<const double> vertex_areas,
-    const Extremities& extremities, const std::optional<Eigen::Vector3d>& up);
+// Exact for bodies that are symmetric; the same for any turned, moved or scaled copy. `up` given:
+// taken as it is. Needs three limbs or more.
+[[nodiscard]] IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
+                                                std::span<const double> vertex_areas,
+                                                const Extremities& extremities,
+                                                const std::optional<Eigen::Vector3d>& up);
+
+// Front and back, left and right exchanged.
+[[nodiscard]] IntrinsicFrame TurnedAbout(const IntrinsicFrame& frame);
 
 }  // namespace capfit::body
 

@@ -29,6 +29,11 @@ constexpr double kAnkleAboveHeelGirth = 0.015;
 // Upper arm: direction between these two places, counted from the wrist.
 constexpr double kUpperArmFrom = 0.150;
 constexpr double kUpperArmTo = 0.200;
+// Where the flank is, seen from the inner end of the arm's middle line, and how far around that
+// the armpit is looked for.
+constexpr double kFlankInside = 0.02;
+constexpr double kFlankBelow = 0.14;
+constexpr double kArmpitRegion = 0.25;
 // The shoulder joint on the way from the armpit to the top of the shoulder, as a share of that
 // way, and how that way leans out when the arm hangs and in when it is raised (per radian).
 constexpr double kShoulderHeightShare = 0.54;
@@ -61,14 +66,6 @@ std::uint32_t NearestVertex(const Shape& shape, std::span<const std::uint32_t> a
     }
   }
   return best;
-}
-
-Landmark Measured(const Eigen::Vector3d& position_m, double confidence) {
-  return {position_m, LandmarkMethod::kMeasured, confidence};
-}
-
-Landmark ByRatio(const Eigen::Vector3d& position_m, double confidence) {
-  return {position_m, LandmarkMethod::kRatio, confidence};
 }
 
 // The centre of the flat end of a cut limb: its last section carried to the end.
@@ -128,12 +125,11 @@ void FindWrist(Shape& shape, int side, Landmarks& landmarks) {
   const double palm = arm.MaxGirth(kPalmFrom * stature, arc);
   shape.has_hand[side] = palm > kPalmWiderThanWrist * arm.At(arc).girth;
   if (!shape.has_hand[side]) {
-    landmarks[Sided(LandmarkId::kLeftWrist, side)] = Measured(CutEnd(arm), 0.9);
+    Put(landmarks, Sided(LandmarkId::kLeftWrist, side), CutEnd(arm), 0.9);
     return;
   }
-  landmarks[Sided(LandmarkId::kLeftWrist, side)] = Measured(arm.At(arc).center, 0.9);
-  landmarks[Sided(LandmarkId::kLeftFingertip, side)] =
-      Measured(shape.points[shape.arms[side]->tip], 0.9);
+  Put(landmarks, Sided(LandmarkId::kLeftWrist, side), arm.At(arc).center, 0.9);
+  Put(landmarks, Sided(LandmarkId::kLeftFingertip, side), shape.points[shape.arms[side]->tip], 0.9);
 }
 
 void FindAnkle(Shape& shape, int side, Landmarks& landmarks) {
@@ -149,11 +145,11 @@ void FindAnkle(Shape& shape, int side, Landmarks& landmarks) {
   shape.has_foot[side] =
       Eigen::Vector2d(toe.x() - ankle.x(), toe.z() - ankle.z()).norm() > kToeReach * stature;
   if (!shape.has_foot[side]) {
-    landmarks[Sided(LandmarkId::kLeftAnkle, side)] = Measured(CutEnd(leg), 0.9);
+    Put(landmarks, Sided(LandmarkId::kLeftAnkle, side), CutEnd(leg), 0.9);
     return;
   }
-  landmarks[Sided(LandmarkId::kLeftAnkle, side)] = Measured(ankle, 0.8);
-  landmarks[Sided(LandmarkId::kLeftToe, side)] = Measured(toe, 0.8);
+  Put(landmarks, Sided(LandmarkId::kLeftAnkle, side), ankle, 0.8);
+  Put(landmarks, Sided(LandmarkId::kLeftToe, side), toe, 0.8);
   // The heel: farthest from the toe along the foot, below the ankle.
   const Eigen::Vector3d back = Eigen::Vector3d(ankle.x() - toe.x(), 0, ankle.z() - toe.z());
   Eigen::Vector3d heel(ankle.x(), 0.0, ankle.z());
@@ -161,7 +157,7 @@ void FindAnkle(Shape& shape, int side, Landmarks& landmarks) {
     const Eigen::Vector3d& p = shape.points[v];
     if (p.y() < kHeelHeight * stature && back.dot(p) > back.dot(heel)) heel = p;
   }
-  landmarks[Sided(LandmarkId::kLeftHeel, side)] = Measured(heel, 0.8);
+  Put(landmarks, Sided(LandmarkId::kLeftHeel, side), heel, 0.8);
 }
 
 namespace {
@@ -181,14 +177,16 @@ std::optional<Armpit> FindArmpit(const Shape& shape, int side, const Landmarks& 
   Armpit armpit;
   armpit.arm = (lower.center - upper.center).normalized();
   const Eigen::Vector3d outward = (armpit.arm - Eigen::Vector3d::UnitY()).normalized();
-  const Eigen::Vector3d crotch = landmarks[Index(LandmarkId::kCrotch)]->position_m;
+  // The flank beside the waist, and a way from there to the arm that stays near the shoulder.
+  const Eigen::Vector3d root = profile.stations.back().center;
   const Eigen::Vector3d flank =
-      crotch + Eigen::Vector3d(0.06 * SideSign(side), 0.10, 0.0) * stature;
+      root + Eigen::Vector3d(-kFlankInside * SideSign(side), -kFlankBelow, 0.0) * stature;
   std::vector<std::uint32_t> all(shape.points.size());
   for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
-  const std::uint32_t on_arm = NearestVertex(shape, shape.arms[side]->vertices, lower.center);
-  const auto cleft =
-      FindCleft(shape.points, *shape.graph, on_arm, NearestVertex(shape, all, flank), outward);
+  const geometry::Sphere region = {root, kArmpitRegion * stature};
+  const auto cleft = FindCleft(shape.points, *shape.graph,
+                               NearestVertex(shape, shape.arms[side]->vertices, lower.center),
+                               NearestVertex(shape, all, flank), outward, region);
   if (!cleft) return std::nullopt;
   armpit.position_m = shape.points[*cleft];
   return armpit;
@@ -205,7 +203,7 @@ ShoulderCut CutShoulder(const Shape& shape, const Armpit& armpit) {
   const Eigen::Vector3d above = armpit.position_m + Eigen::Vector3d(0, 0.03 * shape.stature_m, 0);
   ShoulderCut cut = {above.y(), above.z()};
   double nearest = std::numeric_limits<double>::infinity();
-  for (const SectionLoop& loop : CutSection(shape.points, shape.triangles, plane)) {
+  for (const SectionLoop& loop : shape.surface->Cut(plane)) {
     const double distance = (loop.centroid - above).norm();
     if (!loop.is_closed || distance >= nearest) continue;
     nearest = distance;
@@ -222,25 +220,36 @@ ShoulderCut CutShoulder(const Shape& shape, const Armpit& armpit) {
   return cut;
 }
 
+// The joint stands over the armpit, at a share of the thickness of the shoulder there.
+Eigen::Vector3d ShoulderOver(const Shape& shape, int side, const Armpit& armpit) {
+  const ShoulderCut cut = CutShoulder(shape, armpit);
+  const double thickness = cut.top_y - armpit.position_m.y();
+  const double raised = std::acos(std::clamp(-armpit.arm.y(), -1.0, 1.0));  // 0: arm hangs
+  const double lean = kShoulderLean - kShoulderLeanPerRadian * raised;
+  return {armpit.position_m.x() + SideSign(side) * lean * thickness,
+          armpit.position_m.y() + kShoulderHeightShare * thickness, cut.middle_z};
+}
+
 }  // namespace
 
 void FindUpperArm(const Shape& shape, int side, Landmarks& landmarks) {
-  const std::optional<Armpit> armpit = FindArmpit(shape, side, landmarks);
-  if (!armpit) return;
-  landmarks[Sided(LandmarkId::kLeftArmpit, side)] = Measured(armpit->position_m, 0.8);
-  const ShoulderCut cut = CutShoulder(shape, *armpit);
-  const double thickness = cut.top_y - armpit->position_m.y();
-  const double raised = std::acos(std::clamp(-armpit->arm.y(), -1.0, 1.0));  // 0: arm hangs
-  const double lean = kShoulderLean - kShoulderLeanPerRadian * raised;
-  const Eigen::Vector3d shoulder(armpit->position_m.x() + SideSign(side) * lean * thickness,
-                                 armpit->position_m.y() + kShoulderHeightShare * thickness,
-                                 cut.middle_z);
-  landmarks[Sided(LandmarkId::kLeftShoulder, side)] = Measured(shoulder, 0.7);
   const LimbProfile& arm = *shape.arm_profiles[side];
+  const std::size_t armpit_at = Sided(LandmarkId::kLeftArmpit, side);
+  const std::size_t shoulder_at = Sided(LandmarkId::kLeftShoulder, side);
+  if (std::optional<Armpit> armpit = FindArmpit(shape, side, landmarks)) {
+    Put(landmarks, armpit_at, armpit->position_m, 0.8);
+    armpit->position_m = landmarks[armpit_at]->position_m;
+    Put(landmarks, shoulder_at, ShoulderOver(shape, side, *armpit), 0.7);
+  } else {
+    // No cleft (the arm is melted to the trunk there): the inner end of the arm's own tube.
+    Put(landmarks, armpit_at, arm.stations.back().center, 0.2, LandmarkMethod::kRatio);
+    Put(landmarks, shoulder_at, arm.stations.back().center, 0.2, LandmarkMethod::kRatio);
+  }
   const Eigen::Vector3d wrist = landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m;
+  const Eigen::Vector3d shoulder = landmarks[shoulder_at]->position_m;
   const double arc =
       BendArc(arm, arm.NearestArc(wrist), ArcOf(arm, shoulder), kElbowShare, kElbowShareSpread);
-  landmarks[Sided(LandmarkId::kLeftElbow, side)] = Measured(arm.At(arc).center, 0.8);
+  Put(landmarks, Sided(LandmarkId::kLeftElbow, side), arm.At(arc).center, 0.8);
 }
 
 void FindThigh(const Shape& shape, int side, Landmarks& landmarks) {
@@ -250,10 +259,10 @@ void FindThigh(const Shape& shape, int side, Landmarks& landmarks) {
   const Eigen::Vector3d ankle = landmarks[Sided(LandmarkId::kLeftAnkle, side)]->position_m;
   const double arc =
       BendArc(leg, leg.NearestArc(ankle), leg.NearestArc(crotch), kKneeShare, kKneeShareSpread);
-  landmarks[Sided(LandmarkId::kLeftKnee, side)] = Measured(leg.At(arc).center, 0.8);
+  Put(landmarks, Sided(LandmarkId::kLeftKnee, side), leg.At(arc).center, 0.8);
   const Eigen::Vector3d hip = crotch + stature * Eigen::Vector3d(SideSign(side) * kHipBeside,
                                                                  kHipAboveCrotch, kHipBeforeCrotch);
-  landmarks[Sided(LandmarkId::kLeftHip, side)] = ByRatio(hip, 0.6);
+  Put(landmarks, Sided(LandmarkId::kLeftHip, side), hip, 0.6, LandmarkMethod::kRatio);
 }
 
 }  // namespace capfit::body

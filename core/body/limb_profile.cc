@@ -11,7 +11,10 @@ namespace {
 using Line = std::vector<Eigen::Vector3d>;
 
 // All lengths are shares of the stature.
-constexpr double kSpacing = 0.004;
+constexpr double kDraftSpacing = 0.012;
+constexpr double kSpacing = 0.006;
+// Sections stand across the chord from this far before to this far behind them.
+constexpr double kChord = 0.016;
 constexpr double kFirstStation = 0.006;
 // How far past the rings the line goes on, straight, so that it reaches into the trunk.
 constexpr double kExtension = 0.12;
@@ -22,8 +25,8 @@ constexpr int kRings = 40;
 // A section further from the line than this is not the limb's own.
 constexpr double kMaxDrift = 0.035;
 constexpr double kMinGirth = 0.015;
-// A section that grows by more than this factor over one spacing has run into the trunk.
-constexpr double kJump = 1.30;
+// A section that grows faster than this (relative, per stature) has run into the trunk.
+constexpr double kGrowth = 60.0;
 // Triangles of the trunk within this distance of the line's inner end take part in the sections.
 constexpr double kTrunkReach = 0.17;
 
@@ -86,7 +89,7 @@ Line RingCentroids(std::span<const Eigen::Vector3d> points,
 }
 
 void Extend(Line& line, double length) {
-  const std::size_t back = std::min<std::size_t>(6, line.size() - 1);
+  const std::size_t back = std::min<std::size_t>(4, line.size() - 1);
   const Eigen::Vector3d direction = (line.back() - line[line.size() - 1 - back]).normalized();
   line.push_back(line.back() + length * direction);
 }
@@ -101,24 +104,26 @@ std::vector<mesh::Triangle> LimbTriangles(std::span<const mesh::Triangle> triang
 }
 
 // Sections along the line from the tip until they leave the limb.
-std::vector<Station> CutAlong(std::span<const Eigen::Vector3d> points,
-                              std::span<const mesh::Triangle> triangles, const Line& line,
-                              double stature) {
-  const Line at = Resample(line, kFirstStation * stature, kSpacing * stature);
+std::vector<Station> CutAlong(const CutSurface& surface, const Line& line, double stature,
+                              double spacing) {
+  const Line at = Resample(line, kFirstStation * stature, spacing * stature);
   std::vector<Station> stations;
   const int count = static_cast<int>(at.size());
+  const int reach = static_cast<int>(std::lround(kChord / spacing));
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d& before = at[std::max(0, i - 4)];
-    const Eigen::Vector3d& after = at[std::min(count - 1, i + 4)];
+    const Eigen::Vector3d& before = at[std::max(0, i - reach)];
+    const Eigen::Vector3d& after = at[std::min(count - 1, i + reach)];
     const CutPlane plane = {at[i], (after - before).normalized()};
-    const auto loop = CutLoopAt(points, triangles, plane, kMinGirth * stature);
-    const double arc = (kFirstStation + kSpacing * i) * stature;
+    const auto loop = surface.CutNearest(plane, kMinGirth * stature);
+    const double arc = (kFirstStation + spacing * i) * stature;
     const bool is_near_tip = arc < 0.1 * stature;
     if (!loop || (loop->centroid - at[i]).norm() > kMaxDrift * stature) {
       if (is_near_tip) continue;  // fingers, toes, chin
       break;
     }
-    if (!is_near_tip && !stations.empty() && loop->girth > kJump * stations.back().girth) break;
+    if (!is_near_tip && !stations.empty() &&
+        loop->girth > (1.0 + kGrowth * spacing) * stations.back().girth)
+      break;
     stations.push_back({arc, loop->centroid, plane.normal, loop->girth, std::abs(loop->area)});
   }
   return stations;
@@ -198,12 +203,15 @@ LimbProfile MakeLimbProfile(std::span<const Eigen::Vector3d> points,
     for (const std::uint32_t v : t) in_limb[v] = 1;
   }
   const std::vector<mesh::Triangle> own = LimbTriangles(triangles, in_limb);
+  const CutSurface surface(points, own);
   Line centers = {points[limb.tip]};
-  for (const Station& s : CutAlong(points, own, line, stature)) centers.push_back(s.center);
-  if (centers.size() < 12) return profile;
-  Smooth(centers, 8);
+  for (const Station& s : CutAlong(surface, line, stature, kDraftSpacing)) {
+    centers.push_back(s.center);
+  }
+  if (centers.size() < 8) return profile;
+  Smooth(centers, 2);
   Extend(centers, kExtension * stature);
-  profile.stations = CutAlong(points, own, centers, stature);
+  profile.stations = CutAlong(surface, centers, stature, kSpacing);
   return profile;
 }
 

@@ -143,13 +143,13 @@ class Labeller {
   }
 
   void LabelHead() {
-    if (!shape_.head || !Has(LandmarkId::kNeck)) return;
+    if (!shape_.head || !shape_.neck_base_m) return;
     const std::uint32_t tip = shape_.head->tip;
-    const Eigen::Vector3d neck = At(LandmarkId::kNeck);
-    if (!shape_.has_head) return;
-    Flood(shape_, {tip}, Across(neck, Eigen::Vector3d(0, 0.96, 0.28), 0.0, kNeckRadius),
+    const Eigen::Vector3d base = *shape_.neck_base_m;
+    Flood(shape_, {tip}, Across(base, Eigen::Vector3d(0, 0.96, 0.28), 0.0, kNeckRadius),
           Segment::kNeck, segments_);
-    Flood(shape_, {tip}, Across(neck, Eigen::Vector3d(0, 0.745, 0.667), kJawAboveNeck, kNeckRadius),
+    if (!shape_.has_head) return;
+    Flood(shape_, {tip}, Across(base, Eigen::Vector3d(0, 0.745, 0.667), kJawAboveNeck, kNeckRadius),
           Segment::kHead, segments_);
   }
 

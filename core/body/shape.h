@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/body/body.h"
+#include "core/body/cross_section.h"
 #include "core/body/extremities.h"
 #include "core/body/limb_profile.h"
 #include "core/body/surface_graph.h"
@@ -23,6 +24,7 @@ struct Shape {
   std::span<const Eigen::Vector3d> points;
   std::span<const mesh::Triangle> triangles;
   const SurfaceGraph* graph = nullptr;
+  const CutSurface* surface = nullptr;
   double top_m = 0.0;      // extent along Y; the lowest point is at 0
   double stature_m = 0.0;  // height of the whole body: what is cut off is added, by proportion
   // By side; nothing where the limb is missing. Profiles run from the tip to the trunk.
@@ -31,6 +33,9 @@ struct Shape {
   std::optional<Limb> head;
   std::array<std::optional<LimbProfile>, 2> arm_profiles;
   std::array<std::optional<LimbProfile>, 2> leg_profiles;
+  // The neck: where it leaves the trunk, and its middle (the cut, where there is no head).
+  std::optional<Eigen::Vector3d> neck_base_m;
+  std::optional<Eigen::Vector3d> neck_middle_m;
   // Whether the limb ends as nature made it, not in a flat cut.
   bool has_head = false;
   std::array<bool, 2> has_hand = {false, false};
@@ -45,6 +50,14 @@ using Landmarks = std::array<std::optional<Landmark>, kLandmarkCount>;
   return static_cast<std::size_t>(left) + static_cast<std::size_t>(side);
 }
 [[nodiscard]] inline std::size_t Index(LandmarkId id) { return static_cast<std::size_t>(id); }
+
+// Enters a landmark that was found, unless the caller has given his own.
+inline void Put(Landmarks& landmarks, std::size_t index, const Eigen::Vector3d& position_m,
+                double confidence, LandmarkMethod method = LandmarkMethod::kMeasured) {
+  std::optional<Landmark>& landmark = landmarks[index];
+  if (landmark && landmark->method == LandmarkMethod::kCaller) return;
+  landmark = Landmark{position_m, method, confidence};
+}
 
 // +1 on the left, -1 on the right.
 [[nodiscard]] inline double SideSign(int side) { return side == kLeft ? 1.0 : -1.0; }

@@ -14,17 +14,19 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 double UnfoldedLength(const Eigen::Vector3d& p, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                       const Eigen::Vector3d& q) {
   const Eigen::Vector3d edge = c - b;
+  const Eigen::Vector3d bp = p - b;
+  const Eigen::Vector3d bq = q - b;
   const double edge_squared = edge.squaredNorm();
   if (edge_squared <= 0.0) return kInfinity;
-  const double edge_length = std::sqrt(edge_squared);
-  const double px = (p - b).dot(edge) / edge_length;
-  const double qx = (q - b).dot(edge) / edge_length;
-  const double py = std::sqrt(std::max(0.0, (p - b).squaredNorm() - px * px));
-  const double qy = std::sqrt(std::max(0.0, (q - b).squaredNorm() - qx * qx));
-  if (py + qy <= 0.0) return kInfinity;
-  const double crossing = px + (qx - px) * py / (py + qy);
-  if (crossing < 0.0 || crossing > edge_length) return kInfinity;
-  return std::hypot(qx - px, py + qy);
+  // Along the edge as a share of it; heights over it in the same unit.
+  const double px = bp.dot(edge) / edge_squared;
+  const double qx = bq.dot(edge) / edge_squared;
+  const double py = std::sqrt(std::max(0.0, bp.squaredNorm() / edge_squared - px * px));
+  const double qy = std::sqrt(std::max(0.0, bq.squaredNorm() / edge_squared - qx * qx));
+  const double rise = py + qy;
+  const double crossing = px * qy + qx * py;
+  if (crossing < 0.0 || crossing > rise || rise <= 0.0) return kInfinity;
+  return std::sqrt(((qx - px) * (qx - px) + rise * rise) * edge_squared);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace capfit::body {
 // Where the legs part.
 void FindCrotch(const Shape& shape, Landmarks& landmarks);
 
-// Base of the neck and, where there is a head, its top; sets has_head.
+// Base of the neck and, where there is a head, its top; without a head the neck is at the cut. Sets
+// the shape's neck_base_m and neck_middle_m.
 void FindNeck(Shape& shape, Landmarks& landmarks);
 
 // Centres of the waist (least girth), bust (greatest depth) and hip (greatest girth) sections, once
