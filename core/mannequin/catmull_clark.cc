@@ -1,6 +1,7 @@
 #include "core/mannequin/catmull_clark.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace capfit::mannequin {
@@ -26,26 +27,53 @@ std::uint64_t EdgeKey(std::uint32_t a, std::uint32_t b) {
   return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
 }
 
-EdgeTable BuildEdges(const QuadMesh& mesh) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> sides;  // edge key, 4 * quad + k
-  sides.reserve(4 * mesh.quads.size());
-  for (std::uint32_t q = 0; q < mesh.quads.size(); ++q) {
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      sides.emplace_back(EdgeKey(mesh.quads[q][k], mesh.quads[q][(k + 1) % 4]), 4 * q + k);
+// A side of a quad: 4 * quad + k, and the higher of its two vertices.
+struct Side {
+  std::uint32_t high;
+  std::uint32_t id;
+};
+
+// The sides by their lower vertex: those of vertex v are [starts[v], starts[v + 1]).
+struct SidesByVertex {
+  std::vector<std::uint32_t> starts;
+  std::vector<Side> sides;
+};
+
+SidesByVertex SortSides(const QuadMesh& mesh) {
+  SidesByVertex sorted{std::vector<std::uint32_t>(mesh.vertices.size() + 1, 0),
+                       std::vector<Side>(4 * mesh.quads.size())};
+  const auto for_each = [&](const auto& visit) {
+    for (std::uint32_t q = 0; q < mesh.quads.size(); ++q) {
+      for (std::uint32_t k = 0; k < 4; ++k) {
+        const auto [low, high] = std::minmax(mesh.quads[q][k], mesh.quads[q][(k + 1) % 4]);
+        visit(low, Side{high, 4 * q + k});
+      }
     }
-  }
-  std::sort(sides.begin(), sides.end());
+  };
+  for_each([&](std::uint32_t low, const Side&) { ++sorted.starts[low + 1]; });
+  std::partial_sum(sorted.starts.begin(), sorted.starts.end(), sorted.starts.begin());
+  std::vector<std::uint32_t> next = sorted.starts;
+  for_each([&](std::uint32_t low, const Side& side) { sorted.sides[next[low]++] = side; });
+  return sorted;
+}
+
+EdgeTable BuildEdges(const QuadMesh& mesh) {
+  const SidesByVertex sorted = SortSides(mesh);
   EdgeTable table;
-  table.edges.reserve(sides.size() / 2);
+  table.edges.reserve(sorted.sides.size() / 2);
   table.edges_of_quad.resize(mesh.quads.size());
-  for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
-    const auto id = static_cast<std::uint32_t>(table.edges.size());
-    const auto [key, first] = sides[i];
-    const std::uint32_t second = sides[i + 1].second;
-    table.edges.push_back({{static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key)},
-                           {first / 4, second / 4}});
-    table.edges_of_quad[first / 4][first % 4] = id;
-    table.edges_of_quad[second / 4][second % 4] = id;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    for (std::uint32_t i = sorted.starts[v]; i < sorted.starts[v + 1]; ++i) {
+      for (std::uint32_t j = i + 1; j < sorted.starts[v + 1]; ++j) {
+        const Side& first = sorted.sides[i];
+        const Side& second = sorted.sides[j];
+        if (first.high != second.high) continue;
+        const auto id = static_cast<std::uint32_t>(table.edges.size());
+        table.edges.push_back({{v, first.high}, {first.id / 4, second.id / 4}});
+        table.edges_of_quad[first.id / 4][first.id % 4] = id;
+        table.edges_of_quad[second.id / 4][second.id % 4] = id;
+      }
+    }
   }
   return table;
 }

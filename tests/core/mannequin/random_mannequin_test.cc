@@ -7,7 +7,7 @@
 namespace capfit::mannequin {
 namespace {
 
-constexpr int kCount = 300;
+constexpr int kCount = 120;
 
 TEST(RandomMannequinTest, EveryOneIsAClosedSurfaceThatDoesNotCutItself) {
   for (std::uint64_t seed = 0; seed < kCount; ++seed) {
@@ -55,10 +55,10 @@ TEST(RandomMannequinTest, DrawsAllKindsAndTheSameAgain) {
     EXPECT_EQ(options.hip_m, again.hip_m);
     EXPECT_EQ(options.faces, again.faces);
   }
-  EXPECT_NEAR(male, kCount / 2, 40);
-  EXPECT_NEAR(quads, kCount / 2, 40);
-  EXPECT_NEAR(cut, kCount / 4, 35);
-  EXPECT_NEAR(angles, kCount / 2, 40);
+  EXPECT_NEAR(male, kCount / 2, 22);
+  EXPECT_NEAR(quads, kCount / 2, 22);
+  EXPECT_NEAR(cut, kCount / 4, 18);
+  EXPECT_NEAR(angles, kCount / 2, 22);
 }
 
 }  // namespace

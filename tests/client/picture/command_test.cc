@@ -1,0 +1,151 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "client/picture/file_bytes.h"
+#include "client/picture/mannequin_command.h"
+#include "client/picture/render_command.h"
+#include "core/mesh/read_mesh.h"
+
+namespace capfit::client {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class CommandTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string Path(const std::string& name) const { return folder_ / name; }
+
+  // The exit code of the subcommand; CLI11's own errors count as 100 and more.
+  static int Run(std::vector<std::string> words) {
+    CLI::App app("capfit");
+    int exit_code = -1;
+    AddMannequinCommand(app, exit_code);
+    AddRenderCommand(app, exit_code);
+    std::reverse(words.begin(), words.end());
+    try {
+      app.parse(words);
+    } catch (const CLI::ParseError& error) {
+      return error.get_exit_code();
+    }
+    return exit_code;
+  }
+  static mesh::PolygonSoup ReadSoup(const std::string& path) {
+    const std::string bytes = *ReadFileBytes(path);
+    auto soup = mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(path));
+    EXPECT_TRUE(soup.ok()) << soup.status();
+    return soup.ok() ? *soup : mesh::PolygonSoup();
+  }
+  void WriteResult() const {
+    ASSERT_TRUE(WriteFileBytes(Path("r.json"), R"({"spheres": [[0, 0.9, 0, 0.2], [0, 1.3, 0, 0.2]],
+                                                  "capsules": [[0, 1]]})")
+                    .ok());
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(CommandTest, ObjAndPlyHoldTheSameMannequin) {
+  ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "3000", "--sex", "male"}), 0);
+  ASSERT_EQ(Run({"mannequin", "-o", Path("b.PLY"), "--faces", "3000", "--sex", "male"}), 0);
+  const mesh::PolygonSoup obj = ReadSoup(Path("b.obj"));
+  const mesh::PolygonSoup ply = ReadSoup(Path("b.PLY"));
+  ASSERT_EQ(obj.positions.size(), ply.positions.size());
+  EXPECT_EQ(obj.face_vertices, ply.face_vertices);
+  EXPECT_EQ(obj.face_sizes, ply.face_sizes);
+  for (std::size_t i = 0; i < obj.positions.size(); ++i) {
+    ASSERT_LT((obj.positions[i] - ply.positions[i]).norm(), 1e-7);
+  }
+}
+
+TEST_F(CommandTest, PartsAndTrianglesAreHonoured) {
+  ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "4000", "--triangles", "--parts",
+                 "torso,arms,legs"}),
+            0);
+  const mesh::PolygonSoup soup = ReadSoup(Path("b.obj"));
+  EXPECT_EQ(soup.face_vertices.size() % 3, 0u);
+  for (const Eigen::Vector3d& p : soup.positions) EXPECT_LT(p.y(), 1.6);
+}
+
+TEST_F(CommandTest, RefusesWhatItCannotDo) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(Run({"mannequin", "-o", Path("b.stl")}), 2);
+  EXPECT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--height-m", "3"}), 2);
+  EXPECT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--parts", "torso,head"}), 2);
+  EXPECT_EQ(Run({"mannequin", "-o", Path("no/such/folder/b.obj")}), 1);
+  EXPECT_GE(Run({"mannequin", "-o", Path("b.obj"), "--sex", "robot"}), 100);
+  EXPECT_GE(Run({"mannequin"}), 100);
+  const std::string errors = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(errors, HasSubstr("must end in .obj or .ply"));
+  EXPECT_THAT(errors, HasSubstr("height_m is 3, must be in [0.8, 2.3]"));
+  EXPECT_THAT(errors, HasSubstr("parts must name arms"));
+  EXPECT_THAT(errors, HasSubstr("cannot write"));
+}
+
+TEST_F(CommandTest, RendersStillsHeatAndTheBodyAlone) {
+  ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "2000"}), 0);
+  WriteResult();
+  const std::vector<std::string> size = {"--width", "400", "--height", "400"};
+  const auto render = [&](std::vector<std::string> words) {
+    words.insert(words.end(), size.begin(), size.end());
+    return Run(words);
+  };
+  EXPECT_EQ(render({"render", Path("b.obj"), Path("r.json"), "-o", Path("p.png")}), 0);
+  EXPECT_THAT(*ReadFileBytes(Path("p.png")), StartsWith("\x89PNG"));
+  EXPECT_EQ(render({"render", Path("b.obj"), Path("r.json"), "-o", Path("h.svg"), "--heat"}), 0);
+  EXPECT_THAT(*ReadFileBytes(Path("h.svg")), HasSubstr("</svg>"));
+  EXPECT_EQ(render({"render", Path("b.obj"), "-o", Path("a.png"), "--views", "front,back"}), 0);
+}
+
+TEST_F(CommandTest, RendersFramesOfAnAnimation) {
+  ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "2000"}), 0);
+  WriteResult();
+  const std::size_t vertices = ReadSoup(Path("b.obj")).positions.size();
+  ASSERT_TRUE(WriteFileBytes(Path("f.bin"), std::string(2 * vertices * 12, '\0')).ok());
+  ASSERT_TRUE(WriteFileBytes(Path("c.bin"), std::string(2 * 2 * 12, '\0')).ok());
+  const auto render = [&](const std::string& show, const std::string& frames) {
+    return Run({"render", Path("b.obj"), Path("r.json"), "-o", Path("p.png"), "--frames",
+                Path(frames), "--centers", Path("c.bin"), "--show", show, "--width", "300",
+                "--height", "300"});
+  };
+  EXPECT_EQ(render("0,1", "f.bin"), 0);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(render("2", "f.bin"), 2);
+  EXPECT_EQ(render("0", "c.bin"), 2);
+  EXPECT_EQ(render("0", "none.bin"), 1);
+  const std::string errors = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(errors, HasSubstr("show has frame 2, must be below 2"));
+  EXPECT_THAT(errors, HasSubstr("must be a multiple of"));
+}
+
+TEST_F(CommandTest, RenderRefusesBadInput) {
+  ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "2000"}), 0);
+  WriteResult();
+  ASSERT_TRUE(WriteFileBytes(Path("bad.json"), R"({"spheres": [[0]]})").ok());
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(Run({"render", Path("b.obj"), Path("r.json"), "-o", Path("p.jpg")}), 2);
+  EXPECT_EQ(Run({"render", Path("b.obj"), Path("bad.json"), "-o", Path("p.png")}), 2);
+  EXPECT_EQ(Run({"render", Path("b.obj"), "-o", Path("p.png"), "--heat"}), 2);
+  EXPECT_EQ(Run({"render", Path("b.obj"), Path("r.json"), "-o", Path("p.png"), "--width", "9"}), 2);
+  EXPECT_EQ(Run({"render", Path("none.obj"), Path("r.json"), "-o", Path("p.png")}), 1);
+  const std::string errors = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(errors, HasSubstr("spheres[0]"));
+  EXPECT_THAT(errors, HasSubstr("width is 9, must be in [200, 6000]"));
+}
+
+}  // namespace
+}  // namespace capfit::client
