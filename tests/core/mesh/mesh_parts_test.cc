@@ -1,0 +1,158 @@
+// The steps of the preparation by themselves.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "core/base/random.h"
+#include "core/mesh/edge_mates.h"
+#include "core/mesh/triangulate_loop.h"
+#include "core/mesh/weld_vertices.h"
+
+namespace capfit::mesh {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(EdgeMatesTest, PairsOppositeHalfEdges) {
+  const std::vector<Triangle> tetrahedron = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const EdgeMates mates = FindEdgeMates(tetrahedron, 4);
+  EXPECT_TRUE(mates.IsClosedAndOriented());
+  for (HalfEdge h = 0; h < 12; ++h) {
+    ASSERT_NE(mates.mate[h], kNoMate);
+    EXPECT_EQ(mates.mate[mates.mate[h]], h);
+    EXPECT_EQ(StartOf(tetrahedron, h), EndOf(tetrahedron, mates.mate[h]));
+  }
+}
+
+TEST(EdgeMatesTest, CountsOpenMisdirectedAndCrowdedEdges) {
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 1, 3}, {4, 5, 6}, {5, 4, 7}, {4, 5, 8}};
+  const EdgeMates mates = FindEdgeMates(triangles, 9);
+  EXPECT_EQ(mates.open, 10u);
+  EXPECT_EQ(mates.misdirected, 1u);
+  EXPECT_THAT(mates.crowded_sizes, ElementsAre(3));
+  EXPECT_THAT(mates.crowded, ElementsAre(6, 9, 12));
+  EXPECT_EQ(mates.mate[0], 3u);
+  EXPECT_EQ(mates.mate[6], kNoMate);
+}
+
+// A wheel has a vertex with so many edges that they are sorted the other way.
+TEST(EdgeMatesTest, HandlesVerticesOfManyEdges) {
+  std::vector<Triangle> wheel;
+  constexpr std::uint32_t kSpokes = 1000;
+  for (std::uint32_t k = 1; k <= kSpokes; ++k) wheel.push_back({0, k, k % kSpokes + 1});
+  const EdgeMates mates = FindEdgeMates(wheel, kSpokes + 1);
+  EXPECT_EQ(mates.open, kSpokes);
+  EXPECT_EQ(mates.misdirected, 0u);
+  for (std::uint32_t k = 0; k < kSpokes; ++k) {
+    EXPECT_EQ(mates.mate[3 * k + 2], 3 * ((k + 1) % kSpokes));
+  }
+}
+
+TEST(WeldTest, MergesEqualPositionsOfCandidatesOnly) {
+  const std::vector<Eigen::Vector3d> positions = {{0, 0, 0}, {1, 2, 3}, {-0.0, 0, 0},
+                                                  {1, 2, 3}, {0, 0, 0}, {1, 2, 3 + 1e-15}};
+  EXPECT_THAT(WeldEqual(positions, std::vector<std::uint32_t>{0, 1, 2, 3, 5}),
+              ElementsAre(0, 1, 0, 1, 4, 5));
+}
+
+TEST(WeldTest, JoinsTheNearestWithinTheToleranceWithoutChains) {
+  std::vector<Eigen::Vector3d> line;
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    line.emplace_back(0.75 * i, 0, 0);
+    all.push_back(i);
+  }
+  EXPECT_THAT(WeldWithin(line, all, 1.0), ElementsAre(0, 0, 2, 2, 4, 4));
+  EXPECT_THAT(WeldWithin(line, all, 0.74), ElementsAre(0, 1, 2, 3, 4, 5));
+}
+
+// Against all pairs: every candidate joins the nearest earlier one that stands for itself.
+TEST(WeldTest, AgreesWithTheSearchThroughAllPairs) {
+  Random random(3);
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t i = 0; i < 500; ++i) {
+    positions.emplace_back(random.NextIn(-5, 5), random.NextIn(-5, 5), random.NextIn(-5, 5));
+    all.push_back(i);
+  }
+  for (const double tolerance : {0.1, 0.5, 2.0}) {
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < positions.size(); ++i) {
+      std::uint32_t nearest = i;
+      double distance = tolerance;
+      for (std::uint32_t k = 0; k < i; ++k) {
+        const double d = (positions[i] - positions[k]).norm();
+        if (expected[k] == k && d < distance) {
+          nearest = k;
+          distance = d;
+        }
+      }
+      expected.push_back(nearest);
+    }
+    EXPECT_EQ(WeldWithin(positions, all, tolerance), expected) << tolerance;
+  }
+}
+
+constexpr auto kAny = [](std::uint32_t, std::uint32_t) { return true; };
+
+double AreaOf(const std::vector<Eigen::Vector3d>& loop, const std::vector<Triangle>& triangles) {
+  double area = 0.0;
+  for (const Triangle& t : triangles) {
+    area += 0.5 * (loop[t[1]] - loop[t[0]]).cross(loop[t[2]] - loop[t[0]]).norm();
+  }
+  return area;
+}
+
+// The smallest area of all triangulations of the chain from i to k, by trying them all.
+double LeastArea(const std::vector<Eigen::Vector3d>& loop, std::size_t i, std::size_t k) {
+  if (k - i < 2) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t m = i + 1; m < k; ++m) {
+    const double own = 0.5 * (loop[m] - loop[i]).cross(loop[k] - loop[i]).norm();
+    least = std::min(least, own + LeastArea(loop, i, m) + LeastArea(loop, m, k));
+  }
+  return least;
+}
+
+TEST(TriangulateLoopTest, FindsNearlyTheLeastArea) {
+  Random random(11);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<Eigen::Vector3d> loop;
+    for (int i = 0; i < 9; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / 9;
+      loop.emplace_back(std::cos(angle), std::sin(angle), random.NextIn(-0.5, 0.5));
+    }
+    const auto filling = FillBySmallestArea(loop, kAny);
+    ASSERT_TRUE(filling.has_value());
+    EXPECT_EQ(filling->size(), 7u);
+    // The price of edges may cost up to 1e-3 of the squared lengths of six of them.
+    EXPECT_LE(AreaOf(loop, *filling), LeastArea(loop, 0, 8) + 0.03);
+  }
+}
+
+TEST(TriangulateLoopTest, KeepsInsideFlatOutlinesWithInwardCorners) {
+  const std::vector<Eigen::Vector3d> arrow = {
+      {0, 0, 0}, {2, 2, 0}, {0, 4, 0}, {0.2, 2.2, 0}, {0.2, 1.8, 0}};
+  EXPECT_NEAR(AreaOf(arrow, *FillBySmallestArea(arrow, kAny)), 3.56, 1e-12);
+  EXPECT_NEAR(AreaOf(arrow, *FillByCuttingEars(arrow, kAny)), 3.56, 1e-12);
+}
+
+TEST(TriangulateLoopTest, UsesNoForbiddenEdge) {
+  std::vector<Eigen::Vector3d> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const auto not_from_0_to_2 = [](std::uint32_t i, std::uint32_t k) { return i + k != 2; };
+  for (const auto& fill : {FillBySmallestArea, FillByCuttingEars}) {
+    const auto filling = fill(square, not_from_0_to_2);
+    ASSERT_TRUE(filling.has_value());
+    for (const Triangle& t : *filling) EXPECT_TRUE(t[0] == 1 || t[1] == 1 || t[2] == 1);
+    const auto none = [](std::uint32_t, std::uint32_t) { return false; };
+    EXPECT_FALSE(fill(square, none).has_value());
+  }
+}
+
+}  // namespace
+}  // namespace capfit::mesh

@@ -1,0 +1,411 @@
+#include "core/mesh/prepare_mesh.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/base/random.h"
+#include "core/base/status.h"
+#include "tests/core/mesh/soups.h"
+#include "tests/fuzz/mesh_promises.h"
+
+namespace capfit::mesh {
+namespace {
+
+using testing::Each;
+using testing::HasSubstr;
+
+// The prepared mesh; the test fails where there is none or it breaks a promise.
+PreparedMesh Prepared(const PolygonSoup& soup) {
+  absl::StatusOr<PreparedMesh> prepared = PrepareMesh(soup);
+  EXPECT_TRUE(prepared.ok()) << prepared.status();
+  if (!prepared.ok()) return PreparedMesh{BodyMesh({}, {}, {}), {}};
+  EXPECT_EQ(fuzz::BrokenPromiseOfPrepare(*prepared, soup.positions.size()), "");
+  return *std::move(prepared);
+}
+
+// "REASON: message" of a refusal.
+std::string RefusalOf(const PolygonSoup& soup) {
+  const absl::StatusOr<PreparedMesh> prepared = PrepareMesh(soup);
+  if (prepared.ok()) return "accepted with " + CodesOf(*prepared);
+  return ReasonOf(prepared.status()).value_or(FieldOf(prepared.status()).value_or("")) + ": " +
+         std::string(prepared.status().message());
+}
+
+TEST(PrepareMeshTest, PassesSoundMeshThroughUnchanged) {
+  const PolygonSoup ball = Ball(12, 7);
+  const PreparedMesh prepared = Prepared(ball);
+  EXPECT_EQ(CodesOf(prepared), "");
+  ASSERT_EQ(prepared.mesh.vertices().size(), ball.positions.size());
+  for (std::size_t i = 0; i < ball.positions.size(); ++i) {
+    EXPECT_EQ(prepared.mesh.vertices()[i], ball.positions[i]);
+    EXPECT_EQ(prepared.mesh.vertex_of_source()[i], static_cast<std::int32_t>(i));
+  }
+  ASSERT_EQ(prepared.mesh.triangles().size(), ball.face_vertices.size() / 3);
+  for (std::size_t i = 0; i < ball.face_vertices.size(); ++i) {
+    EXPECT_EQ(prepared.mesh.triangles()[i / 3][i % 3], ball.face_vertices[i]);
+  }
+}
+
+TEST(PrepareMeshTest, CutsQuadsFromTheirFirstCorner) {
+  const PreparedMesh prepared = Prepared(Cube());
+  EXPECT_EQ(CodesOf(prepared), "");
+  EXPECT_EQ(prepared.mesh.triangles()[0], (Triangle{0, 1, 3}));
+  EXPECT_EQ(prepared.mesh.triangles()[1], (Triangle{0, 3, 2}));
+  EXPECT_DOUBLE_EQ(prepared.mesh.volume(), 1.0);
+  EXPECT_DOUBLE_EQ(prepared.mesh.area(), 6.0);
+}
+
+// A prism over an arrow head: its fans would fold over the inward corner.
+TEST(PrepareMeshTest, CutsLargeFacesWithInwardCornersWithoutFolds) {
+  PolygonSoup prism;
+  const double outline[5][2] = {{0, 0}, {2, 2}, {0, 4}, {0.2, 2.2}, {0.2, 1.8}};
+  for (int side = 0; side < 2; ++side) {
+    for (const auto& point : outline) prism.positions.emplace_back(point[0], point[1], side);
+  }
+  prism = WithFace(prism, {4, 3, 2, 1, 0});
+  prism = WithFace(prism, {5, 6, 7, 8, 9});
+  for (std::uint32_t k = 0; k < 5; ++k) {
+    const std::uint32_t next = (k + 1) % 5;
+    prism = WithFace(prism, {k, next, next + 5, k + 5});
+  }
+  const double outline_area = 4.0 - 0.5 * 0.2 * (4.0 + 0.4);
+  const PreparedMesh prepared = Prepared(prism);
+  EXPECT_EQ(CodesOf(prepared), "");
+  EXPECT_NEAR(prepared.mesh.volume(), outline_area, 1e-12);
+  double walls = 0.0;
+  for (int k = 0; k < 5; ++k) {
+    walls += std::hypot(outline[k][0] - outline[(k + 1) % 5][0],
+                        outline[k][1] - outline[(k + 1) % 5][1]);
+  }
+  EXPECT_NEAR(prepared.mesh.area(), 2.0 * outline_area + walls, 1e-12);
+}
+
+TEST(PrepareMeshTest, IgnoresUnusedVertices) {
+  PolygonSoup soup = Cube();
+  soup.positions.insert(soup.positions.begin(), {1e6, 0.0, 0.0});
+  for (std::uint32_t& v : soup.face_vertices) ++v;
+  const PreparedMesh prepared = Prepared(soup);
+  EXPECT_EQ(CodesOf(prepared), "UNUSED_VERTICES");
+  EXPECT_EQ(CountOf(prepared, "UNUSED_VERTICES"), 1);
+  EXPECT_EQ(prepared.mesh.vertices().size(), 8u);
+  EXPECT_EQ(prepared.mesh.vertex_of_source()[0], -1);
+  EXPECT_EQ(prepared.mesh.vertex_of_source()[1], 0);
+}
+
+TEST(PrepareMeshTest, WeldsEqualVerticesOfSoup) {
+  const PolygonSoup cube = Cube();
+  const PreparedMesh prepared = Prepared(SplitApart(cube));
+  EXPECT_EQ(CodesOf(prepared), "VERTICES_WELDED");
+  EXPECT_EQ(CountOf(prepared, "VERTICES_WELDED"), 24 - 8);
+  EXPECT_EQ(KeyOf(prepared.mesh, 1e-6), KeyOf(Prepared(cube).mesh, 1e-6));
+  for (std::size_t i = 0; i < cube.face_vertices.size(); ++i) {
+    const std::int32_t v = prepared.mesh.vertex_of_source()[i];
+    ASSERT_GE(v, 0);
+    EXPECT_EQ(prepared.mesh.vertices()[v], cube.positions[cube.face_vertices[i]]);
+  }
+}
+
+// The lid of a box a little above its walls: just inside and just outside the tolerance.
+TEST(PrepareMeshTest, WeldsWithinOneHundredThousandthOfDiagonal) {
+  const double diagonal = std::sqrt(3.0);
+  for (const double gap : {0.9e-5 * diagonal, 1.1e-5 * diagonal}) {
+    PolygonSoup soup = WithoutFaces(Cube(), 3);
+    for (const double z : {0.0, 1.0}) {
+      for (const double x : {0.0, 1.0}) soup.positions.emplace_back(x, 1.0 + gap, z);
+    }
+    const PreparedMesh prepared = Prepared(WithFace(soup, {8, 10, 11, 9}));
+    if (gap < 1e-5 * diagonal) {
+      EXPECT_EQ(CodesOf(prepared), "VERTICES_WELDED");
+      EXPECT_EQ(prepared.mesh.vertices().size(), 8u);
+    } else {
+      EXPECT_EQ(CodesOf(prepared), "PARTS_LEFT_OUT HOLES_CLOSED");
+    }
+    EXPECT_NEAR(prepared.mesh.volume(), 1.0, 1e-4);
+  }
+}
+
+TEST(PrepareMeshTest, WeldsNoisySoup) {
+  PolygonSoup soup = SplitApart(Ball(24, 15));
+  Random random(7);
+  for (Eigen::Vector3d& position : soup.positions) {
+    for (int axis = 0; axis < 3; ++axis) position[axis] += random.NextIn(-1e-6, 1e-6);
+  }
+  const PreparedMesh prepared = Prepared(soup);
+  EXPECT_EQ(CodesOf(prepared), "VERTICES_WELDED");
+  EXPECT_EQ(prepared.mesh.vertices().size(), Ball(24, 15).positions.size());
+}
+
+TEST(PrepareMeshTest, KeepsClosedSurfacesThatTouchApart) {
+  // The two share four positions, but not four vertices.
+  const PolygonSoup small = Box({1.0, 0.0, 0.0}, {1.2, 1.0, 1.0});
+  const PreparedMesh prepared = Prepared(Together(Cube(), small));
+  EXPECT_EQ(CodesOf(prepared), "PARTS_LEFT_OUT");
+  EXPECT_DOUBLE_EQ(prepared.mesh.volume(), 1.0);
+}
+
+TEST(PrepareMeshTest, DropsDegenerateFaces) {
+  PolygonSoup soup = Cube();
+  soup = WithFace(soup, {0, 1, 1});
+  soup = WithFace(soup, {2, 3});
+  soup = WithFace(soup, {4, 4, 4, 4, 4});
+  const PreparedMesh prepared = Prepared(soup);
+  EXPECT_EQ(CodesOf(prepared), "DEGENERATE_FACES");
+  EXPECT_EQ(CountOf(prepared, "DEGENERATE_FACES"), 1 + 1 + 3);
+  EXPECT_EQ(prepared.mesh.triangles().size(), 12u);
+}
+
+TEST(PrepareMeshTest, DropsCopiesOfFacesWhicheverWayRound) {
+  PolygonSoup ball = Ball(12, 7);
+  const std::vector<std::uint32_t> v = ball.face_vertices;
+  for (std::size_t f = 10; f < 20; ++f)
+    ball = WithFace(ball, {v[3 * f], v[3 * f + 1], v[3 * f + 2]});
+  for (std::size_t f = 15; f < 25; ++f)
+    ball = WithFace(ball, {v[3 * f + 1], v[3 * f], v[3 * f + 2]});
+  const PreparedMesh prepared = Prepared(ball);
+  EXPECT_EQ(CodesOf(prepared), "DUPLICATE_FACES");
+  EXPECT_EQ(CountOf(prepared, "DUPLICATE_FACES"), 20);
+  EXPECT_EQ(KeyOf(prepared.mesh, 1e-6), KeyOf(Prepared(Ball(12, 7)).mesh, 1e-6));
+}
+
+TEST(PrepareMeshTest, DropsFins) {
+  PolygonSoup soup = Cube();
+  soup.positions.emplace_back(2.0, 2.0, 0.0);
+  soup.positions.emplace_back(3.0, 3.0, 0.0);
+  soup = WithFace(soup, {6, 7, 8});
+  soup = WithFace(soup, {7, 9, 8});
+  const PreparedMesh prepared = Prepared(soup);
+  EXPECT_EQ(CountOf(prepared, "FINS_DROPPED"), 1);
+  EXPECT_EQ(CountOf(prepared, "PARTS_LEFT_OUT"), 1);  // the rest of the fin
+  EXPECT_EQ(KeyOf(prepared.mesh, 1e-6), KeyOf(Prepared(Cube()).mesh, 1e-6));
+}
+
+TEST(PrepareMeshTest, TakesBoxesWithCommonEdgeApart) {
+  // The edge from (1, 1, 0) to (1, 1, 1) belongs to four faces.
+  PolygonSoup soup = Together(Cube(), Box({1.0, 1.0, 0.0}, {1.2, 1.2, 1.0}));
+  for (std::uint32_t& v : soup.face_vertices) {
+    if (v == 8 || v == 9) v -= 2;
+  }
+  const PreparedMesh prepared = Prepared(soup);
+  EXPECT_EQ(CountOf(prepared, "NONMANIFOLD_EDGES"), 1);
+  // Joined or apart, both are right.
+  EXPECT_NEAR(prepared.mesh.volume(), CountOf(prepared, "PARTS_LEFT_OUT") == 1 ? 1.0 : 1.04, 1e-12);
+}
+
+TEST(PrepareMeshTest, SplitsVerticesInWhichTheSurfaceTouchesItself) {
+  PolygonSoup ball = Ball(12, 7);  // its poles are the last two vertices
+  const auto south = static_cast<std::uint32_t>(ball.positions.size() - 1);
+  for (std::uint32_t& v : ball.face_vertices) v = v == south ? south - 1 : v;
+  const PreparedMesh prepared = Prepared(ball);
+  EXPECT_EQ(CountOf(prepared, "NONMANIFOLD_VERTICES"), 1);
+  EXPECT_EQ(prepared.mesh.vertices().size(), ball.positions.size());
+  EXPECT_EQ(prepared.mesh.vertices()[south], ball.positions[south - 1]);
+}
+
+TEST(PrepareMeshTest, TurnsFacesTheSameWayRoundAndOutward) {
+  const PolygonSoup ball = Ball(24, 15);
+  const SurfaceKey expected = KeyOf(Prepared(ball).mesh, 1e-6);
+  const PreparedMesh some = Prepared(RandomlyTurned(ball, 0.3, 1));
+  EXPECT_EQ(CodesOf(some), "FACES_TURNED");
+  EXPECT_EQ(KeyOf(some.mesh, 1e-6), expected);
+  const PreparedMesh all = Prepared(RandomlyTurned(ball, 1.0, 1));
+  EXPECT_EQ(CodesOf(all), "INSIDE_OUT");
+  EXPECT_EQ(CountOf(all, "INSIDE_OUT"), 24 * 15 * 2);
+  EXPECT_EQ(KeyOf(all.mesh, 1e-6), expected);
+}
+
+TEST(PrepareMeshTest, KeepsTheLargestPart) {
+  const PolygonSoup big = Ball(24, 15);
+  PolygonSoup soup = Together(Moved(Ball(8, 5, 0.2), {3.0, 0.0, 0.0}), big);
+  soup = Together(soup, Ball(8, 5, 0.9));  // within the big one
+  const PreparedMesh prepared = Prepared(soup);
+  EXPECT_EQ(CodesOf(prepared), "PARTS_LEFT_OUT");
+  EXPECT_EQ(CountOf(prepared, "PARTS_LEFT_OUT"), 2);
+  EXPECT_EQ(KeyOf(prepared.mesh, 1e-6), KeyOf(Prepared(big).mesh, 1e-6));
+  EXPECT_EQ(prepared.mesh.vertex_of_source()[0], -1);
+  EXPECT_EQ(prepared.mesh.vertex_of_source()[Ball(8, 5).positions.size()], 0);
+}
+
+TEST(PrepareMeshTest, RefusesTwoBodies) {
+  const PolygonSoup ball = Ball(12, 7);
+  EXPECT_THAT(RefusalOf(Together(ball, Moved(ball, {3.0, 0.0, 0.0}))),
+              HasSubstr("TWO_BODIES: two separate parts are of similar size"));
+  // Also where both are open.
+  const PolygonSoup open = WithoutFaces(ball, 0, 3);
+  EXPECT_THAT(RefusalOf(Together(open, Moved(open, {3.0, 0.0, 0.0}))), HasSubstr("TWO_BODIES"));
+}
+
+TEST(PrepareMeshTest, ClosesFlatHoleExactly) {
+  const PreparedMesh prepared = Prepared(WithoutFaces(Cube(), 3));
+  EXPECT_EQ(CodesOf(prepared), "HOLES_CLOSED");
+  EXPECT_DOUBLE_EQ(prepared.mesh.volume(), 1.0);
+  EXPECT_DOUBLE_EQ(prepared.mesh.area(), 6.0);
+  EXPECT_EQ(prepared.mesh.vertices().size(), 8u);
+  EXPECT_THAT(prepared.warnings[0].message, HasSubstr("1 holes (the largest is 4 round, near"));
+}
+
+TEST(PrepareMeshTest, ClosesHolesOfInsideOutMeshes) {
+  const PreparedMesh prepared = Prepared(RandomlyTurned(WithoutFaces(Cube(), 3), 1.0, 1));
+  EXPECT_EQ(CodesOf(prepared), "HOLES_CLOSED INSIDE_OUT");
+  EXPECT_EQ(CountOf(prepared, "INSIDE_OUT"), 10);  // those of the caller
+  EXPECT_DOUBLE_EQ(prepared.mesh.volume(), 1.0);
+}
+
+TEST(PrepareMeshTest, ClosesHolesThatTouchInVertices) {
+  // Every other triangle round the pole is missing: all holes meet there.
+  PolygonSoup ball = Ball(12, 15);
+  PolygonSoup open;
+  open.positions = ball.positions;
+  const auto pole = static_cast<std::uint32_t>(ball.positions.size() - 2);
+  int at_pole = 0;
+  for (std::size_t i = 0; i < ball.face_vertices.size(); i += 3) {
+    if (ball.face_vertices[i] == pole && at_pole++ % 2 == 0) continue;
+    for (int k = 0; k < 3; ++k) open.face_vertices.push_back(ball.face_vertices[i + k]);
+  }
+  const PreparedMesh prepared = Prepared(open);
+  EXPECT_EQ(CodesOf(prepared), "HOLES_CLOSED");
+  EXPECT_EQ(CountOf(prepared, "HOLES_CLOSED"), 6);
+  EXPECT_EQ(KeyOf(prepared.mesh, 1e-6), KeyOf(Prepared(ball).mesh, 1e-6));
+}
+
+// An open tube with n corners round each end: the small loops are filled by least area, the large
+// ones by cutting ears. Both ends are flat, so the volume is that of the prism.
+TEST(PrepareMeshTest, ClosesLongLoops) {
+  for (const int n : {30, 400, 1000}) {
+    PolygonSoup tube;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / n;
+      for (const double z : {0.0, 3.0}) {
+        tube.positions.emplace_back(std::cos(angle), std::sin(angle), z);
+      }
+    }
+    for (int i = 0; i < n; ++i) {
+      const auto a = static_cast<std::uint32_t>(2 * i);
+      const auto b = static_cast<std::uint32_t>(2 * ((i + 1) % n));
+      tube.face_sizes.push_back(4);
+      tube.face_vertices.insert(tube.face_vertices.end(), {a, b, b + 1, a + 1});
+    }
+    const PreparedMesh prepared = Prepared(tube);
+    EXPECT_EQ(CountOf(prepared, "HOLES_CLOSED"), 2);
+    const double end_area = 0.5 * n * std::sin(2.0 * std::numbers::pi / n);
+    EXPECT_NEAR(prepared.mesh.volume(), 3.0 * end_area, 1e-9) << n;
+    const double wall = 3.0 * n * 2.0 * std::sin(std::numbers::pi / n);
+    EXPECT_NEAR(prepared.mesh.area(), 2.0 * end_area + wall, 1e-9) << n;
+  }
+}
+
+TEST(PrepareMeshTest, RefusesSurfacesThatAreMostlyHole) {
+  const PolygonSoup ball = Ball(24, 15);
+  PolygonSoup half;
+  half.positions = ball.positions;
+  for (std::size_t i = 0; i < ball.face_vertices.size(); i += 3) {
+    const bool above = ball.positions[ball.face_vertices[i]].z() > -0.01 &&
+                       ball.positions[ball.face_vertices[i + 1]].z() > -0.01;
+    if (!above) continue;
+    for (int k = 0; k < 3; ++k) half.face_vertices.push_back(ball.face_vertices[i + k]);
+  }
+  EXPECT_THAT(RefusalOf(half), HasSubstr("OPEN_SURFACE: the surface is not closed"));
+}
+
+TEST(PrepareMeshTest, RefusesSurfacesWithoutInside) {
+  PolygonSoup plane;  // the projective plane on six vertices
+  plane.positions = {{0, 0, 0}, {3, 0, 1}, {0, 4, 1}, {1, 1, 5}, {4, 3, 2}, {2, 5, 4}};
+  plane.face_vertices = {0, 1, 4, 0, 1, 5, 0, 2, 3, 0, 2, 5, 0, 3, 4,
+                         1, 2, 3, 1, 2, 4, 1, 3, 5, 2, 4, 5, 3, 4, 5};
+  EXPECT_THAT(RefusalOf(plane), HasSubstr("NOT_ORIENTABLE"));
+}
+
+TEST(PrepareMeshTest, RefusesFlatAndEmptySurfaces) {
+  PolygonSoup soup = Cube();
+  for (Eigen::Vector3d& position : soup.positions) position.x() = 0.0;
+  EXPECT_THAT(RefusalOf(soup), HasSubstr("NO_VOLUME"));
+  for (Eigen::Vector3d& position : soup.positions) position.setZero();
+  EXPECT_THAT(RefusalOf(soup), HasSubstr("NO_VOLUME"));
+  for (std::uint32_t& v : soup.face_vertices) v = 3;
+  EXPECT_THAT(RefusalOf(soup), HasSubstr("NO_SURFACE: all 12 faces are degenerate"));
+}
+
+TEST(PrepareMeshTest, RefusesBadArraysNamingTheFirstOffender) {
+  PolygonSoup soup = Ball(4, 1);
+  EXPECT_THAT(RefusalOf({}), HasSubstr("positions: positions is empty"));
+  PolygonSoup no_faces = soup;
+  no_faces.face_vertices.clear();
+  EXPECT_THAT(RefusalOf(no_faces), HasSubstr("triangle_indices is empty"));
+  PolygonSoup bad_index = soup;
+  bad_index.face_vertices[17] = 90210;
+  EXPECT_THAT(RefusalOf(bad_index), HasSubstr("triangle_indices[17] is 90210, must be below 6"));
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    PolygonSoup not_finite = soup;
+    not_finite.positions[2].z() = bad;
+    EXPECT_THAT(RefusalOf(not_finite), HasSubstr("positions[2] must be finite"));
+  }
+  PolygonSoup too_far = soup;
+  too_far.positions[1].y() = -2e12;
+  EXPECT_THAT(RefusalOf(too_far), HasSubstr("positions[1] must be within 1e+12"));
+  PolygonSoup odd = soup;
+  odd.face_vertices.pop_back();
+  EXPECT_THAT(RefusalOf(odd), HasSubstr("triangle_indices has 23 entries"));
+  PolygonSoup sizes = Cube();
+  sizes.face_sizes[1] = 5;
+  EXPECT_THAT(RefusalOf(sizes), HasSubstr("face_sizes adds up to 25, must add up to the 24"));
+  sizes.face_sizes[1] = 65;
+  EXPECT_THAT(RefusalOf(sizes), HasSubstr("face_sizes[1] is 65, must be at most 64"));
+}
+
+TEST(PrepareMeshTest, RefusesSizesBeyondTheLimits) {
+  MeshLimits limits;
+  limits.max_vertices = 7;
+  EXPECT_THAT(std::string(PrepareMesh(Cube(), limits).status().message()),
+              HasSubstr("positions has 8 vertices, must have at most 7"));
+  limits.max_vertices = 8;
+  limits.max_faces = 5;
+  EXPECT_THAT(std::string(PrepareMesh(Cube(), limits).status().message()),
+              HasSubstr("has 6 faces, must have at most 5"));
+  limits.max_faces = 6;
+  EXPECT_TRUE(PrepareMesh(Cube(), limits).ok());
+}
+
+// Whatever is done to the arrays of a ball, the same surface comes out.
+TEST(PrepareMeshProperty, OrderTurnsAndCopiesDoNotChangeTheSurface) {
+  const PolygonSoup ball = Ball(16, 9);
+  const SurfaceKey expected = KeyOf(Prepared(ball).mesh, 1e-6);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    PolygonSoup soup = RandomlyTurned(Shuffled(ball, seed), 0.4, seed);
+    if (seed % 2 == 1) soup = SplitApart(soup);
+    EXPECT_EQ(KeyOf(Prepared(soup).mesh, 1e-6), expected) << seed;
+  }
+}
+
+TEST(PrepareMeshProperty, DroppedFacesAreFilledAgain) {
+  const double whole = Prepared(Ball(32, 19)).mesh.volume();
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const PolygonSoup shuffled = Shuffled(Ball(32, 19), seed);
+    const std::size_t faces = shuffled.face_sizes.size();
+    const PreparedMesh prepared = Prepared(WithoutFaces(shuffled, 0, faces / 20));
+    EXPECT_GT(CountOf(prepared, "HOLES_CLOSED"), 10);
+    EXPECT_NEAR(prepared.mesh.volume(), whole, 0.01 * whole);
+  }
+}
+
+TEST(PrepareMeshProperty, PlaceAndSizeDoNotMatter) {
+  const PolygonSoup spoilt = RandomlyTurned(WithoutFaces(SplitApart(Ball(16, 9)), 3, 2), 0.3, 5);
+  const PreparedMesh near = Prepared(spoilt);
+  const PreparedMesh far = Prepared(Moved(spoilt, {2e5, -1e5, 3e5}));
+  EXPECT_EQ(CodesOf(far), CodesOf(near));
+  EXPECT_TRUE(std::equal(far.mesh.triangles().begin(), far.mesh.triangles().end(),
+                         near.mesh.triangles().begin(), near.mesh.triangles().end()));
+  EXPECT_NEAR(far.mesh.volume(), near.mesh.volume(), 1e-8);
+  PolygonSoup tiny = spoilt;
+  for (Eigen::Vector3d& position : tiny.positions) position *= 0x1p-20;
+  const PreparedMesh small = Prepared(tiny);
+  EXPECT_EQ(CodesOf(small).substr(0, 12), CodesOf(near).substr(0, 12));
+  EXPECT_TRUE(std::equal(small.mesh.triangles().begin(), small.mesh.triangles().end(),
+                         near.mesh.triangles().begin(), near.mesh.triangles().end()));
+}
+
+}  // namespace
+}  // namespace capfit::mesh

@@ -1,0 +1,286 @@
+#include "core/mesh/read_glb.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace capfit::mesh {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+template <typename Value>
+std::string Bytes(const std::vector<Value>& values) {
+  std::string bytes(values.size() * sizeof(Value), '\0');
+  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+std::string Word(std::uint32_t value) { return Bytes(std::vector<std::uint32_t>{value}); }
+
+std::string Chunk(std::uint32_t type, std::string bytes, char padding) {
+  bytes.resize((bytes.size() + 3) / 4 * 4, padding);
+  return Word(static_cast<std::uint32_t>(bytes.size())) + Word(type) + bytes;
+}
+
+std::string Glb(const json& gltf, const std::string& binary) {
+  const std::string chunks = Chunk(0x4E4F534A, gltf.dump(), ' ') + Chunk(0x004E4942, binary, '\0');
+  return "glTF" + Word(2) + Word(static_cast<std::uint32_t>(12 + chunks.size())) + chunks;
+}
+
+// Four vertices and four faces of a tetrahedron: 48 bytes of positions, 24 of 16-bit indices.
+const std::string kBinary = Bytes<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) +
+                            Bytes<std::uint16_t>({0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3});
+
+json Tetrahedron() {
+  return json::parse(R"({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                  {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 48},
+                    {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+    "buffers": [{"byteLength": 72}]})");
+}
+
+absl::StatusOr<PolygonSoup> Read(const json& gltf, const std::string& binary = kBinary,
+                                 const MeshLimits& limits = {}) {
+  const std::string file = Glb(gltf, binary);
+  return ReadGlb(std::as_bytes(std::span(file)), limits);
+}
+
+std::string ProblemOf(const json& gltf, const std::string& binary = kBinary) {
+  const absl::StatusOr<PolygonSoup> soup = Read(gltf, binary);
+  return soup.ok() ? "accepted" : std::string(soup.status().message());
+}
+
+std::string ProblemOfBytes(const std::string& bytes) {
+  const absl::StatusOr<PolygonSoup> soup = ReadGlb(std::as_bytes(std::span(bytes)), {});
+  return soup.ok() ? "accepted" : std::string(soup.status().message());
+}
+
+TEST(ReadGlbTest, ReadsPositionsAndIndices) {
+  const auto soup = Read(Tetrahedron());
+  ASSERT_TRUE(soup.ok()) << soup.status();
+  EXPECT_EQ(soup->positions.size(), 4u);
+  EXPECT_EQ(soup->positions[3], Eigen::Vector3d(0, 0, 1));
+  EXPECT_THAT(soup->face_vertices, ElementsAre(0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3));
+}
+
+TEST(ReadGlbTest, ReadsIndicesOfAllSizesAndNone) {
+  json gltf = Tetrahedron();
+  gltf["accessors"][1]["componentType"] = 5121;
+  gltf["accessors"][1]["count"] = 6;
+  EXPECT_THAT(Read(gltf, kBinary.substr(0, 48) + Bytes<std::uint8_t>({0, 2, 1, 0, 1, 3}) +
+                             std::string(18, '\0'))
+                  ->face_vertices,
+              ElementsAre(0, 2, 1, 0, 1, 3));
+  gltf["accessors"][1]["componentType"] = 5125;
+  EXPECT_THAT(
+      Read(gltf, kBinary.substr(0, 48) + Bytes<std::uint32_t>({0, 2, 1, 0, 1, 3}))->face_vertices,
+      ElementsAre(0, 2, 1, 0, 1, 3));
+  gltf["meshes"][0]["primitives"][0].erase("indices");
+  EXPECT_THAT(Read(gltf)->face_vertices, ElementsAre(0, 1, 2));  // the fourth has no company
+}
+
+TEST(ReadGlbTest, ReadsStripsAndFansAndSharedPositionsOnce) {
+  json gltf = Tetrahedron();
+  gltf["accessors"][1]["count"] = 4;
+  json& primitives = gltf["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  primitives.push_back(primitives[0]);
+  primitives[0]["mode"] = 5;
+  primitives[1]["mode"] = 6;
+  primitives[2]["mode"] = 1;  // lines
+  const auto soup = Read(
+      gltf, kBinary.substr(0, 48) + Bytes<std::uint16_t>({0, 1, 2, 3}) + std::string(16, '\0'));
+  ASSERT_TRUE(soup.ok()) << soup.status();
+  EXPECT_EQ(soup->positions.size(), 4u);
+  EXPECT_THAT(soup->face_vertices, ElementsAre(0, 1, 2, 1, 3, 2, 0, 1, 2, 0, 2, 3));
+}
+
+TEST(ReadGlbTest, ScalesNormalizedIntegersAndSkipsStrides) {
+  json gltf = Tetrahedron();
+  gltf["bufferViews"][0] = {{"buffer", 0}, {"byteLength", 32}, {"byteStride", 8}};
+  gltf["accessors"][0]["componentType"] = 5122;
+  gltf["accessors"][0]["normalized"] = true;
+  std::vector<std::int16_t> positions(16, 99);
+  for (int v = 0; v < 4; ++v) {
+    for (int axis = 0; axis < 3; ++axis) positions[4 * v + axis] = v == axis + 1 ? 32767 : 0;
+  }
+  positions[0] = -32768;
+  const auto soup = Read(gltf, Bytes(positions) + std::string(16, '\0') + kBinary.substr(48));
+  ASSERT_TRUE(soup.ok()) << soup.status();
+  EXPECT_EQ(soup->positions[0], Eigen::Vector3d(-1, 0, 0));
+  EXPECT_EQ(soup->positions[2], Eigen::Vector3d(0, 1, 0));
+}
+
+TEST(ReadGlbTest, AppliesNodesOfTheSceneFromParentToChild) {
+  json gltf = Tetrahedron();
+  const double half = std::sqrt(0.5);
+  gltf["nodes"] = {
+      {{"children", {1}}, {"translation", {10, 0, 0}}, {"rotation", {half, 0, 0, half}}},
+      {{"mesh", 0}, {"scale", {1, 2, 3}}},
+      {{"mesh", 0}}};  // not in the scene
+  const auto soup = Read(gltf);
+  ASSERT_TRUE(soup.ok()) << soup.status();
+  ASSERT_EQ(soup->positions.size(), 4u);
+  EXPECT_TRUE(soup->positions[1].isApprox(Eigen::Vector3d(11, 0, 0), 1e-12));
+  EXPECT_TRUE(soup->positions[2].isApprox(Eigen::Vector3d(10, 0, 2), 1e-12));   // y to z
+  EXPECT_TRUE(soup->positions[3].isApprox(Eigen::Vector3d(10, -3, 0), 1e-12));  // z to -y
+  gltf["nodes"][0] = {{"children", {1}},
+                      {"matrix", {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}};  // mirrors
+  const auto mirrored = Read(gltf);
+  ASSERT_TRUE(mirrored.ok()) << mirrored.status();
+  EXPECT_TRUE(mirrored->positions[1].isApprox(Eigen::Vector3d(5, 7, 7), 1e-12));
+  EXPECT_THAT(std::vector(mirrored->face_vertices.begin(), mirrored->face_vertices.begin() + 3),
+              ElementsAre(0, 1, 2));
+}
+
+TEST(ReadGlbTest, DrawsAllNodesWhereThereIsNoScene) {
+  json gltf = Tetrahedron();
+  gltf.erase("scene");
+  gltf.erase("scenes");
+  gltf["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {0, 0, 5}}}};
+  EXPECT_EQ(Read(gltf)->positions.size(), 8u);
+}
+
+// Two joints; the skeleton is stored in centimetres and lies on its back, as exporters leave it.
+TEST(ReadGlbTest, ReadsJointsAtTheBindPose) {
+  json gltf = Tetrahedron();
+  gltf["scenes"][0]["nodes"] = {0, 1};
+  gltf["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 100, 100}}},  // must not count
+                   {{"name", "armature"}, {"scale", {0.01, 0.01, 0.01}}, {"children", {2}}},
+                   {{"name", "hips"}, {"translation", {0, 90, 0}}, {"children", {3}}},
+                   {{"name", "head"}, {"translation", {0, 60, 0}}}};
+  gltf["skins"] = {{{"joints", {2, 3}}, {"inverseBindMatrices", 2}}};
+  gltf["accessors"].push_back(
+      {{"bufferView", 2}, {"componentType", 5126}, {"count", 2}, {"type", "MAT4"}});
+  gltf["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 72}, {"byteLength", 128}});
+  // Bound with the mesh in centimetres: the joints at y = 90 and y = 150.
+  const std::string matrices = Bytes<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -90,  0, 1,
+                                             1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -150, 0, 1});
+  const auto soup = Read(gltf, kBinary + matrices);
+  ASSERT_TRUE(soup.ok()) << soup.status();
+  EXPECT_TRUE(soup->positions[1].isApprox(Eigen::Vector3d(0.01, 0, 0), 1e-9));
+  ASSERT_EQ(soup->joints.size(), 2u);
+  EXPECT_EQ(soup->joints[0].name, "hips");
+  EXPECT_TRUE(soup->joints[0].position.isApprox(Eigen::Vector3d(0, 0.9, 0), 1e-6));
+  EXPECT_EQ(soup->joints[1].name, "head");
+  EXPECT_TRUE(soup->joints[1].position.isApprox(Eigen::Vector3d(0, 1.5, 0), 1e-6));
+  gltf["skins"][0].erase("inverseBindMatrices");  // then the nodes are all there is
+  EXPECT_TRUE(Read(gltf)->joints[1].position.isApprox(Eigen::Vector3d(0, 1.5, 0), 1e-6));
+}
+
+struct BadGltf {
+  const char* name;
+  const char* pointer;  // where in the JSON
+  json value;           // what to put there
+  const char* problem;
+  friend void PrintTo(const BadGltf& bad, std::ostream* os) { *os << bad.name; }
+};
+class BadGltfTest : public testing::TestWithParam<BadGltf> {};
+
+TEST_P(BadGltfTest, IsRefusedSayingWhy) {
+  json gltf = Tetrahedron();
+  gltf[json::json_pointer(GetParam().pointer)] = GetParam().value;
+  EXPECT_THAT(ProblemOf(gltf), HasSubstr(GetParam().problem));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadGltfTest,
+    testing::Values(
+        BadGltf{"EmptyScene", "/scenes/0/nodes", json::array(), "has no mesh"},
+        BadGltf{"NoPrimitives", "/meshes/0/primitives", 7, "has no mesh"},
+        BadGltf{"NoPosition", "/meshes/0/primitives/0/attributes", json::object(),
+                "without POSITION"},
+        BadGltf{"PositionOutOfRange", "/meshes/0/primitives/0/attributes/POSITION", 9,
+                "without POSITION"},
+        BadGltf{"IndicesOutOfRange", "/meshes/0/primitives/0/indices", 2, "without its indices"},
+        BadGltf{"UnknownMode", "/meshes/0/primitives/0/mode", 8, "unknown mode"},
+        BadGltf{"Draco",
+                "/meshes/0/primitives/0/extensions",
+                {{"KHR_draco_mesh_compression", json::object()}},
+                "compressed with Draco"},
+        BadGltf{"Meshopt",
+                "/bufferViews/0/extensions",
+                {{"EXT_meshopt_compression", json::object()}},
+                "EXT_meshopt_compression"},
+        BadGltf{"Sparse", "/accessors/0/sparse", json::object(), "accessor 0 is sparse"},
+        BadGltf{"WrongType", "/accessors/0/type", "VEC2", "accessor 0 of type VEC3"},
+        BadGltf{"WrongComponents", "/accessors/0/componentType", 5130, "no known component type"},
+        BadGltf{"SignedIndices", "/accessors/1/componentType", 5122, "unsigned indices"},
+        BadGltf{"NoBufferView", "/accessors/0/bufferView", -1, "accessor 0 has no buffer view"},
+        BadGltf{"CountTooHigh", "/accessors/0/count", 5,
+                "accessor 0 is out of range: it needs 60 bytes of buffer view 0, which has 48"},
+        BadGltf{"CountHuge", "/accessors/0/count", 18446744073709551615u, "bad stride, offset"},
+        BadGltf{"OffsetTooHigh", "/accessors/1/byteOffset", 1, "accessor 1 is out of range"},
+        BadGltf{"OffsetNegative", "/accessors/1/byteOffset", -1, "bad stride, offset"},
+        BadGltf{"StrideTooSmall", "/bufferViews/0/byteStride", 4, "bad stride, offset"},
+        BadGltf{"ViewTooLong", "/bufferViews/1/byteLength", 25, "buffer view 1 is out of range"},
+        BadGltf{"ViewTooFar", "/bufferViews/1/byteOffset", 281474976710000u,
+                "buffer view 1 is out of range"},
+        BadGltf{"BufferElsewhere", "/buffers/0/uri", "body.bin", "not in the file's own"},
+        BadGltf{"UnknownBuffer", "/bufferViews/0/buffer", 1, "not in the file's own"},
+        BadGltf{"RingOfNodes", "/nodes/0/children", json::array({0}), "their own ancestors"},
+        BadGltf{"TwoParents",
+                "/nodes",
+                {{{"children", {2}}}, {{"children", {2}}}, {{"mesh", 0}}},
+                "node 2 two parents"},
+        BadGltf{"NodesNoArray", "/nodes", "none", "has no mesh"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(ReadGlbTest, RefusesIndicesBeyondTheVertices) {
+  std::string binary = kBinary;
+  binary[48 + 2 * 7] = 4;
+  EXPECT_THAT(ProblemOf(Tetrahedron(), binary),
+              HasSubstr("has the index 4 at 7 of accessor 1, must be below 4"));
+}
+
+TEST(ReadGlbTest, RefusesMoreThanTheLimits) {
+  MeshLimits limits;
+  limits.max_vertices = 3;
+  EXPECT_THAT(std::string(Read(Tetrahedron(), kBinary, limits).status().message()),
+              HasSubstr("more than 3 vertices"));
+  limits.max_vertices = 4;
+  limits.max_faces = 3;
+  EXPECT_THAT(std::string(Read(Tetrahedron(), kBinary, limits).status().message()),
+              HasSubstr("more than 3 faces"));
+}
+
+TEST(ReadGlbTest, RefusesBadContainers) {
+  const std::string good = Glb(Tetrahedron(), kBinary);
+  EXPECT_EQ(ProblemOfBytes(good), "accepted");
+  EXPECT_THAT(ProblemOfBytes("glTF"), HasSubstr("is no GLB file"));
+  EXPECT_THAT(ProblemOfBytes("glTF" + Word(1) + good.substr(8)), HasSubstr("version 2"));
+  for (const std::size_t size : {good.size() - 1, good.size() / 2, std::size_t{20}}) {
+    EXPECT_THAT(ProblemOfBytes(good.substr(0, size)), HasSubstr("ends early"));
+  }
+  std::string long_chunk = good;
+  long_chunk.replace(12, 4, Word(0xFFFFFFF0u));
+  EXPECT_THAT(ProblemOfBytes(long_chunk), HasSubstr("ends early: a chunk claims 4294967280"));
+  const auto with_json = [](const std::string& text) {
+    const std::string chunk = Chunk(0x4E4F534A, text, ' ');
+    return "glTF" + Word(2) + Word(static_cast<std::uint32_t>(12 + chunk.size())) + chunk;
+  };
+  EXPECT_THAT(ProblemOfBytes(with_json("{\"nodes\":")), HasSubstr("no JSON object"));
+  EXPECT_THAT(ProblemOfBytes(with_json("[]")), HasSubstr("no JSON object"));
+  EXPECT_THAT(ProblemOfBytes(with_json(std::string(9 << 20, ' '))), HasSubstr("bytes of JSON"));
+  EXPECT_THAT(ProblemOfBytes("glTF" + Word(2) + Word(20) + Word(0) + Word(1)),
+              HasSubstr("no JSON chunk"));
+  // A million brackets deep: neither parsing nor freeing it may recurse.
+  EXPECT_THAT(ProblemOfBytes(with_json("{\"nodes\":" + std::string(1 << 20, '['))),
+              HasSubstr("no JSON object"));
+  EXPECT_THAT(ProblemOfBytes(with_json("{\"nodes\":" + std::string(1 << 20, '[') +
+                                       std::string(1 << 20, ']') + "}")),
+              HasSubstr("no mesh"));
+}
+
+}  // namespace
+}  // namespace capfit::mesh
