@@ -46,6 +46,7 @@ void AddPartsFlag(CLI::App& command, std::vector<std::string>& parts) {
   for (const auto& [word, member] : PartWords()) words.insert(word);
   command.add_option("--parts", parts, "all, or a list of torso,arms,legs,head,hands,feet")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::IsMember(words).description(""))
       ->type_name("WORD,...");
 }

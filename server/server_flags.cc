@@ -1,12 +1,15 @@
 #include "server/server_flags.h"
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <cstdint>
 
 namespace capfit::server {
 namespace {
 
 constexpr std::int64_t kMebibyte = 1024 * 1024;
+// The pipeline itself takes no more than these, so a flag can only lower them.
+constexpr mesh::MeshLimits kPipelineLimits;
 
 void AddLimits(CLI::App& app, ServerConfig& config, std::int64_t& max_upload_mb) {
   app.add_option("--max-concurrent-fits", config.max_concurrent_fits,
@@ -18,9 +21,9 @@ void AddLimits(CLI::App& app, ServerConfig& config, std::int64_t& max_upload_mb)
   app.add_option("--max-upload-mb", max_upload_mb, "Size of one uploaded mesh in MiB")
       ->check(CLI::Range(1, 4096));
   app.add_option("--max-vertices", config.upload.mesh.max_vertices, "Vertices of one mesh")
-      ->check(CLI::Range(4, 100'000'000));
+      ->check(CLI::Range(std::size_t{4}, kPipelineLimits.max_vertices));
   app.add_option("--max-faces", config.upload.mesh.max_faces, "Faces of one mesh")
-      ->check(CLI::Range(4, 100'000'000));
+      ->check(CLI::Range(std::size_t{4}, kPipelineLimits.max_faces));
   app.add_option("--retry-pushback-ms", config.retry_pushback_ms,
                  "How long a refused client is told to wait, in milliseconds")
       ->check(CLI::Range(0, 600'000));
