@@ -26,7 +26,9 @@ struct CoverTarget {
 struct CoverOptions {
   // Between vertices: triangles are cut finer until no point of them is further out than this.
   double max_gap_m = 1e-3;
-  int refit_rounds = 8;  // re-fits of the radii after the growing
+  // Fit centres and radii together for the least volume before growing (see tighten.h). Without, it
+  // is the paper's own step, furthest point first.
+  bool tighten = true;
 };
 
 struct CoverReport {
@@ -36,15 +38,19 @@ struct CoverReport {
   double certified_gap_m = 0.0;        // no point of the surface is further out than this (proved)
 };
 
-// Moves and grows spheres until every point is inside and no triangle sticks out by more than
-// options.max_gap_m, with the least growth it can find. Keeps mirrored spheres mirrored.
-// Terminates: every step covers a point and uncovers none.
+// Moves, shrinks and grows spheres until every point is inside and no triangle sticks out by more
+// than options.max_gap_m, with the least volume it can find. Topology and count stay. Mirrored
+// spheres stay exact images of each other, whatever the small asymmetries of the points.
+//
+// Points only in: vertices end up 1 um deep or more, unless the observer cancels. Terminates: every
+// growing step covers a point and uncovers none. Typically 40 ms for 12k vertices at n_p 64.
 [[nodiscard]] CoverReport CoverBody(const CoverTarget& target, const CoverOptions& options,
                                     const ThreadPool& pool, const FitObserver& observer,
                                     capsule::PrimitiveSet& set);
 
 // Upper bound of the distance by which any point of the target's triangles sticks out of the set,
-// by branch and bound (the distance is 1-Lipschitz), to `tolerance_m`.
+// by branch and bound (no distance changes faster than the point moves), at most `tolerance_m`
+// above the truth. 0 when nothing sticks out.
 [[nodiscard]] double CertifiedGap(const CoverTarget& target, const capsule::PrimitiveSet& set,
                                   double tolerance_m, const ThreadPool& pool);
 

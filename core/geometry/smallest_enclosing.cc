@@ -39,7 +39,7 @@ double FurthestDistance(const Support<kDim>& support, const Point<kDim>& center)
 // are dependent (their ball is then that of fewer of them).
 template <int kDim>
 bool Circumcenter(const Support<kDim>& support, unsigned chosen, Point<kDim>& center) {
-  std::array<Point<kDim>, kDim> edges;
+  std::array<Point<kDim>, kDim + 1> edges;
   edges.fill(Point<kDim>::Zero());
   Point<kDim> first = Point<kDim>::Zero();
   int count = -1;

@@ -1,0 +1,204 @@
+#include "core/coverage/surface_probe.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace capfit::coverage {
+namespace {
+
+using geometry::TaperedCapsule;
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+constexpr std::size_t kChunk = 2048;
+// Distances by PointGrid are good to this.
+constexpr double kGridAccuracy = 1e-6;
+
+Eigen::Vector3d MiddleOf(const Corners& corners) {
+  return (corners[0] + corners[1] + corners[2]) / 3.0;
+}
+
+double ReachOf(const Corners& corners, const Eigen::Vector3d& middle) {
+  double squared = 0.0;
+  for (const Eigen::Vector3d& corner : corners) {
+    squared = std::max(squared, (corner - middle).squaredNorm());
+  }
+  return std::sqrt(squared);
+}
+
+std::array<Corners, 4> Quarter(const Corners& c) {
+  const Eigen::Vector3d ab = 0.5 * (c[0] + c[1]);
+  const Eigen::Vector3d bc = 0.5 * (c[1] + c[2]);
+  const Eigen::Vector3d ca = 0.5 * (c[2] + c[0]);
+  return {Corners{c[0], ab, ca}, Corners{ab, c[1], bc}, Corners{ca, bc, c[2]}, Corners{ab, bc, ca}};
+}
+
+// One triangle of the mesh against the solids that can matter for it.
+class TriangleProbe {
+ public:
+  TriangleProbe(const Corners& corners, const std::vector<TaperedCapsule>& solids)
+      : corners_(corners) {
+    const Eigen::Vector3d middle = MiddleOf(corners);
+    const double reach = ReachOf(corners, middle);
+    std::vector<double> at_middle;
+    double least = std::numeric_limits<double>::infinity();
+    for (const TaperedCapsule& solid : solids) {
+      at_middle.push_back(solid.SignedDistance(middle));
+      least = std::min(least, at_middle.back());
+    }
+    for (std::size_t k = 0; k < solids.size(); ++k) {
+      if (at_middle[k] <= least + 2.0 * reach) near_.push_back(&solids[k]);
+    }
+  }
+
+  double Distance(const Eigen::Vector3d& point) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const TaperedCapsule* solid : near_) least = std::min(least, solid->SignedDistance(point));
+    return least;
+  }
+
+  // No point of a piece is further out than this: the distance from one solid is convex, so its
+  // corners bound it; and no distance changes faster than the point moves.
+  double UpperBound(const Corners& piece) const {
+    const Eigen::Vector3d middle = MiddleOf(piece);
+    double bound = Distance(middle) + ReachOf(piece, middle);
+    for (const TaperedCapsule* solid : near_) {
+      double furthest = -std::numeric_limits<double>::infinity();
+      for (const Eigen::Vector3d& corner : piece) {
+        furthest = std::max(furthest, solid->SignedDistance(corner));
+        if (furthest >= bound) break;
+      }
+      bound = std::min(bound, furthest);
+    }
+    return bound;
+  }
+
+  const Corners& corners() const { return corners_; }
+
+ private:
+  Corners corners_;
+  std::vector<const TaperedCapsule*> near_;
+};
+
+Corners CornersOf(const CoverTarget& target, std::size_t triangle) {
+  const mesh::Triangle& t = target.triangles[triangle];
+  return {target.points_m[t[0]], target.points_m[t[1]], target.points_m[t[2]]};
+}
+
+// All corners within `limit_m` of the same solid: what is true of nearly every triangle.
+bool IsPlainlyNear(const mesh::Triangle& t, const UnionDistances& at, double limit_m) {
+  if (at.solid[t[0]] != at.solid[t[1]] || at.solid[t[0]] != at.solid[t[2]]) return false;
+  const double furthest = std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]});
+  return furthest <= limit_m - kGridAccuracy;
+}
+
+void FindOutside(const TriangleProbe& probe, double max_gap_m, std::vector<Eigen::Vector3d>& out) {
+  std::vector<Corners> pieces = {probe.corners()};
+  while (!pieces.empty()) {
+    const Corners piece = pieces.back();
+    pieces.pop_back();
+    if (probe.UpperBound(piece) <= max_gap_m) continue;
+    const std::array<Corners, 4> quarters = Quarter(piece);
+    // The middle quarter's corners are the new points; the piece's middle is the fourth.
+    const std::array<Eigen::Vector3d, 4> candidates = {quarters[3][0], quarters[3][1],
+                                                       quarters[3][2], MiddleOf(piece)};
+    double furthest = 0.5 * max_gap_m;
+    const Eigen::Vector3d* worst = nullptr;
+    for (const Eigen::Vector3d& candidate : candidates) {
+      const double distance = probe.Distance(candidate);
+      if (distance <= furthest) continue;
+      furthest = distance;
+      worst = &candidate;
+    }
+    if (worst != nullptr) {
+      out.push_back(*worst);  // looked at again when it is covered
+    } else if (ReachOf(piece, candidates[3]) > 0.25 * max_gap_m) {
+      pieces.insert(pieces.end(), quarters.begin(), quarters.end());
+    }
+  }
+}
+
+// The largest upper bound left when every piece's is within tolerance of a point that is out.
+double GapOf(const TriangleProbe& probe, double tolerance_m) {
+  double lower = 0.0;
+  double upper = 0.0;
+  for (const Eigen::Vector3d& corner : probe.corners()) {
+    lower = std::max(lower, probe.Distance(corner));
+  }
+  std::vector<Corners> pieces = {probe.corners()};
+  while (!pieces.empty()) {
+    const Corners piece = pieces.back();
+    pieces.pop_back();
+    const double bound = probe.UpperBound(piece);
+    if (bound <= std::max(lower + tolerance_m, upper)) {
+      upper = std::max(upper, bound);
+      continue;
+    }
+    const std::array<Corners, 4> quarters = Quarter(piece);
+    for (const Eigen::Vector3d& corner : quarters[3]) {
+      lower = std::max(lower, probe.Distance(corner));
+    }
+    pieces.insert(pieces.end(), quarters.begin(), quarters.end());
+  }
+  return upper;
+}
+
+}  // namespace
+
+UnionDistances InCallersOrder(const PointGrid& points, const UnionDistances& distances) {
+  UnionDistances sorted{std::vector<double>(points.size()),
+                        std::vector<std::int32_t>(points.size())};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sorted.distance_m[points.order()[i]] = distances.distance_m[i];
+    sorted.solid[points.order()[i]] = distances.solid[i];
+  }
+  return sorted;
+}
+
+std::vector<Eigen::Vector3d> FindPointsOutside(const CoverTarget& target,
+                                               const UnionDistances& at_vertices,
+                                               const std::vector<TaperedCapsule>& solids,
+                                               double max_gap_m, const ThreadPool& pool) {
+  const std::size_t count = target.triangles.size();
+  std::vector<std::vector<Eigen::Vector3d>> found((count + kChunk - 1) / kChunk);
+  pool.ForChunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (IsPlainlyNear(target.triangles[i], at_vertices, max_gap_m)) continue;
+      FindOutside(TriangleProbe(CornersOf(target, i), solids), max_gap_m, found[begin / kChunk]);
+    }
+  });
+  std::vector<Eigen::Vector3d> all;
+  for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+double CertifiedGap(const CoverTarget& target, const capsule::PrimitiveSet& set, double tolerance_m,
+                    const ThreadPool& pool) {
+  const std::vector<TaperedCapsule> solids = capsule::Solids(set);
+  if (target.points_m.empty()) return 0.0;
+  if (solids.empty()) return std::numeric_limits<double>::infinity();
+  const PointGrid grid(target.points_m);
+  const UnionDistances at_vertices = InCallersOrder(
+      grid, grid.DistancesTo(solids, -std::numeric_limits<double>::infinity(), pool));
+  double gap = 0.0;
+  for (std::size_t v = 0; v < target.points_m.size(); ++v) {
+    if (at_vertices.distance_m[v] <= -kGridAccuracy) continue;
+    gap = std::max(gap, solids[static_cast<std::size_t>(at_vertices.solid[v])].SignedDistance(
+                            target.points_m[v]));
+  }
+  const std::size_t count = target.triangles.size();
+  std::vector<double> gaps((count + kChunk - 1) / kChunk, gap);
+  const double at_least = std::max(tolerance_m, 1e-7);
+  pool.ForChunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
+    double& most = gaps[begin / kChunk];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (IsPlainlyNear(target.triangles[i], at_vertices, most)) continue;
+      most = std::max(most, GapOf(TriangleProbe(CornersOf(target, i), solids), at_least));
+    }
+  });
+  for (const double most : gaps) gap = std::max(gap, most);
+  return gap;
+}
+
+}  // namespace capfit::coverage

@@ -1,0 +1,31 @@
+// What lies between the vertices: how far triangles stick out of the set, proved.
+#ifndef CAPFIT_CORE_COVERAGE_SURFACE_PROBE_H_
+#define CAPFIT_CORE_COVERAGE_SURFACE_PROBE_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/base/thread_pool.h"
+#include "core/coverage/cover_vertices.h"
+#include "core/coverage/point_grid.h"
+
+namespace capfit::coverage {
+
+// Points inside triangles that are more than half of `max_gap_m` outside all solids, one or a few
+// for each triangle of which it cannot be proved that nothing of it is more than `max_gap_m`
+// outside. None: proved for all triangles. What the corners themselves stick out does not count.
+//
+// A triangle is proved when its corners are that near to one solid (which is convex), or when its
+// middle is near enough for its size; otherwise it is cut into four. `at_vertices` are the
+// distances of the target's points, by the target's index. O(triangles) and a little.
+[[nodiscard]] std::vector<Eigen::Vector3d> FindPointsOutside(
+    const CoverTarget& target, const UnionDistances& at_vertices,
+    const std::vector<geometry::TaperedCapsule>& solids, double max_gap_m, const ThreadPool& pool);
+
+// Distances of the target's points by the target's index.
+[[nodiscard]] UnionDistances InCallersOrder(const PointGrid& points,
+                                            const UnionDistances& distances);
+
+}  // namespace capfit::coverage
+
+#endif  // CAPFIT_CORE_COVERAGE_SURFACE_PROBE_H_

@@ -1,0 +1,186 @@
+#include "core/coverage/tighten.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/coverage/penalty_program.h"
+#include "core/coverage/set_variables.h"
+#include "core/coverage/union_volume.h"
+
+namespace capfit::coverage {
+namespace {
+
+using geometry::TaperedCapsule;
+
+// Steeper capsules are little more than their larger end, and engines differ most on them.
+constexpr double kMaxSin = 0.8;
+// Relative to the body's size, as the settings of a phase are.
+constexpr double kLeastRadius = 0.003;
+constexpr double kSampleSpacing = 0.02;
+constexpr double kSteepnessReach = 0.05;  // capsules this near to the limit get a row
+constexpr double kSteepnessPenalty = 100.0;
+// Points deeper than this many trust regions cannot get out in one step: both ends move and grow.
+constexpr double kDepthOfInterest = 2.0;
+// The programmes need not be solved better than their rows are true.
+constexpr double kRelativeGap = 0.01;
+// Added curvature, in volumes per body size squared: keeps idle variables where they are.
+constexpr double kIdleCurvature = 1e-3;
+
+double Between(double first, double last, int step, int steps) {
+  if (steps <= 1) return last;
+  return first * std::pow(last / first, static_cast<double>(step) / (steps - 1));
+}
+
+class Tightener {
+ public:
+  Tightener(const PointGrid& points, std::span<const double> allowed_m, double body_size_m,
+            const ThreadPool& pool, capsule::PrimitiveSet& set)
+      : points_(points),
+        allowed_(allowed_m),
+        size_(body_size_m),
+        pool_(pool),
+        set_(set),
+        variables_(set) {}
+
+  void Step(double trust_m, double penalty, double row_spacing_m, std::uint64_t seed) {
+    shapes_ = ShapesOf(variables_.solids(), set_);
+    distances_ = points_.DistancesTo(shapes_, -kDepthOfInterest * trust_m, pool_);
+    PenaltyProgram program;
+    AddVolume(seed, program);
+    AddBounds(trust_m, program);
+    AddPointRows(kDepthOfInterest * trust_m, penalty, row_spacing_m, program);
+    AddSteepnessRows(program);
+    const Eigen::VectorXd change = Solve(program, kRelativeGap);
+    if (change.allFinite()) variables_.Apply(change, set_);
+  }
+
+ private:
+  // Linear: the volume's gradient. Quadratic: a sphere that grows, or slides off, exposes more of
+  // itself; half its exposed area over its radius is what that costs per square of the step.
+  void AddVolume(std::uint64_t seed, PenaltyProgram& program) {
+    const VolumeGradient gradient =
+        UnionVolumeGradient(set_, variables_.solids(), kSampleSpacing * size_, seed, pool_);
+    if (volume_ == 0.0) volume_ = std::max(gradient.volume_m3, 1e-6 * size_ * size_ * size_);
+    program.gradient = Eigen::VectorXd::Zero(variables_.count());
+    program.hessian =
+        Eigen::VectorXd::Constant(variables_.count(), kIdleCurvature / (size_ * size_));
+    for (int i = 0; i < static_cast<int>(set_.spheres.size()); ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      const Eigen::Vector4d by_sphere = gradient.by_sphere[index] / volume_;
+      const int first = variables_.of(i).first;
+      program.gradient.segment<4>(first) += variables_.ToVariables(i, by_sphere);
+      program.hessian.segment<4>(first).array() +=
+          0.5 * by_sphere.w() / set_.spheres[index].radius_m;
+    }
+  }
+
+  void AddBounds(double trust_m, PenaltyProgram& program) const {
+    program.lower = Eigen::VectorXd::Constant(variables_.count(), -trust_m);
+    program.upper = Eigen::VectorXd::Constant(variables_.count(), trust_m);
+    for (const int i : variables_.representatives()) {
+      const double radius = set_.spheres[static_cast<std::size_t>(i)].radius_m;
+      const double room = std::max(radius - kLeastRadius * size_, 1e-3 * std::min(trust_m, radius));
+      double& lower = program.lower[variables_.of(i).first + 3];
+      lower = std::max(lower, -room);
+    }
+  }
+
+  void AddRow(const Solid& solid, const Eigen::Vector4d& by_a, const Eigen::Vector4d& by_b,
+              double value, double penalty, PenaltyProgram& program) const {
+    PenaltyRow row;
+    row.value = value;
+    row.penalty = penalty;
+    row.first = {variables_.of(solid.ends[0]).first, variables_.of(solid.ends[1]).first};
+    Eigen::Map<Eigen::Matrix<double, 8, 1>> coefficients(row.coefficients.data());
+    coefficients.head<4>() = variables_.ToVariables(solid.ends[0], by_a);
+    coefficients.tail<4>() = variables_.ToVariables(solid.ends[1], by_b);
+    if (row.first[0] == row.first[1]) {  // a sphere, or a bar between two images
+      coefficients.head<4>() += coefficients.tail<4>();
+      row.first[1] = -1;
+    }
+    program.rows.push_back(row);
+  }
+
+  double Allowed(std::uint32_t i) const { return allowed_[points_.order()[i]]; }
+
+  void AddPointRow(std::uint32_t i, double penalty, PenaltyProgram& program) const {
+    const auto index = static_cast<std::size_t>(distances_.solid[i]);
+    const geometry::CapsuleDistance at = shapes_[index].Locate(points_.point(i));
+    const Eigen::Vector4d speed(at.normal.x(), at.normal.y(), at.normal.z(), 1.0);
+    AddRow(variables_.solids()[index], -(1.0 - at.axis_parameter) * speed,
+           -at.axis_parameter * speed, at.distance_m - Allowed(i), penalty, program);
+  }
+
+  // In each block the furthest out first, and none near a chosen one on the same solid.
+  void AddPointRows(double depth_m, double penalty, double spacing_m,
+                    PenaltyProgram& program) const {
+    if (shapes_.empty()) return;
+    std::vector<std::uint32_t> candidates;
+    std::vector<std::uint32_t> chosen;
+    const auto excess = [&](std::uint32_t i) { return distances_.distance_m[i] - Allowed(i); };
+    for (const PointGrid::Block& block : points_.blocks()) {
+      candidates.clear();
+      chosen.clear();
+      for (std::uint32_t i = block.begin; i < block.end; ++i) {
+        if (excess(i) > -depth_m) candidates.push_back(i);
+      }
+      std::sort(candidates.begin(), candidates.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return excess(a) != excess(b) ? excess(a) > excess(b) : a < b;
+      });
+      for (const std::uint32_t i : candidates) {
+        const bool is_spoken_for =
+            std::any_of(chosen.begin(), chosen.end(), [&](std::uint32_t other) {
+              return distances_.solid[i] == distances_.solid[other] &&
+                     (points_.point(i) - points_.point(other)).squaredNorm() <
+                         spacing_m * spacing_m;
+            });
+        if (is_spoken_for) continue;
+        chosen.push_back(i);
+        AddPointRow(i, penalty, program);
+      }
+    }
+  }
+
+  // |r_a - r_b| <= kMaxSin * length. Where that is broken already it must not get worse.
+  void AddSteepnessRows(PenaltyProgram& program) const {
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      const Solid& solid = variables_.solids()[k];
+      if (solid.ends[0] == solid.ends[1]) continue;
+      const TaperedCapsule& shape = shapes_[k];
+      const double difference = shape.a().radius_m - shape.b().radius_m;
+      const double excess = std::abs(difference) - kMaxSin * shape.length_m();
+      if (excess < -kSteepnessReach * size_) continue;
+      Eigen::Vector4d by_a;
+      by_a << kMaxSin * shape.axis(), difference >= 0.0 ? 1.0 : -1.0;
+      AddRow(solid, by_a, -by_a, std::min(excess, 0.0), kSteepnessPenalty / size_, program);
+    }
+  }
+
+  const PointGrid& points_;
+  std::span<const double> allowed_;
+  double size_;
+  const ThreadPool& pool_;
+  capsule::PrimitiveSet& set_;
+  SetVariables variables_;
+  std::vector<TaperedCapsule> shapes_;
+  UnionDistances distances_;
+  double volume_ = 0.0;  // of the union when the phase began: the unit of the objective
+};
+
+}  // namespace
+
+void Tighten(const PointGrid& points, std::span<const double> allowed_m, double body_size_m,
+             const TightenPhase& phase, std::uint64_t seed, const ThreadPool& pool,
+             const FitObserver& observer, capsule::PrimitiveSet& set) {
+  Tightener tightener(points, allowed_m, body_size_m, pool, set);
+  for (int i = 0; i < phase.steps && !observer.IsCancelled(); ++i) {
+    const double trust = Between(phase.first_trust, phase.last_trust, i, phase.steps);
+    const double penalty = Between(phase.first_penalty, phase.last_penalty, i, phase.steps);
+    tightener.Step(trust * body_size_m, penalty / body_size_m, phase.row_spacing * body_size_m,
+                   seed + static_cast<std::uint64_t>(i));
+  }
+}
+
+}  // namespace capfit::coverage

@@ -1,0 +1,47 @@
+// Makes the set as small as it can be while everything stays inside: centres and radii together, by
+// sequential convex programming. What the growing step of the paper (III-D) gives away, this takes
+// back.
+#ifndef CAPFIT_CORE_COVERAGE_TIGHTEN_H_
+#define CAPFIT_CORE_COVERAGE_TIGHTEN_H_
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/fit_observer.h"
+#include "core/base/thread_pool.h"
+#include "core/capsule/primitive_set.h"
+#include "core/coverage/point_grid.h"
+
+namespace capfit::coverage {
+
+// A run of steps whose settings go from first to last in equal ratios. Lengths are relative to the
+// size of the body, the square root of its surface area (1.1 to 1.6 m for an adult).
+struct TightenPhase {
+  int steps = 8;
+  double first_trust = 0.01;  // how far a coordinate or radius may go in one step
+  double last_trust = 0.01;
+  // What a point sticking out by one body size costs, in volumes of the set. Small: points may be
+  // left out for the while, and the set finds its shape; large: all points must be inside.
+  double first_penalty = 0.1;
+  double last_penalty = 0.1;
+  // Points closer together than this, on the same solid, stand for each other: the furthest out of
+  // them counts. Others are heard in the next step, should they stick out then.
+  double row_spacing = 0.015;
+};
+
+// Each step takes the least volume of the union, by its gradient, under one linear row for each
+// point near the surface: a point of distance s at axis parameter t of its nearest solid must have
+// s - (1-t)(n.da + dra) - t(n.db + drb) <= allowed, or pay the penalty. No step makes a capsule
+// steeper than sin 0.8 or a radius smaller than 3 thousandths of the body's size, nor such ones
+// worse. Mirrored spheres stay exact images.
+//
+// `allowed_m` is by the caller's index of the point, in metres; negative asks for depth. Costs a
+// millisecond a step and more for thousands of points and some fifty solids; stops early when
+// cancelled. The result is not feasible by itself: at the last trust region's accuracy only.
+void Tighten(const PointGrid& points, std::span<const double> allowed_m, double body_size_m,
+             const TightenPhase& phase, std::uint64_t seed, const ThreadPool& pool,
+             const FitObserver& observer, capsule::PrimitiveSet& set);
+
+}  // namespace capfit::coverage
+
+#endif  // CAPFIT_CORE_COVERAGE_TIGHTEN_H_

@@ -1,0 +1,33 @@
+// How the volume of the union changes when its spheres move and grow.
+#ifndef CAPFIT_CORE_COVERAGE_UNION_VOLUME_H_
+#define CAPFIT_CORE_COVERAGE_UNION_VOLUME_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/thread_pool.h"
+#include "core/coverage/set_variables.h"
+
+namespace capfit::coverage {
+
+struct VolumeGradient {
+  // By (x, y, z, radius) of each sphere, square metres. A sphere's last entry is the part of the
+  // union's exposed surface that hangs on it: the share (1 - t) or t of each piece of slant, and
+  // all of its own caps.
+  std::vector<Eigen::Vector4d> by_sphere;
+  double area_m2 = 0.0;    // of the union's surface
+  double volume_m3 = 0.0;  // of the union, by the divergence theorem; as coarse as the sampling
+};
+
+// The volume changes by the normal speed of its surface: a piece dA of slant with normal n at axis
+// parameter t adds dA (1 - t) (n, 1) to one end and dA t (n, 1) to the other, a piece of a cap
+// dA (n, 1) to its sphere. Surface inside another solid does not count. Sampled about every
+// `spacing_m` with rings turned by random angles from `seed`; solids and spheres in parallel.
+[[nodiscard]] VolumeGradient UnionVolumeGradient(const capsule::PrimitiveSet& set,
+                                                 const std::vector<Solid>& solids, double spacing_m,
+                                                 std::uint64_t seed, const ThreadPool& pool);
+
+}  // namespace capfit::coverage
+
+#endif  // CAPFIT_CORE_COVERAGE_UNION_VOLUME_H_
