@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "core/mesh/close_holes.h"
 #include "core/mesh/crowded_edges.h"
 #include "core/mesh/edge_mates.h"
+#include "core/mesh/mend_flat_triangles.h"
 #include "core/mesh/soup_checks.h"
 #include "core/mesh/split_vertices.h"
 #include "core/mesh/surface.h"
@@ -33,6 +35,10 @@ constexpr double kLargestHoleShare = 1.0 / 3.0;
 // Volume below this share of the diagonal's cube is rounding, not a body (a cylinder 1000 times
 // as long as thick has 1e-6).
 constexpr double kLeastVolumeShare = 1e-9;
+
+// Triangles lower than this share of the diagonal have no area: 2 nm on a body, which neither text
+// nor float coordinates can mean.
+constexpr double kFlatShare = 1e-9;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
@@ -77,6 +83,7 @@ class MeshMender {
     CAPFIT_RETURN_IF_ERROR(CloseAllHoles());
     CAPFIT_RETURN_IF_ERROR(TurnOutward());
     SplitTouchingVertices();
+    MendFlat();
     CAPFIT_RETURN_IF_ERROR(CheckManifold());
     return Finish();
   }
@@ -337,6 +344,24 @@ class MeshMender {
                       " vertices; each was split in two"));
   }
 
+  void MendFlat() {
+    std::vector<Eigen::Vector3d> with_copies;
+    std::span<const Eigen::Vector3d> positions = positions_;
+    if (!copied_.empty()) {
+      with_copies = positions_;
+      for (const std::uint32_t v : copied_) with_copies.push_back(positions_[v]);
+      positions = with_copies;
+    }
+    MendedTriangles mended = MendFlatTriangles(positions, kFlatShare * diagonal_, surface_);
+    const std::size_t count = mended.flipped + mended.merged.size();
+    if (count == 0) return;
+    Warn("FLAT_FACES", static_cast<std::int64_t>(count),
+         absl::StrCat(count, " faces without area were mended: ", mended.flipped,
+                      " edges were turned, ", mended.merged.size(),
+                      " vertices merged with their neighbours"));
+    merged_ = std::move(mended.merged);
+  }
+
   absl::Status CheckManifold() const {
     // A mesh that took no repair was checked as it came.
     if (warnings_.empty() && degenerate_ + duplicates_ + welded_ == 0) return absl::OkStatus();
@@ -366,6 +391,10 @@ class MeshMender {
       for (Triangle& t : surface_.triangles) {
         for (std::uint32_t& v : t) v = new_index[v];
       }
+    }
+    // A vertex may give way to one that gives way later, so the last come first.
+    for (auto merge = merged_.rbegin(); merge != merged_.rend(); ++merge) {
+      new_index[merge->first] = new_index[merge->second];
     }
     std::vector<std::int32_t> vertex_of_source(positions_.size());
     for (std::size_t v = 0; v < positions_.size(); ++v) {
@@ -401,6 +430,7 @@ class MeshMender {
   Surface surface_;
   std::vector<std::uint32_t> stand_in_;  // of each vertex after welding; empty: itself
   std::vector<std::uint32_t> copied_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> merged_;
   std::vector<Warning> warnings_;
   std::int64_t unused_ = 0;
   std::size_t degenerate_ = 0;

@@ -40,6 +40,7 @@ struct PreparedMesh {
 //                                                                              INSIDE_OUT
 //   9. Holes are closed with triangles between their own vertices.             HOLES_CLOSED
 //  10. Vertices in which the surface touches itself are split.                 NONMANIFOLD_VERTICES
+//  11. Faces without area (lower than 1e-9 of the diagonal) are mended.        FLAT_FACES
 //
 // New vertices (copies from step 10) come after the caller's. A surface that cuts through itself
 // is left as it is.

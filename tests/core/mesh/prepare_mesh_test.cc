@@ -171,6 +171,36 @@ TEST(PrepareMeshTest, DropsCopiesOfFacesWhicheverWayRound) {
   EXPECT_EQ(KeyOf(prepared.mesh, 1e-6), KeyOf(Prepared(Ball(12, 7)).mesh, 1e-6));
 }
 
+// A vertex in the middle of an edge of the cube, which only one side's faces use: the other side
+// has a face without area there.
+TEST(PrepareMeshTest, TurnsEdgesOfFacesWhoseCornersLieOnALine) {
+  PolygonSoup soup = WithoutFaces(Cube(), 3);  // the face 2, 3, 7, 6
+  soup.positions.emplace_back(0.5, 1.0, 1.0);  // between 3 and 7
+  soup = WithFace(soup, {6, 2, 8});
+  soup = WithFace(soup, {2, 3, 8});
+  soup = WithFace(soup, {6, 8, 7});
+  soup = WithFace(soup, {3, 7, 8});
+  const PreparedMesh prepared = Prepared(soup);
+  EXPECT_EQ(CodesOf(prepared), "FLAT_FACES");
+  EXPECT_EQ(CountOf(prepared, "FLAT_FACES"), 1);
+  EXPECT_EQ(prepared.mesh.triangles().size(), 14u);
+  EXPECT_DOUBLE_EQ(prepared.mesh.volume(), 1.0);
+  EXPECT_DOUBLE_EQ(prepared.mesh.area(), 6.0);
+}
+
+TEST(PrepareMeshTest, MergesNeighboursInOnePlace) {
+  // The ball's last parallel shrinks onto the pole: every face round it loses its area.
+  PolygonSoup ball = Ball(6, 9);
+  for (int m = 0; m < 6; ++m) ball.positions[6 * 8 + m] = ball.positions.back();
+  const PreparedMesh prepared = Prepared(ball);
+  EXPECT_EQ(CodesOf(prepared), "FLAT_FACES");
+  EXPECT_EQ(CountOf(prepared, "FLAT_FACES"), 6);
+  EXPECT_EQ(prepared.mesh.vertices().size(), ball.positions.size() - 6);
+  const std::int32_t pole = prepared.mesh.vertex_of_source().back();
+  for (int m = 0; m < 6; ++m) EXPECT_EQ(prepared.mesh.vertex_of_source()[6 * 8 + m], pole);
+  EXPECT_EQ(prepared.mesh.vertices()[pole], ball.positions.back());
+}
+
 TEST(PrepareMeshTest, DropsFins) {
   PolygonSoup soup = Cube();
   soup.positions.emplace_back(2.0, 2.0, 0.0);
