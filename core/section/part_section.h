@@ -1,0 +1,26 @@
+// One section of one chain: cut, told apart from the other parts, and closed.
+#ifndef CAPFIT_CORE_SECTION_PART_SECTION_H_
+#define CAPFIT_CORE_SECTION_PART_SECTION_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/body/body.h"
+#include "core/geometry/plane_frame.h"
+
+namespace capfit::section {
+
+// Whether flesh labelled `segment` belongs to sections of `chain`. Sections of the torso take in
+// the thighs, because the lowest ones lie at the height where the thighs begin, and those of limbs
+// the hand or foot, because the last ones lie at its border.
+[[nodiscard]] bool TakesIn(body::Part chain, body::Segment segment);
+
+// The chain's own outline in the plane, in `plane`'s coordinates, counter-clockwise, as cut (not
+// resampled). Nothing where the plane misses the chain. O(triangles).
+[[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> CutPart(
+    const body::Body& body, body::Part chain, const geometry::PlaneFrame& plane);
+
+}  // namespace capfit::section
+
+#endif  // CAPFIT_CORE_SECTION_PART_SECTION_H_
