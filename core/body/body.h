@@ -36,6 +36,9 @@ struct MedialCurve {
   [[nodiscard]] double Project(const Eigen::Vector3d& point_m) const;
 };
 
+// The curve through the points; neighbours that coincide are merged. At least two distinct points.
+[[nodiscard]] MedialCurve CurveThrough(const std::vector<Eigen::Vector3d>& points_m);
+
 // Body frame: metres, +Y up, facing +Z, the body's left at +X, the symmetry plane at x = 0 and the
 // lowest point at y = 0.
 struct Body {

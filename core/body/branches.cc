@@ -32,12 +32,26 @@ struct Merge {
   double level = 0.0;
 };
 
+// Into as many buckets as there are vertices, then in order within each.
 std::vector<std::uint32_t> FarthestFirst(std::span<const double> distance) {
-  std::vector<std::uint32_t> order(distance.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return distance[a] != distance[b] ? distance[a] > distance[b] : a < b;
-  });
+  const std::size_t count = distance.size();
+  const double farthest = *std::max_element(distance.begin(), distance.end());
+  const double per_unit = farthest > 0.0 ? static_cast<double>(count - 1) / farthest : 0.0;
+  const auto bucket_of = [&](std::size_t v) {
+    return count - 1 - static_cast<std::size_t>(distance[v] * per_unit);
+  };
+  std::vector<std::uint32_t> start(count + 1, 0);
+  for (std::size_t v = 0; v < count; ++v) ++start[bucket_of(v) + 1];
+  for (std::size_t k = 1; k <= count; ++k) start[k] += start[k - 1];
+  std::vector<std::uint32_t> order(count);
+  std::vector<std::uint32_t> free_slot(start.begin(), start.end() - 1);
+  for (std::uint32_t v = 0; v < count; ++v) order[free_slot[bucket_of(v)]++] = v;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::sort(order.begin() + start[k], order.begin() + start[k + 1],
+              [&](std::uint32_t a, std::uint32_t b) {
+                return distance[a] != distance[b] ? distance[a] > distance[b] : a < b;
+              });
+  }
   return order;
 }
 

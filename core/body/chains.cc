@@ -20,20 +20,15 @@ std::optional<MedialCurve> Evenly(const std::vector<Eigen::Vector3d>& line) {
     arc[i] = arc[i - 1] + (line[i] - line[i - 1]).norm();
   }
   if (line.size() < 2 || arc.back() <= 0.0) return std::nullopt;
-  MedialCurve curve;
+  std::vector<Eigen::Vector3d> points;
   std::size_t k = 1;
   for (int i = 0; i < kCurvePoints; ++i) {
     const double at = arc.back() * i / (kCurvePoints - 1);
     while (k + 1 < line.size() && (arc[k] < at || arc[k] <= arc[k - 1])) ++k;
     const double t = std::clamp((at - arc[k - 1]) / std::max(arc[k] - arc[k - 1], 1e-12), 0.0, 1.0);
-    curve.points_m.push_back(line[k - 1] + t * (line[k] - line[k - 1]));
+    points.push_back(line[k - 1] + t * (line[k] - line[k - 1]));
   }
-  curve.arc_length_m.push_back(0.0);
-  for (int i = 1; i < kCurvePoints; ++i) {
-    curve.arc_length_m.push_back(curve.arc_length_m.back() +
-                                 (curve.points_m[i] - curve.points_m[i - 1]).norm());
-  }
-  return curve;
+  return CurveThrough(points);
 }
 
 void Smooth(std::vector<Eigen::Vector3d>& line, int times) {

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace capfit::body {
 namespace {
 
 using EdgeKey = std::uint64_t;
 
-constexpr std::size_t kGroupSize = 16;
+constexpr std::size_t kGroupSize = 8;
 // Rounding must not lose a triangle that just touches the plane.
 constexpr double kBallSlack = 1.000001;
 
@@ -24,31 +25,27 @@ struct Piece {
   EdgeKey from = 0;
   EdgeKey to = 0;
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
-  Eigen::Vector3d end = Eigen::Vector3d::Zero();
 };
-
-// Point of the edge on the plane; the same bits from both sides of the edge.
-Eigen::Vector3d Crossing(std::span<const Eigen::Vector3d> points, const CutPlane& plane,
-                         std::uint32_t a, std::uint32_t b) {
-  if (a > b) std::swap(a, b);
-  const double ha = plane.Height(points[a]);
-  const double hb = plane.Height(points[b]);
-  return points[a] + (ha / (ha - hb)) * (points[b] - points[a]);
-}
 
 void CutTriangle(std::span<const Eigen::Vector3d> points, const mesh::Triangle& t,
                  const CutPlane& plane, std::vector<Piece>& pieces) {
-  const bool above[3] = {plane.Height(points[t[0]]) >= 0.0, plane.Height(points[t[1]]) >= 0.0,
-                         plane.Height(points[t[2]]) >= 0.0};
+  const double height[3] = {plane.Height(points[t[0]]), plane.Height(points[t[1]]),
+                            plane.Height(points[t[2]])};
+  const bool above[3] = {height[0] >= 0.0, height[1] >= 0.0, height[2] >= 0.0};
   if (above[0] == above[1] && above[1] == above[2]) return;
   Piece piece;
   for (int k = 0; k < 3; ++k) {
-    const std::uint32_t a = t[k];
-    const std::uint32_t b = t[(k + 1) % 3];
-    if (above[k] == above[(k + 1) % 3]) continue;
+    int a = k;
+    int b = (k + 1) % 3;
+    if (above[a] == above[b]) continue;
     // Outward normals: the outline comes in where the triangle's edge goes down.
-    (above[k] ? piece.from : piece.to) = KeyOf(a, b);
-    (above[k] ? piece.start : piece.end) = Crossing(points, plane, a, b);
+    const bool comes_in = above[k];
+    // From the lower index, so that both triangles at the edge get the same bits.
+    if (t[a] > t[b]) std::swap(a, b);
+    const Eigen::Vector3d crossing =
+        points[t[a]] + (height[a] / (height[a] - height[b])) * (points[t[b]] - points[t[a]]);
+    (comes_in ? piece.from : piece.to) = KeyOf(t[a], t[b]);
+    if (comes_in) piece.start = crossing;
   }
   pieces.push_back(piece);
 }
@@ -131,15 +128,33 @@ CutSurface::CutSurface(std::span<const Eigen::Vector3d> points,
     }
     groups_.push_back({0.5 * (low + high), 0.5 * (high - low).norm()});
   }
+  for (std::size_t first = 0; first < groups_.size(); first += kGroupSize) {
+    const std::size_t last = std::min(first + kGroupSize, groups_.size());
+    Ball clan;
+    for (std::size_t i = first; i < last; ++i) clan.center += groups_[i].center;
+    clan.center /= static_cast<double>(last - first);
+    for (std::size_t i = first; i < last; ++i) {
+      clan.radius =
+          std::max(clan.radius, (groups_[i].center - clan.center).norm() + groups_[i].radius);
+    }
+    clans_.push_back(clan);
+  }
 }
 
 std::vector<SectionLoop> CutSurface::Cut(const CutPlane& plane) const {
   std::vector<Piece> pieces;
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    if (std::abs(plane.Height(groups_[g].center)) > groups_[g].radius * kBallSlack) continue;
-    const std::size_t last = std::min((g + 1) * kGroupSize, triangles_.size());
-    for (std::size_t i = g * kGroupSize; i < last; ++i) {
-      CutTriangle(points_, triangles_[i], plane, pieces);
+  const auto touches = [&](const Ball& ball) {
+    return std::abs(plane.Height(ball.center)) <= ball.radius * kBallSlack;
+  };
+  for (std::size_t c = 0; c < clans_.size(); ++c) {
+    if (!touches(clans_[c])) continue;
+    const std::size_t last_group = std::min((c + 1) * kGroupSize, groups_.size());
+    for (std::size_t g = c * kGroupSize; g < last_group; ++g) {
+      if (!touches(groups_[g])) continue;
+      const std::size_t last = std::min((g + 1) * kGroupSize, triangles_.size());
+      for (std::size_t i = g * kGroupSize; i < last; ++i) {
+        CutTriangle(points_, triangles_[i], plane, pieces);
+      }
     }
   }
   std::sort(pieces.begin(), pieces.end(),

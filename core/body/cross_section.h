@@ -52,13 +52,14 @@ class CutSurface {
   [[nodiscard]] std::span<const Eigen::Vector3d> points() const { return points_; }
 
  private:
-  struct Group {
+  struct Ball {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     double radius = 0.0;
   };
   std::span<const Eigen::Vector3d> points_;
   std::span<const mesh::Triangle> triangles_;
-  std::vector<Group> groups_;
+  std::vector<Ball> groups_;  // of triangles
+  std::vector<Ball> clans_;   // of groups
 };
 
 }  // namespace capfit::body

@@ -14,6 +14,7 @@
 #include "core/body/extremities.h"
 #include "core/body/intrinsic_frame.h"
 #include "core/body/landmarks.h"
+#include "core/body/mirror.h"
 #include "core/body/segments.h"
 #include "core/body/shape.h"
 #include "core/body/surface_graph.h"
@@ -150,12 +151,18 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   AssignSides(extremities, frame, shape);
   CAPFIT_RETURN_IF_ERROR(FindLandmarks(extremities, shape, body.landmarks, warnings));
   if (observer.IsCancelled()) return absl::CancelledError("cancelled while finding landmarks");
+  body.is_symmetric = IsSymmetric(shape, body.landmarks);
+  if (body.is_symmetric) {
+    Symmetrise(body.landmarks);
+    Symmetrise(shape);
+  }
   const std::vector<Segment> segments = LabelVertices(shape, body.landmarks);
   body.vertex_segments.resize(segments.size());
   for (std::size_t v = 0; v < segments.size(); ++v) {
     body.vertex_segments[copy.mesh_vertex[v]] = segments[v];
   }
   body.chains = BuildChains(shape, body.landmarks);
+  if (body.is_symmetric) Symmetrise(body.chains);
   body.warnings = std::move(warnings);
   return body;
 }

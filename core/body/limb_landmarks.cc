@@ -57,13 +57,14 @@ constexpr double kBendReach = 0.06;
 constexpr int kBendSteps = 15;
 constexpr double kBendTolerance = 0.02;
 
-std::uint32_t NearestVertex(const Shape& shape, std::span<const std::uint32_t> among,
-                            const Eigen::Vector3d& point) {
-  std::uint32_t best = among.front();
-  for (const std::uint32_t v : among) {
-    if ((shape.points[v] - point).squaredNorm() < (shape.points[best] - point).squaredNorm()) {
-      best = v;
-    }
+std::uint32_t NearestVertex(const Shape& shape, const Eigen::Vector3d& point) {
+  std::uint32_t best = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::uint32_t v = 0; v < shape.points.size(); ++v) {
+    const double distance = (shape.points[v] - point).squaredNorm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    best = v;
   }
   return best;
 }
@@ -135,11 +136,7 @@ void FindWrist(Shape& shape, int side, Landmarks& landmarks) {
 void FindAnkle(Shape& shape, int side, Landmarks& landmarks) {
   const LimbProfile& leg = *shape.leg_profiles[side];
   const double stature = shape.stature_m;
-  double heel_arc = kAnkleFrom * stature;
-  for (const Station& s : leg.stations) {
-    if (s.arc < kAnkleFrom * stature || s.arc > kAnkleTo * stature) continue;
-    if (s.girth > leg.At(heel_arc).girth) heel_arc = s.arc;
-  }
+  const double heel_arc = leg.WidestArc(kAnkleFrom * stature, kAnkleTo * stature);
   const Eigen::Vector3d ankle = leg.At(heel_arc + kAnkleAboveHeelGirth * stature).center;
   const Eigen::Vector3d& toe = shape.points[shape.legs[side]->tip];
   shape.has_foot[side] =
@@ -181,12 +178,9 @@ std::optional<Armpit> FindArmpit(const Shape& shape, int side, const Landmarks& 
   const Eigen::Vector3d root = profile.stations.back().center;
   const Eigen::Vector3d flank =
       root + Eigen::Vector3d(-kFlankInside * SideSign(side), -kFlankBelow, 0.0) * stature;
-  std::vector<std::uint32_t> all(shape.points.size());
-  for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
-  const geometry::Sphere region = {root, kArmpitRegion * stature};
-  const auto cleft = FindCleft(shape.points, *shape.graph,
-                               NearestVertex(shape, shape.arms[side]->vertices, lower.center),
-                               NearestVertex(shape, all, flank), outward, region);
+  const auto cleft =
+      FindCleft(shape.points, *shape.graph, NearestVertex(shape, lower.center),
+                NearestVertex(shape, flank), outward, {root, kArmpitRegion * stature});
   if (!cleft) return std::nullopt;
   armpit.position_m = shape.points[*cleft];
   return armpit;

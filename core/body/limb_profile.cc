@@ -11,8 +11,8 @@ namespace {
 using Line = std::vector<Eigen::Vector3d>;
 
 // All lengths are shares of the stature.
-constexpr double kDraftSpacing = 0.012;
-constexpr double kSpacing = 0.006;
+constexpr double kDraftSpacing = 0.016;
+constexpr double kSpacing = 0.008;
 // Sections stand across the chord from this far before to this far behind them.
 constexpr double kChord = 0.016;
 constexpr double kFirstStation = 0.006;
@@ -159,19 +159,19 @@ double LimbProfile::NearestArc(const Eigen::Vector3d& point) const {
   return arc;
 }
 
-double LimbProfile::NarrowestArc(double from, double to) const {
+double LimbProfile::Extreme(double from, double to, double sign) const {
   int best = -1;
   const int count = static_cast<int>(stations.size());
   for (int i = 0; i < count; ++i) {
     if (stations[i].arc < from || stations[i].arc > to) continue;
-    if (best < 0 || stations[i].girth < stations[best].girth) best = i;
+    if (best < 0 || sign * stations[i].girth < sign * stations[best].girth) best = i;
   }
   if (best < 0) return std::clamp(0.5 * (from + to), stations.front().arc, stations.back().arc);
   if (best == 0 || best + 1 == count) return stations[best].arc;
   // Parabola through three neighbours.
-  const double left = stations[best - 1].girth;
-  const double right = stations[best + 1].girth;
-  const double curvature = left - 2.0 * stations[best].girth + right;
+  const double left = sign * stations[best - 1].girth;
+  const double right = sign * stations[best + 1].girth;
+  const double curvature = left - 2.0 * sign * stations[best].girth + right;
   const double shift = curvature > 0.0 ? 0.5 * (left - right) / curvature : 0.0;
   const double spacing = 0.5 * (stations[best + 1].arc - stations[best - 1].arc);
   return stations[best].arc + std::clamp(shift, -0.5, 0.5) * spacing;

@@ -29,13 +29,18 @@ struct LimbProfile {
   [[nodiscard]] Station At(double arc) const;
   // The arc at which the middle line passes nearest to `point`.
   [[nodiscard]] double NearestArc(const Eigen::Vector3d& point) const;
-  // The arc of the smallest girth in [from, to], to a fraction of the spacing.
-  [[nodiscard]] double NarrowestArc(double from, double to) const;
+  // The arc of the smallest and of the greatest girth in [from, to], to a fraction of the spacing.
+  [[nodiscard]] double NarrowestArc(double from, double to) const { return Extreme(from, to, 1.0); }
+  [[nodiscard]] double WidestArc(double from, double to) const { return Extreme(from, to, -1.0); }
   [[nodiscard]] double MaxGirth(double from, double to) const;
+  // Inner end, next to the trunk.
   [[nodiscard]] double end() const { return stations.empty() ? 0.0 : stations.back().arc; }
+
+ private:
+  [[nodiscard]] double Extreme(double from, double to, double sign) const;
 };
 
-// `stature` scales the spacing (0.4 %) and smoothing. The middle line starts as the centroids of
+// `stature` scales the spacing (0.8 %) and smoothing. The middle line starts as the centroids of
 // the rings of equal geodesic distance and is drawn again through the sections' own centroids.
 [[nodiscard]] LimbProfile MakeLimbProfile(std::span<const Eigen::Vector3d> points,
                                           std::span<const mesh::Triangle> triangles,

@@ -20,6 +20,17 @@ std::pair<std::size_t, double> Locate(const MedialCurve& curve, double arc_lengt
 
 }  // namespace
 
+MedialCurve CurveThrough(const std::vector<Eigen::Vector3d>& points_m) {
+  MedialCurve curve = {{points_m.front()}, {0.0}};
+  for (const Eigen::Vector3d& p : points_m) {
+    const double step = (p - curve.points_m.back()).norm();
+    if (step <= 0.0) continue;
+    curve.points_m.push_back(p);
+    curve.arc_length_m.push_back(curve.arc_length_m.back() + step);
+  }
+  return curve;
+}
+
 Eigen::Vector3d MedialCurve::PointAt(double at_m) const {
   const auto [i, t] = Locate(*this, at_m);
   return points_m[i] + t * (points_m[i + 1] - points_m[i]);

@@ -39,16 +39,14 @@ class SurfaceGraph {
  private:
   struct Link {
     std::uint32_t target = 0;
-    double length = 0.0;
+    float length = 0.0f;
   };
-  void AddEdges(std::span<const mesh::Triangle> triangles);
+  void AddEdges(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles);
   void AddShortcuts(std::span<const Eigen::Vector3d> points);
-  void Relax(std::uint32_t vertex, std::vector<double>& distance,
-             std::vector<std::vector<std::uint32_t>>& buckets) const;
 
-  std::vector<std::uint32_t> offsets_;  // into next_ and third_, one slot per corner at the vertex
+  std::vector<std::uint32_t> offsets_;  // into next_, one slot per corner at the vertex
   std::vector<std::uint32_t> next_;     // the corner after the vertex in that triangle
-  std::vector<std::uint32_t> third_;    // the corner after next_
+  std::vector<std::uint32_t> after_;    // that corner's slot of the same triangle
   std::vector<Link> links_;             // two per slot: the edge to next_, the shortcut or none
   double bucket_width_ = 1.0;
 };

@@ -18,7 +18,7 @@ constexpr double kCrotchRegion = 0.20;
 constexpr double kCrotchBehindThighs = 0.022;
 // The neck leans forward by about this angle; its sections are cut across that direction.
 constexpr double kNeckLeanRad = 0.30;
-constexpr double kLevelStep = 0.004;
+constexpr double kLevelStep = 0.005;
 // The neck is looked for from here above the armpits up to here below the top.
 constexpr double kNeckAboveArmpit = 0.05;
 constexpr double kNeckBelowTop = 0.08;

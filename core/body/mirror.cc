@@ -1,0 +1,125 @@
+#include "core/body/mirror.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace capfit::body {
+namespace {
+
+// All shares of the height.
+constexpr double kTolerance = 0.010;
+// Toes and fingertips are single vertices; on scans they may be a finger apart.
+constexpr double kTipTolerance = 0.035;
+// Joints and surface are compared; 3 % of the surface may miss (hair, a thumb).
+constexpr double kShareThatMustMirror = 0.97;
+constexpr double kLevelStep = 0.04;
+constexpr int kDirections = 16;
+
+Eigen::Vector3d Mirrored(const Eigen::Vector3d& p) { return {-p.x(), p.y(), p.z()}; }
+
+bool IsTip(LandmarkId id) {
+  return id >= LandmarkId::kLeftFingertip && id <= LandmarkId::kRightHeel;
+}
+
+bool LandmarksMirror(const Shape& shape, const Landmarks& landmarks) {
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const LandmarkId id = static_cast<LandmarkId>(i);
+    // An armpit's place along its fold is free; the shoulder says the same better.
+    if (id == LandmarkId::kLeftArmpit || id == LandmarkId::kRightArmpit) continue;
+    const auto& here = landmarks[i];
+    const auto& there = landmarks[Index(MirrorLandmark(id))];
+    if (here.has_value() != there.has_value()) return false;
+    if (!here) continue;
+    const double miss = (here->position_m - Mirrored(there->position_m)).norm();
+    if (miss > (IsTip(id) ? kTipTolerance : 2.0 * kTolerance) * shape.stature_m) return false;
+  }
+  return true;
+}
+
+double DistanceToOutline(const SectionLoop& loop, const Eigen::Vector3d& p) {
+  double best = std::numeric_limits<double>::infinity();
+  const std::size_t count = loop.outline.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d& a = loop.outline[i];
+    const Eigen::Vector3d step = loop.outline[(i + 1) % count] - a;
+    const double t = std::clamp((p - a).dot(step) / std::max(step.squaredNorm(), 1e-18), 0.0, 1.0);
+    best = std::min(best, (a + t * step - p).squaredNorm());
+  }
+  return std::sqrt(best);
+}
+
+// Level sections against their own mirror images, by outline length.
+bool SurfaceMirrors(const Shape& shape) {
+  double length = 0.0;
+  double missing = 0.0;
+  const double tolerance = 1.5 * kTolerance * shape.stature_m;
+  for (double y = 0.5 * kLevelStep * shape.stature_m; y < shape.top_m;
+       y += kLevelStep * shape.stature_m) {
+    const auto loops = shape.surface->Cut({Eigen::Vector3d(0, y, 0), Eigen::Vector3d::UnitY()});
+    for (const SectionLoop& loop : loops) {
+      const std::size_t step = std::max<std::size_t>(1, loop.outline.size() / kDirections);
+      for (std::size_t i = 0; i < loop.outline.size(); i += step) {
+        const Eigen::Vector3d image = Mirrored(loop.outline[i]);
+        double miss = std::numeric_limits<double>::infinity();
+        for (const SectionLoop& other : loops) {
+          miss = std::min(miss, DistanceToOutline(other, image));
+          if (miss <= tolerance) break;
+        }
+        const double share =
+            loop.girth * static_cast<double>(step) / static_cast<double>(loop.outline.size());
+        length += share;
+        if (miss > tolerance) missing += share;
+      }
+    }
+  }
+  return missing <= (1.0 - kShareThatMustMirror) * length;
+}
+
+}  // namespace
+
+bool IsSymmetric(const Shape& shape, const Landmarks& landmarks) {
+  for (const int side : {kLeft, kRight}) {
+    if (!shape.arms[side] || !shape.legs[side]) return false;
+  }
+  return LandmarksMirror(shape, landmarks) && SurfaceMirrors(shape);
+}
+
+void Symmetrise(Landmarks& landmarks) {
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const std::size_t other = Index(MirrorLandmark(static_cast<LandmarkId>(i)));
+    if (other < i || !landmarks[i] || !landmarks[other]) continue;
+    const Eigen::Vector3d mean =
+        0.5 * (landmarks[i]->position_m + Mirrored(landmarks[other]->position_m));
+    landmarks[i]->position_m = mean;
+    landmarks[other]->position_m = Mirrored(mean);
+    if (other == i) landmarks[i]->position_m.x() = 0.0;
+  }
+}
+
+void Symmetrise(Shape& shape) {
+  if (shape.neck_base_m) shape.neck_base_m->x() = 0.0;
+  if (shape.neck_middle_m) shape.neck_middle_m->x() = 0.0;
+}
+
+void Symmetrise(std::array<std::optional<MedialCurve>, kChainCount>& chains) {
+  if (chains[0]) {
+    for (Eigen::Vector3d& p : chains[0]->points_m) p.x() = 0.0;
+    *chains[0] = CurveThrough(chains[0]->points_m);
+  }
+  for (const Part part : {Part::kLeftArm, Part::kLeftLeg}) {
+    auto& left = chains[static_cast<std::size_t>(part)];
+    auto& right = chains[static_cast<std::size_t>(MirrorPart(part))];
+    if (!left || !right) continue;
+    for (std::size_t i = 0; i < left->points_m.size(); ++i) {
+      left->points_m[i] = 0.5 * (left->points_m[i] + Mirrored(right->points_m[i]));
+      right->points_m[i] = Mirrored(left->points_m[i]);
+    }
+    *left = CurveThrough(left->points_m);
+    *right = CurveThrough(right->points_m);
+  }
+}
+
+}  // namespace capfit::body
