@@ -2,6 +2,8 @@
 #ifndef CAPFIT_CORE_METRICS_MEASURE_H_
 #define CAPFIT_CORE_METRICS_MEASURE_H_
 
+#include <vector>
+
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
@@ -10,13 +12,14 @@
 namespace capfit::metrics {
 
 struct MeasureOptions {
-  int columns = 240;  // per axis: volumes are cut exactly along each column
-  int surface_samples = 20'000;
-  body::PartSelection parts;  // what the set is meant to cover
+  int columns = 240;             // per axis: volumes are cut exactly along each column; >= 2
+  int surface_samples = 20'000;  // >= 1
+  body::PartSelection parts;     // what the set is meant to cover
 };
 
-// Volumes are relative to the volume of the fitted parts (M_n of the paper); what is outside is
-// outside of the whole body (M_o).
+// Volumes are relative to the volume of the fitted parts (M_n of the paper), closed flat at the
+// cuts; what is outside is outside of the whole body (M_o). Inside the body is where the winding
+// number of its surface is not 0.
 struct Metrics {
   int n_p = 0;
   double E_r = 0.0;           // outside + uncovered
@@ -28,13 +31,22 @@ struct Metrics {
   double volume_ratio = 0.0;  // set / fitted parts
   double mirror_error = 0.0;  // volume of (set xor its mirror image) / volume of the set
   int vertices_out = 0;       // of the fitted parts, more than 0.1 mm out
-  double max_out_m = 0.0;     // the worst of them; 0 when none
+  double max_out_m = 0.0;     // the worst of all their vertices; 0 when none is out
 };
 
-// All but max_gap_m, which coverage proves. Deterministic; columns and samples in parallel.
+// All but max_gap_m, which coverage proves. With nothing to measure (no part of the body selected,
+// or no primitive) only n_p and the volumes that still mean something are set. Deterministic:
+// columns and samples in parallel, added up in order. About 25 ms on one core for 64k triangles
+// and 64 primitives. Cancelled: what was not reached is 0.
 [[nodiscard]] Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                               const MeasureOptions& options, const ThreadPool& pool,
                               const FitObserver& observer);
+
+// For each vertex of body.mesh the signed distance to the set in metres, > 0 outside: what a heat
+// map shows. Inside, the boundary is not nearer than that. An empty set gives infinity.
+[[nodiscard]] std::vector<double> SignedGaps(const body::Body& body,
+                                             const capsule::PrimitiveSet& set,
+                                             const ThreadPool& pool);
 
 }  // namespace capfit::metrics
 

@@ -1,0 +1,168 @@
+#include "core/metrics/boundary_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/random.h"
+#include "core/metrics/revolved_surface.h"
+
+namespace capfit::metrics {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::Sphere;
+using geometry::TaperedCapsule;
+
+const ThreadPool& OneThread() {
+  static const ThreadPool pool(1);
+  return pool;
+}
+
+const Eigen::AlignedBox3d kBox(Vector3d(-2, -2, -2), Vector3d(2, 2, 2));
+
+double LeastDistance(const std::vector<TaperedCapsule>& solids, const Vector3d& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const TaperedCapsule& solid : solids) {
+    least = std::min(least, solid.SignedDistance(point));
+  }
+  return least;
+}
+
+Vector3d RandomPoint(Random& random, double reach) {
+  return {random.NextIn(-reach, reach), random.NextIn(-reach, reach), random.NextIn(-reach, reach)};
+}
+
+std::vector<TaperedCapsule> RandomSolids(int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Sphere> spheres;
+  for (int i = 0; i < count; ++i) {
+    spheres.push_back({RandomPoint(random, 0.8), random.NextIn(0.2, 0.6)});
+  }
+  std::vector<TaperedCapsule> solids;
+  for (int i = 0; i < count; ++i) solids.emplace_back(spheres[i], spheres[(i + 1) % count]);
+  return solids;
+}
+
+TEST(UnionDistanceTest, IsTheLeastOfAllSolidsEverywhere) {
+  const std::vector<TaperedCapsule> solids = RandomSolids(12, 1);
+  const UnionDistance distance(solids, kBox, 13, OneThread());
+  Random random(2);
+  for (int i = 0; i < 5000; ++i) {
+    const Vector3d point = RandomPoint(random, 2.4);  // some beyond the box
+    const UnionDistance::Nearest nearest = distance.At(point);
+    EXPECT_EQ(nearest.distance_m, LeastDistance(solids, point));
+    EXPECT_EQ(solids[nearest.solid].SignedDistance(point), nearest.distance_m);
+  }
+}
+
+TEST(UnionDistanceTest, WithoutSolidsIsInfinite) {
+  const UnionDistance distance({}, kBox, 8, OneThread());
+  EXPECT_EQ(distance.At({0, 0, 0}).distance_m, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(distance.At({0, 0, 0}).solid, -1);
+}
+
+TEST(RevolvedSurfaceTest, LiesOnTheSolidAndReachesItsPoles) {
+  for (const TaperedCapsule& solid : {TaperedCapsule({{0, 0, 0}, 0.5}, {{0, 1, 1}, 0.2}),
+                                      TaperedCapsule({{0, 0, 0}, 0.1}, {{2, 0, 0}, 0.9}),
+                                      TaperedCapsule({{0, 0, 0}, 0.1}, {{0.2, 0, 0}, 0.9}),
+                                      TaperedCapsule({{1, 2, 3}, 0.4}, {{1, 2, 3}, 0.4})}) {
+    const RevolvedSurface surface(solid);
+    for (int i = 0; i <= 40; ++i) {
+      const Vector3d point = surface.At(surface.profile_length_m() * i / 40, 0.7 * i);
+      EXPECT_NEAR(solid.SignedDistance(point), 0.0, 1e-12);
+    }
+    const Vector3d first = surface.At(0, 0);
+    const Vector3d last = surface.At(surface.profile_length_m(), 0);
+    EXPECT_GT((last - first).dot(solid.axis()), 0.0);
+    EXPECT_NEAR((last - first).cross(solid.axis()).norm(), 0.0, 1e-12);
+  }
+}
+
+class TwoBallsTest : public testing::Test {
+ protected:
+  // Unit balls at x = -0.5 and 0.5: the crease is the circle of radius sqrt(3)/2 at x = 0.
+  const UnionDistance set_{
+      {{{{-0.5, 0, 0}, 1}, {{-0.5, 0, 0}, 1}}, {{{0.5, 0, 0}, 1}, {{0.5, 0, 0}, 1}}},
+      kBox,
+      10,
+      OneThread()};
+  const BoundaryDistance boundary_{set_, 2000, OneThread()};
+};
+
+TEST_F(TwoBallsTest, MeasuresToTheCreaseWhereTheNearestSurfaceIsHidden) {
+  const double ring = std::sqrt(0.75);
+  EXPECT_NEAR(boundary_.At({0, 0, 0}), ring, 1e-6);
+  EXPECT_NEAR(boundary_.At({0, 0.3, 0.4}), ring - 0.5, 1e-6);
+  EXPECT_NEAR(boundary_.At({0.05, 0, 0.2}), std::hypot(0.05, ring - 0.2), 1e-5);
+  EXPECT_NEAR(boundary_.At({-0.1, 0.1, 0}), std::hypot(0.1, ring - 0.1), 1e-5);
+}
+
+TEST_F(TwoBallsTest, MeasuresToTheBallWhereItsSurfaceIsExposed) {
+  EXPECT_NEAR(boundary_.At({0.9, 0, 0}), 0.6, 1e-12);
+  EXPECT_NEAR(boundary_.At({-0.6, 0.5, 0}), 1 - std::hypot(0.1, 0.5), 1e-12);
+}
+
+TEST_F(TwoBallsTest, MeasuresFromOutside) {
+  EXPECT_NEAR(boundary_.At({2, 0, 0}), 0.5, 1e-12);
+  EXPECT_NEAR(boundary_.At({0, 1.5, 0}), std::hypot(0.5, 1.5) - 1, 1e-12);
+}
+
+TEST_F(TwoBallsTest, CreasePointsLieOnTheCrease) {
+  EXPECT_GT(boundary_.crease_points().size(), 50u);
+  for (const auto& point : boundary_.crease_points()) {
+    EXPECT_NEAR(point.position_m.x(), 0.0, 2e-3);
+    EXPECT_NEAR(point.position_m.tail<2>().norm(), std::sqrt(0.75), 2e-3);
+  }
+}
+
+// The cloud's points lie on the boundary, so the truth is not further than the nearest of them, and
+// by at most their spacing (some 9 mm) nearer.
+TEST(BoundaryDistanceTest, AgreesWithADenseCloudOnRandomSets) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const std::vector<TaperedCapsule> solids = RandomSolids(6, 10 + seed);
+    const UnionDistance set(solids, kBox, 16, OneThread());
+    const BoundaryDistance boundary(set, 20'000, OneThread());
+    std::vector<Vector3d> cloud;
+    for (const TaperedCapsule& solid : solids) {
+      const RevolvedSurface surface(solid);
+      for (int row = 0; row < 300; ++row) {
+        for (int column = 0; column < 300; ++column) {
+          const Vector3d point =
+              surface.At(surface.profile_length_m() * (row + 0.5) / 300, 0.0209439 * column);
+          if (LeastDistance(solids, point) >= -1e-6) cloud.push_back(point);
+        }
+      }
+    }
+    Random random(seed);
+    int hidden = 0;
+    for (int i = 0; i < 300; ++i) {
+      const Vector3d point = RandomPoint(random, 0.9);
+      const double least = LeastDistance(solids, point);
+      if (least >= 0.0) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Vector3d& p : cloud) nearest = std::min(nearest, (p - point).norm());
+      const double found = boundary.At(point);
+      hidden += found > -least + 1e-6 ? 1 : 0;
+      EXPECT_GE(found, -least);
+      EXPECT_GE(found, nearest - 0.009) << "seed " << seed << " point " << point.transpose();
+      EXPECT_LE(found, nearest + 2e-4) << "seed " << seed << " point " << point.transpose();
+    }
+    EXPECT_GT(hidden, 10) << "the cloud must test creases";
+  }
+}
+
+TEST(BoundaryDistanceTest, SameBitsForAnyNumberOfThreads) {
+  const UnionDistance set(RandomSolids(9, 30), kBox, 16, OneThread());
+  const BoundaryDistance one(set, 5000, OneThread());
+  const BoundaryDistance seven(set, 5000, ThreadPool(7));
+  Random random(31);
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d point = RandomPoint(random, 0.9);
+    EXPECT_EQ(one.At(point), seven.At(point));
+  }
+}
+
+}  // namespace
+}  // namespace capfit::metrics

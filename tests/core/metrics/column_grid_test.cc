@@ -1,0 +1,148 @@
+#include "core/metrics/column_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/random.h"
+#include "tests/core/metrics/shapes.h"
+
+namespace capfit::metrics {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::Interval;
+using geometry::TaperedCapsule;
+
+ColumnGrid GridOver(const mesh::BodyMesh& mesh, int columns) {
+  return MakeColumnGrid({mesh.box_min(), mesh.box_max()}, columns);
+}
+
+double VolumeByColumns(const mesh::BodyMesh& mesh, int columns) {
+  const ColumnGrid grid = GridOver(mesh, columns);
+  const TriangleRows rows(mesh.vertices(), mesh.triangles(), grid);
+  double volume = 0.0;
+  for (std::size_t row = 0; row < grid.y.size(); ++row) volume += rows.Cut(row).Length();
+  return volume * grid.cell_area();
+}
+
+bool IsInside(std::span<const Interval> intervals, double z) {
+  return std::any_of(intervals.begin(), intervals.end(),
+                     [z](const Interval& i) { return i.begin <= z && z <= i.end; });
+}
+
+TEST(ColumnGridTest, IsRisingAndMirrorSymmetric) {
+  const ColumnGrid grid = MakeColumnGrid({Vector3d(-1, 0, 0), Vector3d(3, 2, 1)}, 7);
+  ASSERT_EQ(grid.x.size(), 8u);
+  EXPECT_TRUE(std::is_sorted(grid.x.begin(), grid.x.end()));
+  EXPECT_TRUE(std::is_sorted(grid.y.begin(), grid.y.end()));
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(grid.x[i], -grid.x[7 - i]);
+  EXPECT_LT(grid.x.back(), 3.0);
+  EXPECT_GT(grid.x.back(), 2.0);
+  EXPECT_DOUBLE_EQ(grid.cell_area(), 6.0 / 8 * 2.0 / 8);
+}
+
+TEST(ColumnGridTest, FindsTheFirstColumnAtOrAfterAPlace) {
+  const ColumnGrid grid = MakeColumnGrid({Vector3d(-1, 0, 0), Vector3d(1, 2, 1)}, 20);
+  Random random(1);
+  for (int k = 0; k < 2000; ++k) {
+    const double at = k < 40 ? grid.x[k % 20] : random.NextIn(-1.5, 1.5);
+    const auto expected = std::lower_bound(grid.x.begin(), grid.x.end(), at) - grid.x.begin();
+    EXPECT_EQ(grid.FirstColumn(at), static_cast<std::size_t>(expected)) << at;
+  }
+}
+
+TEST(CommonLengthTest, AddsUpWhatIsInBoth) {
+  const std::vector<Interval> a = {{0, 2}, {3, 5}, {8, 9}};
+  const std::vector<Interval> b = {{1, 4}, {4.5, 8.5}};
+  EXPECT_DOUBLE_EQ(CommonLength(a, b), 1 + 1 + 0.5 + 0.5);
+  EXPECT_DOUBLE_EQ(CommonLength(b, a), 3.0);
+  EXPECT_DOUBLE_EQ(CommonLength(a, {}), 0.0);
+}
+
+TEST(TriangleRowsTest, BoxesAndBracketsHaveTheirVolume) {
+  EXPECT_NEAR(VolumeByColumns(test_shapes::Box({-1, 0, 0}, {1, 3, 2}, 4), 50), 12.0, 1e-12);
+  // Half of the widened grid misses the bracket, and a cell in the middle is cut by its notch.
+  EXPECT_NEAR(VolumeByColumns(test_shapes::Bracket(), 200), 3.0, 0.03);
+}
+
+TEST(TriangleRowsTest, ABallHasItsVolume) {
+  const mesh::BodyMesh ball = test_shapes::Ball({{0.1, 2, -1}, 0.7}, 4);
+  EXPECT_NEAR(VolumeByColumns(ball, 240) / ball.volume(), 1.0, 5e-4);
+}
+
+// Rows and columns that run exactly through vertices and edges must still close: a box whose
+// triangulation is full of edges parallel to the axes, cut exactly there.
+TEST(TriangleRowsTest, ColumnsThroughVerticesAndEdgesCloseExactly) {
+  const mesh::BodyMesh box = test_shapes::Box({-1, -1, -1}, {1, 1, 1}, 4);
+  ColumnGrid grid = GridOver(box, 4);
+  grid.x = {-0.5, 0.0, 0.5, 0.9};
+  grid.y = {-0.5, 0.0, 0.5, 0.9};
+  const TriangleRows rows(box.vertices(), box.triangles(), grid);
+  for (std::size_t row = 0; row < 4; ++row) {
+    const RowIntervals cut = rows.Cut(row);
+    for (std::size_t column = 0; column < 4; ++column) {
+      ASSERT_EQ(cut.Column(column).size(), 1u) << row << ' ' << column;
+      EXPECT_EQ(cut.Column(column)[0].begin, -1.0);
+      EXPECT_EQ(cut.Column(column)[0].end, 1.0);
+    }
+  }
+}
+
+TEST(TriangleRowsTest, InsideIsWhereTheWindingNumberIsOne) {
+  for (const mesh::BodyMesh& mesh :
+       {test_shapes::Bracket(), test_shapes::Ball({{0.2, 0, 0}, 1}, 1),
+        test_shapes::Capsule({{-1, 0, 0}, 0.3}, {{1, 1, 1}, 0.6}, 12, 3)}) {
+    const ColumnGrid grid = GridOver(mesh, 24);
+    const TriangleRows rows(mesh.vertices(), mesh.triangles(), grid);
+    Random random(2);
+    for (int k = 0; k < 300; ++k) {
+      const auto row = static_cast<std::size_t>(random.NextBelow(24));
+      const auto column = static_cast<std::size_t>(random.NextBelow(24));
+      const double z = random.NextIn(mesh.box_min().z() - 0.1, mesh.box_max().z() + 0.1);
+      const double winding = test_shapes::WindingNumber(mesh, {grid.x[column], grid.y[row], z});
+      EXPECT_EQ(IsInside(rows.Cut(row).Column(column), z), winding > 0.5);
+    }
+  }
+}
+
+TEST(TriangleRowsTest, WhereASurfaceOverlapsItselfCountsOnce) {
+  const mesh::BodyMesh one = test_shapes::Box({0, 0, 0}, {2, 1, 1});
+  std::vector<Vector3d> vertices(one.vertices().begin(), one.vertices().end());
+  std::vector<mesh::Triangle> triangles(one.triangles().begin(), one.triangles().end());
+  for (const Vector3d& v : one.vertices()) vertices.push_back(v + Vector3d(0, 0, 0.5));
+  for (mesh::Triangle t : one.triangles()) {
+    for (std::uint32_t& corner : t) corner += 8;
+    triangles.push_back(t);
+  }
+  const mesh::BodyMesh both = test_shapes::MeshOf(vertices, triangles);
+  EXPECT_NEAR(both.volume(), 4.0, 1e-12);  // by signs: the overlap twice
+  EXPECT_NEAR(VolumeByColumns(both, 40), 3.0, 1e-12);
+}
+
+TEST(CutSolidsTest, AgreesWithTheDistanceToTheUnion) {
+  const std::vector<TaperedCapsule> solids = {{{{0, 0.2, 0}, 0.5}, {{1, 0.8, 0.3}, 0.2}},
+                                              {{{-0.8, 0, 0}, 0.3}, {{-0.8, 0, 0}, 0.3}},
+                                              {{{0, 1, 0}, 0.1}, {{0.1, 1, 0}, 0.6}},
+                                              {{{0.4, 0.1, 2}, 0.2}, {{0.4, 0.1, 3}, 0.2}}};
+  const ColumnGrid grid = MakeColumnGrid({Vector3d(-1.2, -0.6, 0), Vector3d(1.3, 1.7, 1)}, 30);
+  for (std::size_t row = 0; row < 30; ++row) {
+    const RowIntervals cut = CutSolids(solids, grid, row);
+    Random random(row);
+    for (std::size_t column = 0; column < 30; ++column) {
+      const double z = random.NextIn(-1, 3.5);
+      const Vector3d point(grid.x[column], grid.y[row], z);
+      double distance = std::numeric_limits<double>::infinity();
+      for (const TaperedCapsule& solid : solids) {
+        distance = std::min(distance, solid.SignedDistance(point));
+      }
+      if (std::abs(distance) < 1e-9) continue;
+      EXPECT_EQ(IsInside(cut.Column(column), z), distance < 0) << point.transpose();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace capfit::metrics
