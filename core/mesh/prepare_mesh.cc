@@ -30,6 +30,8 @@ namespace {
 constexpr double kWeldShare = 1e-5;
 // A second part of this share of the main part's volume is no accessory: it may be the body.
 constexpr double kRivalShare = 0.5;
+// A body has an inner wall or two; more large parts in each other are something else.
+constexpr std::size_t kMostInnerWalls = 4;
 // Holes whose filling exceeds this share of the surface leave too little of the body.
 constexpr double kLargestHoleShare = 1.0 / 3.0;
 // Volume below this share of the diagonal's cube is rounding, not a body (a cylinder 1000 times
@@ -252,20 +254,16 @@ class MeshMender {
                                      parts, kWeldShare));
   }
 
+  // A part of similar size is another body, unless it lies within the main part's box: then it is
+  // its inner wall.
   absl::Status CheckRivals(const SurfaceParts& found, std::uint32_t main) {
-    std::vector<Box> boxes(found.parts.size());
-    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-      for (const std::uint32_t v : surface_.triangles[t]) {
-        boxes[found.part_of_triangle[t]].Add(positions_[v]);
-      }
-    }
     const double main_volume = std::abs(found.parts[main].volume);
-    std::size_t faces_left_out = 0;
+    const Box main_box = BoxOf(found, main);
+    std::size_t rivals = 0;
     for (std::uint32_t p = 0; p < found.parts.size(); ++p) {
-      if (p == main) continue;
-      faces_left_out += found.parts[p].triangles;
       const double share = std::abs(found.parts[p].volume) / main_volume;
-      if (share >= kRivalShare && !boxes[main].Holds(boxes[p])) {
+      if (p == main || share < kRivalShare) continue;
+      if (++rivals > kMostInnerWalls || !main_box.Holds(BoxOf(found, p))) {
         return CannotFit("TWO_BODIES",
                          absl::StrFormat("two separate parts are of similar size (the second has "
                                          "%.0f %% of the first one's volume); send one body",
@@ -273,9 +271,19 @@ class MeshMender {
       }
     }
     Warn("PARTS_LEFT_OUT", static_cast<std::int64_t>(found.parts.size() - 1),
-         absl::StrCat(found.parts.size() - 1, " separate parts (", faces_left_out,
+         absl::StrCat(found.parts.size() - 1, " separate parts (",
+                      surface_.triangles.size() - found.parts[main].triangles,
                       " faces) were left out; the part with the largest volume was kept"));
     return absl::OkStatus();
+  }
+
+  [[nodiscard]] Box BoxOf(const SurfaceParts& found, std::uint32_t part) const {
+    Box box;
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      if (found.part_of_triangle[t] != part) continue;
+      for (const std::uint32_t v : surface_.triangles[t]) box.Add(positions_[v]);
+    }
+    return box;
   }
 
   absl::Status CloseAllHoles() {

@@ -83,39 +83,31 @@ class PartWalker {
   std::vector<std::uint32_t> stack_;
 };
 
-// Sums over one part, relative to its first vertex so that far parts keep their digits.
+// Sums over one part, relative to a vertex of the mesh so that far meshes keep their digits.
 struct PartSums {
-  bool started = false;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   double volume = 0.0;
   Eigen::Vector3d area_vector = Eigen::Vector3d::Zero();
   Eigen::Vector3d open_starts = Eigen::Vector3d::Zero();
   double open_edges = 0.0;
 };
 
-void AddTriangle(std::span<const Eigen::Vector3d> positions, const Triangle& triangle,
-                 PartSums& sums) {
-  if (!sums.started) {
-    sums.started = true;
-    sums.origin = positions[triangle[0]];
-  }
-  const Eigen::Vector3d a = positions[triangle[0]] - sums.origin;
-  const Eigen::Vector3d b = positions[triangle[1]] - sums.origin;
-  const Eigen::Vector3d c = positions[triangle[2]] - sums.origin;
-  const Eigen::Vector3d area_vector = 0.5 * (b - a).cross(c - a);
-  sums.volume += a.dot(area_vector) / 3.0;
-  sums.area_vector += area_vector;
-}
-
 void MeasureVolumes(std::span<const Eigen::Vector3d> positions, const Surface& surface,
                     SurfaceParts& parts) {
+  if (surface.triangles.empty()) return;
+  const Eigen::Vector3d origin = positions[surface.triangles.front()[0]];
   std::vector<PartSums> sums(parts.parts.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Triangle& triangle = surface.triangles[t];
     PartSums& part = sums[parts.part_of_triangle[t]];
-    AddTriangle(positions, surface.triangles[t], part);
+    const Eigen::Vector3d a = positions[triangle[0]] - origin;
+    const Eigen::Vector3d ab = positions[triangle[1]] - positions[triangle[0]];
+    const Eigen::Vector3d ac = positions[triangle[2]] - positions[triangle[0]];
+    const Eigen::Vector3d area_vector = 0.5 * ab.cross(ac);
+    part.volume += a.dot(area_vector) / 3.0;
+    part.area_vector += area_vector;
     for (int k = 0; k < 3; ++k) {
       if (surface.mate[3 * t + k] != kNoMate) continue;
-      part.open_starts += positions[surface.triangles[t][k]] - part.origin;
+      part.open_starts += positions[triangle[k]] - origin;
       part.open_edges += 1.0;
     }
   }
