@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <span>
 
 #include "core/circle/circle_outside_area.h"
@@ -17,6 +18,11 @@ namespace {
 // Circles reach the outline to within a nanometre: rounding, far below any mesh's own precision.
 constexpr double kCoverageToleranceM = 1e-9;
 
+// How much more the circles of a split outline may waste than circles that ignore the split. Their
+// own circles keep buttocks and breasts in shape; beyond this the shape is not worth the volume
+// (three circles leave a single one for all the front of a hip).
+constexpr double kSplitAllowance = 1.25;
+
 // One piece of a split outline (or the whole of it) while circles are handed out.
 class Piece {
  public:
@@ -29,17 +35,19 @@ class Piece {
   [[nodiscard]] const std::vector<Cluster>& clusters() const { return clusters_; }
 
   void Take(int more) {
-    clusters_ = Clusters(count_ + more);
     count_ += more;
+    clusters_ = Clusters(count_);
   }
   // Outside area that `more` circles would save.
-  [[nodiscard]] double Gain(int more) const {
+  [[nodiscard]] double Gain(int more) {
     return OutsideAreaSum(clusters_) - OutsideAreaSum(Clusters(count_ + more));
   }
 
  private:
-  std::vector<Cluster> Clusters(int count) const {
-    return SearchClusters(region_, outline_, count, options_, observer_);
+  const std::vector<Cluster>& Clusters(int count) {
+    const auto [it, is_new] = known_.try_emplace(count);
+    if (is_new) it->second = SearchClusters(region_, outline_, count, options_, observer_);
+    return it->second;
   }
 
   Region region_;
@@ -48,6 +56,7 @@ class Piece {
   const FitObserver& observer_;
   int count_ = 0;
   std::vector<Cluster> clusters_;
+  std::map<int, std::vector<Cluster>> known_;  // by count
 };
 
 // The piece whose nearest outline vertex is nearest to each interior point.
@@ -164,6 +173,12 @@ PolygonApproximation Finish(std::vector<Circle> circles, const section::Polygon&
   return result;
 }
 
+PolygonApproximation Covering(std::vector<Cluster> clusters, const section::FeaturePolygon& polygon,
+                              const CircleOptions& options) {
+  CloseGaps(polygon.outline, options.symmetric, kCoverageToleranceM, clusters);
+  return Finish(AllCircles(clusters), polygon.outline);
+}
+
 PolygonApproximation OneCircle(const section::Polygon& outline, bool symmetric) {
   Circle circle = geometry::SmallestEnclosingCircle(outline.vertices());
   if (symmetric) {  // the circle is unique, so only rounding keeps it from the axis
@@ -180,12 +195,12 @@ PolygonApproximation OneCircle(const section::Polygon& outline, bool symmetric) 
 PolygonApproximation ApproximatePolygon(const section::FeaturePolygon& polygon, int circle_count,
                                         const CircleOptions& options, const FitObserver& observer) {
   if (circle_count <= 1) return OneCircle(polygon.outline, options.symmetric);
-  std::vector<Cluster> clusters =
-      UsesSplit(polygon, circle_count)
-          ? FitPieces(SplitPieces(polygon, options, observer), circle_count)
-          : FitWhole(polygon.outline, circle_count, options, observer);
-  CloseGaps(polygon.outline, options.symmetric, kCoverageToleranceM, clusters);
-  return Finish(AllCircles(clusters), polygon.outline);
+  PolygonApproximation whole =
+      Covering(FitWhole(polygon.outline, circle_count, options, observer), polygon, options);
+  if (!UsesSplit(polygon, circle_count)) return whole;
+  PolygonApproximation split =
+      Covering(FitPieces(SplitPieces(polygon, options, observer), circle_count), polygon, options);
+  return split.outside_area_m2 <= kSplitAllowance * whole.outside_area_m2 ? split : whole;
 }
 
 }  // namespace capfit::circle

@@ -14,7 +14,7 @@ namespace capfit::circle {
 using geometry::Circle;
 
 struct CircleOptions {
-  int interior_points = 300;   // grid points inside the outline (scan conversion)
+  int interior_points = 100;   // grid points inside the outline (scan conversion)
   int max_iterations = 24;     // partition + fit rounds for one local minimum
   int max_idle_teleports = 3;  // give up after so many local minima without improvement
   bool symmetric = false;      // the outline mirrors in x = 0: fit circles in mirrored pairs
@@ -27,9 +27,13 @@ struct PolygonApproximation {
   double outside_area_m2 = 0.0;  // of the union of the circles, outside the polygon
 };
 
-// Covers `polygon` with exactly `circle_count` >= 1 circles. Split polygons (III-E) give each piece
-// at least one circle, so they need circle_count >= number of pieces; below that the split is
-// ignored. One circle is the smallest enclosing one. Deterministic for a seed.
+// Covers `polygon` with exactly `circle_count` >= 1 circles: every point of the outline and of its
+// inside lies in a circle to 1e-9 m. One circle is the smallest enclosing one. Split polygons
+// (III-E) with circles for every piece are fitted piece by piece, judged against the whole outline,
+// unless circles that ignore the split waste far less. Where `options.symmetric`, the outline must
+// mirror in x = 0 to the bit, and so do the circles. Deterministic for a seed; about a millisecond
+// for three circles, three for six. When the observer cancels, the circles still cover but are not
+// the best.
 [[nodiscard]] PolygonApproximation ApproximatePolygon(const section::FeaturePolygon& polygon,
                                                       int circle_count,
                                                       const CircleOptions& options,

@@ -22,21 +22,45 @@ class Walk {
  public:
   explicit Walk(double radius) : radius_(radius), radius2_(radius * radius) {}
 
+  // The edge from u to v, given with their squared lengths. Nearly all edges lie wholly inside or
+  // wholly outside and are done in a few operations.
   void Edge(double ux, double uy, double u2, double vx, double vy, double v2) {
-    const double cross = ux * vy - uy * vx;
     const bool u_inside = u2 <= radius2_;
     const bool v_inside = v2 <= radius2_;
     if (u_inside && v_inside) {
-      twice_inside_ += cross;
+      twice_inside_ += ux * vy - uy * vx;
       return;
     }
     const double ex = vx - ux;
     const double ey = vy - uy;
     const double length2 = ex * ex + ey * ey;
+    // No point of an edge is nearer than its nearer end by more than Pythagoras allows.
+    const bool is_far = 4.0 * (std::min(u2, v2) - radius2_) > length2;
+    if (is_far && (uy < 0.0) == (vy < 0.0)) return;
+    Clip(ux, uy, u2, vx, vy, u_inside, v_inside, length2);
+  }
+
+  [[nodiscard]] OutsideArea Result() const {
+    OutsideArea result;
+    const double outside_angle = kTwoPi * (1.0 - turns_) - angle_;
+    result.area_m2 = std::clamp(0.5 * radius2_ * outside_angle - 0.5 * twice_inside_, 0.0,
+                                std::numbers::pi * radius2_);
+    result.by_radius_m = radius_ * outside_angle;
+    // A move of the circle gains area on its outside arcs: minus the integral of the normal over
+    // the arcs inside the outline, because over the whole circle it is 0.
+    result.by_center_m = Eigen::Vector2d(-radius_ * chord_y_, radius_ * chord_x_);
+    return result;
+  }
+
+ private:
+  void Clip(double ux, double uy, double u2, double vx, double vy, bool u_inside, bool v_inside,
+            double length2) {
+    const double ex = vx - ux;
+    const double ey = vy - uy;
     const double half_b = ux * ex + uy * ey;  // |u + t e|^2 = u2 + 2 t half_b + t^2 length2
     const double root2 = half_b * half_b - length2 * (u2 - radius2_);
     if (!u_inside && !v_inside && (root2 <= 0.0 || half_b >= 0.0 || half_b + length2 <= 0.0)) {
-      CountCrossing(uy, vy, cross);
+      CountCrossing(uy, vy, ux * vy - uy * vx);
       return;
     }
     const double root = std::sqrt(std::max(0.0, root2));
@@ -57,19 +81,6 @@ class Walk {
     }
   }
 
-  [[nodiscard]] OutsideArea Result() const {
-    OutsideArea result;
-    const double outside_angle = kTwoPi * (1.0 - turns_) - angle_;
-    result.area_m2 = std::clamp(0.5 * radius2_ * outside_angle - 0.5 * twice_inside_, 0.0,
-                                std::numbers::pi * radius2_);
-    result.by_radius_m = radius_ * outside_angle;
-    // A move of the circle gains area on its outside arcs: minus the integral of the normal over
-    // the arcs inside the outline, because over the whole circle it is 0.
-    result.by_center_m = Eigen::Vector2d(-radius_ * chord_y_, radius_ * chord_x_);
-    return result;
-  }
-
- private:
   // An outside stretch ends, respectively begins, at this point of the circle. Adding 0.0 turns
   // -0.0 into +0.0, so that the arc tangent and the crossing count agree on the side.
   void Enter(double x, double y) {

@@ -88,6 +88,7 @@ class DualActiveSet {
   // How the active multipliers must change so that the active half-spaces stay tight.
   Eigen::Vector3d DualDirection(const Eigen::Vector3d& normal) const {
     const int n = solution_.active_count;
+    if (n == 0) return Eigen::Vector3d::Zero();
     Eigen::Matrix3d gram = Eigen::Matrix3d::Identity();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (int i = 0; i < n; ++i) {

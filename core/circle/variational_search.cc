@@ -18,6 +18,8 @@ constexpr int kRoundSteps = 3;
 constexpr int kFinalSteps = 24;
 // A round or a teleport that saves less than this share counts as no improvement.
 constexpr double kSignificantGain = 2e-3;
+// Outlines with fewer vertices are not thinned out.
+constexpr std::size_t kLeastForCoarse = 64;
 // Rounds without improvement that make a local minimum.
 constexpr int kIdleRounds = 2;
 
@@ -63,8 +65,25 @@ class Search {
         best = std::move(next);
       }
     }
-    for (Cluster& cluster : best) Fit(cluster, kFinalSteps);
     return best;
+  }
+
+  // One more round from where the clusters are, fitted to the end.
+  std::vector<Cluster> Finish(std::span<const Cluster> clusters) const {
+    std::vector<Seed> seeds;
+    for (const Cluster& c : clusters) seeds.push_back({c.circle.center_m, c.place});
+    std::vector<Cluster> last = FitAll(seeds, Partition(region_.points_m, seeds, outline_));
+    for (Cluster& cluster : last) Fit(cluster, kFinalSteps);
+    return last;
+  }
+
+  // With as many pairs as possible, and with one pair less.
+  std::vector<Cluster> RunFolded(int circle_count) {
+    const int pairs = circle_count / 2;
+    std::vector<Cluster> best = Run(FoldedSeeds(pairs, circle_count - 2 * pairs));
+    if (pairs == 0) return best;
+    std::vector<Cluster> other = Run(FoldedSeeds(pairs - 1, circle_count - 2 * pairs + 2));
+    return Waste(other) < Waste(best) ? other : best;
   }
 
   // Evenly on the longest diagonal of the region.
@@ -239,6 +258,28 @@ class Search {
   Random random_;
 };
 
+Region CoarseRegion(const Region& region) {
+  Region coarse;
+  coarse.kind = region.kind;
+  for (std::size_t i = 0; i < region.points_m.size(); ++i) {
+    if (!region.is_coarse[i]) continue;
+    coarse.points_m.push_back(region.points_m[i]);
+    coarse.is_interior.push_back(region.is_interior[i]);
+  }
+  return coarse;
+}
+
+// Every other vertex, from the first on: a mirrored outline with its first vertex on the axis and
+// a multiple of four vertices stays mirrored.
+section::Polygon CoarseOutline(const section::Polygon& outline) {
+  const std::span<const Eigen::Vector2d> vertices = outline.vertices();
+  if (vertices.size() < kLeastForCoarse) return outline;
+  std::vector<Eigen::Vector2d> coarse;
+  for (std::size_t i = 0; i < vertices.size(); i += 2) coarse.push_back(vertices[i]);
+  absl::StatusOr<section::Polygon> polygon = section::Polygon::Create(std::move(coarse));
+  return polygon.ok() ? *std::move(polygon) : outline;
+}
+
 }  // namespace
 
 double OutsideAreaSum(std::span<const Cluster> clusters) {
@@ -249,20 +290,28 @@ double OutsideAreaSum(std::span<const Cluster> clusters) {
 
 Region MakeRegion(Region::Kind kind, std::span<const Eigen::Vector2d> boundary_m,
                   std::span<const Eigen::Vector2d> interior_m) {
-  std::vector<std::pair<Eigen::Vector2d, bool>> marked;
-  const auto add = [&](const Eigen::Vector2d& p, bool is_interior) {
-    if (kind == Region::Kind::kWhole || p.x() >= 0.0) marked.emplace_back(p, is_interior);
+  struct Marked {
+    Eigen::Vector2d point;
+    bool is_interior;
+    bool is_coarse;
   };
-  for (const Eigen::Vector2d& p : boundary_m) add(p, false);
-  for (const Eigen::Vector2d& p : interior_m) add(p, true);
-  std::sort(marked.begin(), marked.end(), [](const auto& a, const auto& b) {
-    return a.first.x() != b.first.x() ? a.first.x() < b.first.x() : a.first.y() < b.first.y();
+  std::vector<Marked> marked;
+  const auto add = [&](const Marked& m) {
+    if (kind == Region::Kind::kWhole || m.point.x() >= 0.0) marked.push_back(m);
+  };
+  for (std::size_t i = 0; i < boundary_m.size(); ++i) {
+    add({boundary_m[i], false, i % 2 == 0 || i + 1 == boundary_m.size()});
+  }
+  for (const Eigen::Vector2d& p : interior_m) add({p, true, true});
+  std::sort(marked.begin(), marked.end(), [](const Marked& a, const Marked& b) {
+    return a.point.x() != b.point.x() ? a.point.x() < b.point.x() : a.point.y() < b.point.y();
   });
   Region region;
   region.kind = kind;
-  for (const auto& [point, is_interior] : marked) {
-    region.points_m.push_back(point);
-    region.is_interior.push_back(is_interior);
+  for (const Marked& m : marked) {
+    region.points_m.push_back(m.point);
+    region.is_interior.push_back(m.is_interior);
+    region.is_coarse.push_back(m.is_coarse);
   }
   return region;
 }
@@ -270,17 +319,17 @@ Region MakeRegion(Region::Kind kind, std::span<const Eigen::Vector2d> boundary_m
 std::vector<Cluster> SearchClusters(const Region& region, const section::Polygon& outline,
                                     int circle_count, const CircleOptions& options,
                                     const FitObserver& observer) {
-  Search search(region, outline, options, observer);
-  if (region.kind == Region::Kind::kWhole) return search.Run(search.FreeSeeds(circle_count));
-  if (region.kind == Region::Kind::kHalf) return search.Run(search.FreeSeeds(circle_count / 2));
-  const int pairs = circle_count / 2;
-  std::vector<Cluster> best = search.Run(search.FoldedSeeds(pairs, circle_count - 2 * pairs));
-  if (pairs == 0) return best;
-  std::vector<Cluster> other =
-      search.Run(search.FoldedSeeds(pairs - 1, circle_count - 2 * pairs + 2));
-  const double waste = UnionOutsideArea(AllCircles(best), outline);
-  const double other_waste = UnionOutsideArea(AllCircles(other), outline);
-  return other_waste < waste ? other : best;
+  const Region coarse = CoarseRegion(region);
+  const section::Polygon coarse_outline = CoarseOutline(outline);
+  Search search(coarse, coarse_outline, options, observer);
+  std::vector<Cluster> best;
+  if (region.kind != Region::Kind::kFolded) {
+    const bool is_half = region.kind == Region::Kind::kHalf;
+    best = search.Run(search.FreeSeeds(is_half ? circle_count / 2 : circle_count));
+  } else {
+    best = search.RunFolded(circle_count);
+  }
+  return Search(region, outline, options, observer).Finish(best);
 }
 
 }  // namespace capfit::circle
