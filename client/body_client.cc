@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <thread>
 #include <utility>
 
+#include "absl/strings/numbers.h"
 #include "client/result_collector.h"
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
@@ -18,14 +21,9 @@ namespace capfit::client {
 namespace {
 
 constexpr std::size_t kChunkBytes = 256 * 1024;
-// What is sent is kept up to this size, so that a call that a full server refuses can be repeated.
-constexpr int kRetryBufferBytes = 64 * 1024 * 1024;
-
-constexpr char kServiceConfig[] = R"({"methodConfig": [{
-  "name": [{"service": "capfit.v1.BodyApproximationService"}],
-  "retryPolicy": {
-    "maxAttempts": 4, "initialBackoff": "0.2s", "maxBackoff": "2s", "backoffMultiplier": 2,
-    "retryableStatusCodes": ["UNAVAILABLE", "RESOURCE_EXHAUSTED"]}}]})";
+constexpr int kMaxAttempts = 4;
+constexpr std::chrono::milliseconds kFirstPause{200};
+constexpr char kPushbackTrailer[] = "grpc-retry-pushback-ms";
 
 using Stream = grpc::ClientReaderWriter<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>;
 
@@ -92,22 +90,51 @@ absl::Status CheckOptions(const pipeline::FitOptions& options) {
   return absl::IsUnimplemented(status) ? absl::OkStatus() : status;
 }
 
-// One call: the header, what `send` sends, then the answer.
+// How long to wait before the next attempt: what the server asked for, else twice as long each
+// time. Nothing where another attempt is of no use.
+std::optional<std::chrono::milliseconds> PauseAfter(const absl::Status& status, int attempt,
+                                                    const grpc::ClientContext& context) {
+  if (!absl::IsUnavailable(status) && !absl::IsResourceExhausted(status)) return std::nullopt;
+  if (attempt == kMaxAttempts) return std::nullopt;
+  const auto& trailers = context.GetServerTrailingMetadata();
+  const auto pushback = trailers.find(kPushbackTrailer);
+  if (pushback == trailers.end()) {
+    if (absl::IsResourceExhausted(status)) return std::nullopt;
+    return kFirstPause * (1 << (attempt - 1));
+  }
+  int milliseconds = 0;
+  const absl::string_view text(pushback->second.data(), pushback->second.size());
+  if (!absl::SimpleAtoi(text, &milliseconds) || milliseconds < 0) return std::nullopt;
+  return std::chrono::milliseconds(milliseconds);
+}
+
+// Makes attempts until one succeeds, or another is of no use or would end after the deadline:
+// attempt(context) gives a Status or StatusOr. gRPC's own retries are off: those of 1.51 stall when
+// a call that is still sending its upload is repeated.
+template <typename Attempt>
+auto WithRetries(double timeout_seconds, const Attempt& attempt_call)
+    -> decltype(attempt_call(std::declval<grpc::ClientContext&>())) {
+  const auto deadline = In(timeout_seconds);
+  for (int attempt = 1;; ++attempt) {
+    grpc::ClientContext context;
+    context.set_deadline(deadline);
+    auto result = attempt_call(context);
+    if (result.ok()) return result;
+    const auto pause = PauseAfter(result.status(), attempt, context);
+    if (!pause || std::chrono::system_clock::now() + *pause >= deadline) return result;
+    std::this_thread::sleep_for(*pause);
+  }
+}
+
+// One attempt: the header, what `send` sends, then the answer.
 template <typename Send>
-absl::StatusOr<pipeline::FitResult> Approximate(v1::BodyApproximationService::Stub& stub,
-                                                v1::ApproximateBodyHeader header,
-                                                const pipeline::FitOptions& options,
-                                                const CallOptions& call, const Send& send) {
-  CAPFIT_RETURN_IF_ERROR(CheckOptions(options));
-  wire::OptionsToWire(options, header);
-  header.set_request_id(call.request_id);
-  grpc::ClientContext context;
-  context.set_deadline(In(call.timeout_seconds));
+absl::StatusOr<pipeline::FitResult> TryOnce(v1::BodyApproximationService::Stub& stub,
+                                            grpc::ClientContext& context,
+                                            const v1::ApproximateBodyRequest& first,
+                                            const ProgressFunction& on_progress, const Send& send) {
   const std::unique_ptr<Stream> stream = stub.ApproximateBody(&context);
-  v1::ApproximateBodyRequest first;
-  *first.mutable_header() = std::move(header);
   if (stream->Write(first) && send(*stream)) stream->WritesDone();
-  ResultCollector collector(call.on_progress);
+  ResultCollector collector(on_progress);
   absl::Status broken;
   v1::ApproximateBodyResponse response;
   while (broken.ok() && stream->Read(&response)) broken = collector.Add(response);
@@ -118,12 +145,26 @@ absl::StatusOr<pipeline::FitResult> Approximate(v1::BodyApproximationService::St
   return std::move(collector).Finish();
 }
 
+template <typename Send>
+absl::StatusOr<pipeline::FitResult> Approximate(v1::BodyApproximationService::Stub& stub,
+                                                v1::ApproximateBodyHeader header,
+                                                const pipeline::FitOptions& options,
+                                                const CallOptions& call, const Send& send) {
+  CAPFIT_RETURN_IF_ERROR(CheckOptions(options));
+  wire::OptionsToWire(options, header);
+  header.set_request_id(call.request_id);
+  v1::ApproximateBodyRequest first;
+  *first.mutable_header() = std::move(header);
+  return WithRetries(call.timeout_seconds, [&](grpc::ClientContext& context) {
+    return TryOnce(stub, context, first, call.on_progress, send);
+  });
+}
+
 }  // namespace
 
 BodyClient BodyClient::Connect(const std::string& host_and_port) {
   grpc::ChannelArguments arguments;
-  arguments.SetServiceConfigJSON(kServiceConfig);
-  arguments.SetInt(GRPC_ARG_PER_RPC_RETRY_BUFFER_SIZE, kRetryBufferBytes);
+  arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);
   return BodyClient(
       grpc::CreateCustomChannel(host_and_port, grpc::InsecureChannelCredentials(), arguments));
 }
@@ -155,12 +196,14 @@ absl::StatusOr<pipeline::FitResult> BodyClient::ApproximateMesh(const mesh::Poly
 }
 
 absl::StatusOr<v1::GetServerInfoResponse> BodyClient::GetServerInfo(double timeout_seconds) const {
-  grpc::ClientContext context;
-  context.set_deadline(In(timeout_seconds));
-  v1::GetServerInfoResponse info;
-  const grpc::Status status = stub_->GetServerInfo(&context, {}, &info);
-  if (!status.ok()) return wire::FromGrpcStatus(status);
-  return info;
+  return WithRetries(
+      timeout_seconds,
+      [this](grpc::ClientContext& context) -> absl::StatusOr<v1::GetServerInfoResponse> {
+        v1::GetServerInfoResponse info;
+        const grpc::Status status = stub_->GetServerInfo(&context, {}, &info);
+        if (!status.ok()) return wire::FromGrpcStatus(status);
+        return info;
+      });
 }
 
 }  // namespace capfit::client

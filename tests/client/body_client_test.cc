@@ -131,7 +131,7 @@ TEST(BodyClient, AFullServerIsAskedAgain) {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     gate.open = true;
   });
-  // 1.2 MB of upload: more than gRPC keeps for repeating by itself.
+  // 1.8 MB of upload: refused in the middle of sending.
   EXPECT_TRUE(client.ApproximateMesh(ManyVertices(50'000), {}).ok());
   first.join();
   opener.join();
