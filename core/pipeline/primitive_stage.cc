@@ -1,10 +1,13 @@
 #include "core/pipeline/primitive_stage.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "core/capsule/build_primitives.h"
 #include "core/pipeline/plan.h"
+#include "core/pipeline/spend_rest.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -27,12 +30,13 @@ bool Fits(const Counts& counts, const circle::Budget& budget) {
          counts.spheres <= budget.max_spheres && counts.capsules <= budget.max_capsules;
 }
 
-// How many primitives the set leaves unused.
+// How many primitives the set leaves unused. Limits may be "none", the largest int.
 int Unused(const Counts& counts, const circle::Budget& budget) {
-  const int primitives = budget.max_primitives - counts.spheres - counts.capsules;
-  const int each = std::max(0, budget.max_spheres - counts.spheres) +
-                   std::max(0, budget.max_capsules - counts.capsules);
-  return std::min(primitives, each);
+  using Wide = std::int64_t;
+  const Wide primitives = Wide{budget.max_primitives} - counts.spheres - counts.capsules;
+  const Wide each = std::max(Wide{0}, Wide{budget.max_spheres} - counts.spheres) +
+                    std::max(Wide{0}, Wide{budget.max_capsules} - counts.capsules);
+  return static_cast<int>(std::min(primitives, each));
 }
 
 PrimitiveStage Build(const body::Body& body, const FitOptions& options,
@@ -92,6 +96,11 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
     const int unused = Unused(spent, total);
     if (unused <= kUnusedAllowed) break;
     bonus += unused;
+  }
+  const Counts spent = CountsOf(best.set);
+  if (Unused(spent, total) > kUnusedAllowed) {
+    SpendRest(total.max_spheres - spent.spheres, total.max_capsules - spent.capsules,
+              total.max_primitives - spent.spheres - spent.capsules, best.set);
   }
   return best;
 }

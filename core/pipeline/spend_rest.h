@@ -1,0 +1,17 @@
+// What a budget still allows when no more circles can be bought: capsules cut in two.
+#ifndef CAPFIT_CORE_PIPELINE_SPEND_REST_H_
+#define CAPFIT_CORE_PIPELINE_SPEND_REST_H_
+
+#include "core/capsule/primitive_set.h"
+
+namespace capfit::pipeline {
+
+// Cuts the capsules with most surface in two, by a sphere in their middle that changes nothing yet:
+// coverage then moves it to where it serves. A cut costs one sphere and one capsule, a mirrored
+// pair of cuts twice that. Stops when fewer than a cut's worth is left of either.
+void SpendRest(int spare_spheres, int spare_capsules, int spare_primitives,
+               capsule::PrimitiveSet& set);
+
+}  // namespace capfit::pipeline
+
+#endif  // CAPFIT_CORE_PIPELINE_SPEND_REST_H_

@@ -1,0 +1,82 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "core/base/status.h"
+#include "core/pipeline/fit.h"
+
+namespace capfit::pipeline {
+namespace {
+
+struct Case {
+  std::string name;
+  std::function<void(FitOptions&)> change;
+  absl::StatusCode code;
+  std::string message;  // a part of it
+  friend void PrintTo(const Case& c, std::ostream* os) { *os << c.name; }
+};
+
+class FitOptionsTest : public testing::TestWithParam<Case> {};
+
+TEST_P(FitOptionsTest, IsJudgedWithFieldValueAndRange) {
+  FitOptions options;
+  GetParam().change(options);
+  const absl::Status status = ValidateOptions(options);
+  EXPECT_EQ(status.code(), GetParam().code);
+  EXPECT_THAT(std::string(status.message()), testing::HasSubstr(GetParam().message));
+}
+
+constexpr auto kOk = absl::StatusCode::kOk;
+constexpr auto kInvalid = absl::StatusCode::kInvalidArgument;
+
+INSTANTIATE_TEST_SUITE_P(
+    All, FitOptionsTest,
+    testing::Values(
+        Case{"Defaults", [](FitOptions&) {}, kOk, ""},
+        Case{"LowestPrimitives", [](FitOptions& o) { o.max_primitives = 15; }, kOk, ""},
+        Case{"TooFewPrimitives", [](FitOptions& o) { o.max_primitives = 14; }, kInvalid,
+             "max_primitives is 14, must be 15 to 1000"},
+        Case{"TooManyPrimitives", [](FitOptions& o) { o.max_primitives = 1001; }, kInvalid,
+             "max_primitives is 1001, must be 15 to 1000"},
+        Case{"TooFewSpheres", [](FitOptions& o) { o.max_spheres = 9; }, kInvalid,
+             "max_spheres is 9, must be 10 to 500"},
+        Case{"TooFewCapsules", [](FitOptions& o) { o.max_capsules = 4; }, kInvalid,
+             "max_capsules is 4, must be 5 to 1000"},
+        Case{"BothCapsIsOneWay",
+             [](FitOptions& o) {
+               o.max_spheres = 32;
+               o.max_capsules = 32;
+             },
+             kOk, ""},
+        Case{"TwoWays",
+             [](FitOptions& o) {
+               o.max_primitives = 64;
+               o.polygon_error = 0.1;
+             },
+             kInvalid, "budget is given in more than one way"},
+        Case{"ErrorTooSmall", [](FitOptions& o) { o.polygon_error = 0.0; }, kInvalid,
+             "polygon_error is 0, must be 0.001 to 2"},
+        Case{"ErrorNotANumber",
+             [](FitOptions& o) { o.polygon_error = std::numeric_limits<double>::quiet_NaN(); },
+             kInvalid, "polygon_error is nan"},
+        Case{"NoParts", [](FitOptions& o) { o.parts = {false, false, false, false, false, false}; },
+             kInvalid, "parts is empty"},
+        Case{"LandmarkNotFinite",
+             [](FitOptions& o) {
+               o.landmarks[body::LandmarkId::kLeftWrist] = {
+                   0, std::numeric_limits<double>::infinity(), 0};
+             },
+             kInvalid, "landmarks.left_wrist must be finite"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(FitOptions, RefusalsNameTheirField) {
+  FitOptions options;
+  options.max_primitives = 1;
+  EXPECT_EQ(FieldOf(ValidateOptions(options)), "max_primitives");
+}
+
+}  // namespace
+}  // namespace capfit::pipeline

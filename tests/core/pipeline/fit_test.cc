@@ -1,0 +1,212 @@
+#include "core/pipeline/fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/geometry/tapered_capsule.h"
+#include "core/mannequin/mannequin.h"
+#include "core/mesh/read_mesh.h"
+#include "tests/support/bodies.h"
+
+namespace capfit::pipeline {
+namespace {
+
+constexpr double kJudgeTolerance_m = 1e-4;
+
+mesh::PolygonSoup Mannequin(const mannequin::MannequinOptions& options = {}) {
+  absl::StatusOr<mesh::PolygonSoup> soup = mannequin::MakeMannequin(options);
+  EXPECT_TRUE(soup.ok()) << soup.status();
+  return *std::move(soup);
+}
+
+mesh::PolygonSoup Read(const std::filesystem::path& path) {
+  const std::string bytes = test_support::ReadFile(path);
+  absl::StatusOr<mesh::PolygonSoup> soup =
+      mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(path.string()));
+  EXPECT_TRUE(soup.ok()) << path << ": " << soup.status();
+  return *std::move(soup);
+}
+
+FitResult FitOrDie(const mesh::PolygonSoup& soup, const FitOptions& options, int threads = 2) {
+  const ThreadPool pool(threads);
+  NullObserver observer;
+  absl::StatusOr<FitResult> result = Fit(soup, options, pool, observer);
+  EXPECT_TRUE(result.ok()) << result.status();
+  return result.ok() ? *std::move(result) : FitResult();
+}
+
+FitOptions AllParts(int max_primitives) {
+  FitOptions options;
+  options.max_primitives = max_primitives;
+  options.parts = {true, true, true, true, true, true};
+  return options;
+}
+
+// The furthest of the caller's vertices outside the set, in the caller's unit.
+double FurthestOut(const mesh::PolygonSoup& soup, const FitResult& result) {
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(result.primitives);
+  double furthest = -1e300;
+  for (const Eigen::Vector3d& vertex : soup.positions) {
+    double nearest = 1e300;
+    for (const auto& solid : solids) nearest = std::min(nearest, solid.SignedDistance(vertex));
+    furthest = std::max(furthest, nearest);
+  }
+  return furthest;
+}
+
+bool SameBits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+void ExpectSameBits(const FitResult& a, const FitResult& b) {
+  ASSERT_EQ(a.primitives.spheres.size(), b.primitives.spheres.size());
+  EXPECT_EQ(a.primitives.capsules, b.primitives.capsules);
+  for (std::size_t i = 0; i < a.primitives.spheres.size(); ++i) {
+    const geometry::Sphere& p = a.primitives.spheres[i];
+    const geometry::Sphere& q = b.primitives.spheres[i];
+    EXPECT_TRUE(SameBits(p.radius_m, q.radius_m)) << "sphere " << i;
+    for (int k = 0; k < 3; ++k) EXPECT_TRUE(SameBits(p.center_m[k], q.center_m[k])) << i;
+  }
+  EXPECT_TRUE(SameBits(a.metrics.E_r, b.metrics.E_r));
+  EXPECT_TRUE(SameBits(a.metrics.E_M, b.metrics.E_M));
+  ASSERT_EQ(a.weights.has_value(), b.weights.has_value());
+  if (a.weights.has_value()) EXPECT_EQ(a.weights->weights, b.weights->weights);
+}
+
+TEST(Fit, EnclosesTheMannequinWithinEveryBudget) {
+  const mesh::PolygonSoup soup = Mannequin();
+  for (const int budget : {22, 32, 64, 128, 250}) {
+    const FitResult result = FitOrDie(soup, AllParts(budget));
+    EXPECT_LE(result.metrics.n_p, budget);
+    EXPECT_GE(result.metrics.n_p, budget - 3);
+    EXPECT_EQ(result.metrics.n_p, result.primitives.primitive_count());
+    EXPECT_LE(FurthestOut(soup, result), kJudgeTolerance_m);
+    EXPECT_LE(result.metrics.uncovered, 0.002);
+  }
+}
+
+TEST(Fit, KeepsSphereAndCapsuleLimitsApart) {
+  FitOptions options = AllParts(64);
+  options.max_primitives.reset();
+  options.max_spheres = 32;
+  options.max_capsules = 32;
+  const FitResult result = FitOrDie(Mannequin(), options);
+  EXPECT_LE(result.primitives.spheres.size(), 32u);
+  EXPECT_LE(result.primitives.capsules.size(), 32u);
+  EXPECT_GE(result.metrics.n_p, 45);
+}
+
+TEST(Fit, SmallerPolygonErrorBuysMoreCirclesAndATighterSet) {
+  FitOptions loose;
+  loose.polygon_error = 0.5;
+  FitOptions tight;
+  tight.polygon_error = 0.1;
+  const mesh::PolygonSoup soup = Mannequin();
+  const FitResult a = FitOrDie(soup, loose);
+  const FitResult b = FitOrDie(soup, tight);
+  EXPECT_LT(a.metrics.n_p, b.metrics.n_p);
+  EXPECT_GT(a.metrics.E_r, b.metrics.E_r);
+}
+
+TEST(Fit, SameBitsForAnyNumberOfThreads) {
+  const mesh::PolygonSoup soup = Mannequin();
+  FitOptions options = AllParts(64);
+  options.skinning = SkinningMode::kDense;
+  const FitResult one = FitOrDie(soup, options, 1);
+  ExpectSameBits(one, FitOrDie(soup, options, 2));
+  ExpectSameBits(one, FitOrDie(soup, options, 7));
+}
+
+TEST(Fit, FollowsTheBodyIntoAnotherFrameAndUnit) {
+  const mesh::PolygonSoup soup = Mannequin();
+  const double turn_rad = 0.7;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()).matrix();
+  const double scale = 100.0;
+  const Eigen::Vector3d move(120.0, -30.0, 77.0);
+  mesh::PolygonSoup moved = soup;
+  for (Eigen::Vector3d& p : moved.positions) p = scale * (turn * p) + move;
+  const FitResult here = FitOrDie(soup, AllParts(64));
+  const FitResult there = FitOrDie(moved, AllParts(64));
+  ASSERT_EQ(here.primitives.spheres.size(), there.primitives.spheres.size());
+  EXPECT_EQ(here.primitives.capsules, there.primitives.capsules);
+  for (std::size_t i = 0; i < here.primitives.spheres.size(); ++i) {
+    const geometry::Sphere& a = here.primitives.spheres[i];
+    const geometry::Sphere& b = there.primitives.spheres[i];
+    const Eigen::Vector3d expected = scale * (turn * a.center_m) + move;
+    EXPECT_LE((b.center_m - expected).norm(), scale * 1.7e-6) << "sphere " << i;
+    EXPECT_NEAR(b.radius_m, scale * a.radius_m, scale * 1.7e-6) << "sphere " << i;
+  }
+}
+
+TEST(Fit, WeightsCarryTheCentresThroughMotionAndScale) {
+  const mesh::PolygonSoup soup = Mannequin();
+  FitOptions options = AllParts(64);
+  options.skinning = SkinningMode::kDense;
+  const FitResult result = FitOrDie(soup, options);
+  ASSERT_TRUE(result.weights.has_value());
+  ASSERT_EQ(result.weights->vertex_count, soup.positions.size());
+  const ThreadPool pool(2);
+  const auto centers = skinning::Apply(*result.weights, soup.positions, pool);
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    EXPECT_LE((centers[i] - result.primitives.spheres[i].center_m).norm(), 1.7e-6) << i;
+  }
+}
+
+TEST(Fit, ReportsStagesInOrderAndTimeThatAddsUp) {
+  class Recorder final : public FitObserver {
+   public:
+    void OnStage(Stage stage, double fraction_done) override {
+      if (!stages.empty()) EXPECT_GE(fraction_done, last_fraction);
+      last_fraction = fraction_done;
+      stages.push_back(stage);
+    }
+    [[nodiscard]] bool IsCancelled() const override { return false; }
+    std::vector<Stage> stages;
+    double last_fraction = 0.0;
+  };
+  const ThreadPool pool(1);
+  Recorder recorder;
+  const auto result = Fit(Mannequin(), AllParts(64), pool, recorder);
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_TRUE(std::is_sorted(recorder.stages.begin(), recorder.stages.end()));
+  EXPECT_EQ(recorder.stages.front(), Stage::kMesh);
+  EXPECT_EQ(recorder.stages.back(), Stage::kMetrics);
+  double sum = 0.0;
+  for (const double seconds : result->stage_seconds) sum += seconds;
+  EXPECT_NEAR(sum, result->seconds, 0.01 * result->seconds + 1e-3);
+}
+
+TEST(Fit, StopsWhenNobodyWaits) {
+  class Impatient final : public FitObserver {
+   public:
+    void OnStage(Stage, double) override {}
+    [[nodiscard]] bool IsCancelled() const override { return true; }
+  };
+  const ThreadPool pool(1);
+  Impatient observer;
+  const auto result = Fit(Mannequin(), AllParts(64), pool, observer);
+  EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled);
+}
+
+TEST(Fit, RealBodiesAreEnclosed) {
+  CAPFIT_REQUIRE_BODIES();
+  for (const std::filesystem::path& file : test_support::BodyFiles()) {
+    SCOPED_TRACE(file.filename().string());
+    const mesh::PolygonSoup soup = Read(file);
+    const bool is_cut = file.string().find("no_hands") != std::string::npos;
+    for (const int budget : {64, 128}) {
+      const FitResult result = FitOrDie(soup, AllParts(budget));
+      EXPECT_LE(result.metrics.n_p, budget);
+      EXPECT_GE(result.metrics.n_p, budget - 3);
+      EXPECT_LE(FurthestOut(soup, result), kJudgeTolerance_m);
+      EXPECT_LE(result.metrics.uncovered, 0.002);
+      if (is_cut) EXPECT_LE(result.metrics.E_r, budget == 64 ? 0.55 : 0.42);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace capfit::pipeline
