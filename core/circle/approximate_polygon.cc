@@ -4,8 +4,8 @@
 #include <limits>
 #include <map>
 #include <span>
+#include <utility>
 
-#include "core/circle/circle_outside_area.h"
 #include "core/circle/cluster.h"
 #include "core/circle/cover_outline.h"
 #include "core/circle/sample_points.h"

@@ -1,6 +1,7 @@
 #include "core/circle/partition.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>

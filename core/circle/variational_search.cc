@@ -1,12 +1,10 @@
 #include "core/circle/variational_search.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "absl/status/statusor.h"
 #include "core/base/random.h"
-#include "core/circle/circle_outside_area.h"
 #include "core/circle/partition.h"
 #include "core/circle/union_area.h"
 

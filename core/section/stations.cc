@@ -4,10 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <optional>
+#include <span>
 #include <string_view>
-#include <utility>
 
 #include "core/section/outline.h"
 #include "core/section/part_section.h"
