@@ -32,6 +32,25 @@ constexpr double kUnequalPairCost = 0.5;
 constexpr double kEmptyRoleCost = 0.12;
 constexpr double kUnusedTipCost = 0.10;
 
+// Mean girth of head, arm and leg, and the weight of the log of the ratio. A piece as wide as a
+// trunk (1.0) is no limb.
+constexpr double kHeadGirth = 0.45;
+constexpr double kArmGirth = 0.18;
+constexpr double kLegGirth = 0.31;
+constexpr double kGirthCost = 0.10;
+constexpr double kMaxLimbGirth = 0.85;
+
+// A result worse than this is not trusted before other middles of the body have been tried.
+constexpr double kGoodMisfit = 0.25;
+// At most this many other middles.
+constexpr int kMaxMiddles = 4;
+
+// A tip that may be an extremity.
+struct Candidate {
+  int branch = 0;
+  double girth = 0.0;  // mean, from its junction to the tip
+};
+
 double UsualWay(Tip a, Tip b) {
   const auto is_hand = [](Tip t) { return t == Tip::kHandA || t == Tip::kHandB; };
   if (a > b) std::swap(a, b);
@@ -40,71 +59,114 @@ double UsualWay(Tip a, Tip b) {
   return kFootToFoot;
 }
 
-using Roles = std::array<int, kTipCount>;  // branch of each role, -1: none
-
-// |log(length of a / length of b)|, both counted from the body's middle.
-double Inequality(std::span<const Branch> branches, int a, int b) {
-  if (a < 0 || b < 0) return 0.0;
-  const double level = JunctionLevel(branches, a, b);
-  const double length_a = std::max(branches[a].tip_distance - level, 1e-6);
-  const double length_b = std::max(branches[b].tip_distance - level, 1e-6);
-  return std::abs(std::log(length_a / length_b));
+double UsualGirth(Tip tip) {
+  if (tip == Tip::kHead) return kHeadGirth;
+  return tip == Tip::kHandA || tip == Tip::kHandB ? kArmGirth : kLegGirth;
 }
 
-// Standard deviation of log(way / usual way) over all pairs, plus the cost of unequal pairs and of
-// what is left over.
-double Misfit(const Roles& roles, std::span<const Branch> branches, int candidates) {
-  double sum = 0.0;
-  double sum_of_squares = 0.0;
-  int pairs = 0;
-  int used = 0;
-  for (int i = 0; i < kTipCount; ++i) {
-    if (roles[i] < 0) continue;
-    ++used;
-    for (int j = i + 1; j < kTipCount; ++j) {
-      if (roles[j] < 0) continue;
-      const double way = branches[roles[i]].tip_distance + branches[roles[j]].tip_distance -
-                         2.0 * JunctionLevel(branches, roles[i], roles[j]);
-      const double deviation =
-          std::log(std::max(way, 1e-6) / UsualWay(static_cast<Tip>(i), static_cast<Tip>(j)));
-      sum += deviation;
-      sum_of_squares += deviation * deviation;
-      ++pairs;
+using Roles = std::array<int, kTipCount>;  // candidate of each role, -1: none
+
+// Gives the roles to the tips so that the proportions fit best.
+class RoleFinder {
+ public:
+  RoleFinder(std::span<const Branch> branches, std::span<const Candidate> candidates)
+      : branches_(branches), candidates_(candidates) {}
+
+  // Tries every way; equal roles (two hands) count once.
+  void Run() { TryFrom(0); }
+  [[nodiscard]] const Roles& roles() const { return best_; }
+  [[nodiscard]] double misfit() const { return best_misfit_; }
+
+ private:
+  void TryFrom(int role) {
+    if (role == kTipCount) {
+      const double misfit = Misfit();
+      if (misfit >= best_misfit_) return;
+      best_misfit_ = misfit;
+      best_ = roles_;
+      return;
     }
+    const bool is_second =
+        role == static_cast<int>(Tip::kHandB) || role == static_cast<int>(Tip::kFootB);
+    const bool first_is_empty = is_second && roles_[role - 1] < 0;
+    const int first = is_second ? roles_[role - 1] + 1 : 0;
+    const int count = static_cast<int>(candidates_.size());
+    for (int tip = first; tip < count && !first_is_empty; ++tip) {
+      if (std::find(roles_.begin(), roles_.begin() + role, tip) != roles_.begin() + role) continue;
+      roles_[role] = tip;
+      TryFrom(role + 1);
+    }
+    roles_[role] = -1;
+    TryFrom(role + 1);
   }
-  const double mean = pairs > 0 ? sum / pairs : 0.0;
-  const double variance = pairs > 0 ? sum_of_squares / pairs - mean * mean : 0.0;
-  const double inequality =
-      Inequality(branches, roles[1], roles[2]) + Inequality(branches, roles[3], roles[4]);
-  return std::sqrt(std::max(0.0, variance)) + kUnequalPairCost * inequality +
-         kEmptyRoleCost * (kTipCount - used) + kUnusedTipCost * (candidates - used);
-}
 
-struct Assignment {
-  Roles roles = {-1, -1, -1, -1, -1};
-  double misfit = std::numeric_limits<double>::infinity();
+  [[nodiscard]] double Junction(int role_a, int role_b) const {
+    return JunctionLevel(branches_, candidates_[roles_[role_a]].branch,
+                         candidates_[roles_[role_b]].branch);
+  }
+  [[nodiscard]] double TipDistance(int role) const {
+    return branches_[candidates_[roles_[role]].branch].tip_distance;
+  }
+
+  // |log(length / length)| of a pair of limbs, both counted from where they join.
+  [[nodiscard]] double Inequality(int role_a, int role_b) const {
+    if (roles_[role_a] < 0 || roles_[role_b] < 0) return 0.0;
+    const double level = Junction(role_a, role_b);
+    return std::abs(std::log(std::max(TipDistance(role_a) - level, 1e-6) /
+                             std::max(TipDistance(role_b) - level, 1e-6)));
+  }
+
+  // Standard deviation of log(way / usual way) over all pairs of roles.
+  [[nodiscard]] double WayDeviation() const {
+    double sum = 0.0;
+    double sum_of_squares = 0.0;
+    int pairs = 0;
+    for (int i = 0; i < kTipCount; ++i) {
+      for (int j = i + 1; j < kTipCount; ++j) {
+        if (roles_[i] < 0 || roles_[j] < 0) continue;
+        const double way = TipDistance(i) + TipDistance(j) - 2.0 * Junction(i, j);
+        const double deviation =
+            std::log(std::max(way, 1e-6) / UsualWay(static_cast<Tip>(i), static_cast<Tip>(j)));
+        sum += deviation;
+        sum_of_squares += deviation * deviation;
+        ++pairs;
+      }
+    }
+    if (pairs == 0) return 0.0;
+    const double mean = sum / pairs;
+    return std::sqrt(std::max(0.0, sum_of_squares / pairs - mean * mean));
+  }
+
+  // Mean of |log(girth / usual girth)|.
+  [[nodiscard]] double GirthDeviation() const {
+    double sum = 0.0;
+    int count = 0;
+    for (int i = 0; i < kTipCount; ++i) {
+      if (roles_[i] < 0) continue;
+      sum += std::abs(
+          std::log(std::max(candidates_[roles_[i]].girth, 1e-6) / UsualGirth(static_cast<Tip>(i))));
+      ++count;
+    }
+    return count > 0 ? sum / count : 0.0;
+  }
+
+  [[nodiscard]] double Misfit() const {
+    const int used =
+        static_cast<int>(std::count_if(roles_.begin(), roles_.end(), [](int r) { return r >= 0; }));
+    const double inequality =
+        Inequality(static_cast<int>(Tip::kHandA), static_cast<int>(Tip::kHandB)) +
+        Inequality(static_cast<int>(Tip::kFootA), static_cast<int>(Tip::kFootB));
+    return WayDeviation() + kUnequalPairCost * inequality + kGirthCost * GirthDeviation() +
+           kEmptyRoleCost * (kTipCount - used) +
+           kUnusedTipCost * static_cast<double>(candidates_.size() - used);
+  }
+
+  std::span<const Branch> branches_;
+  std::span<const Candidate> candidates_;
+  Roles roles_ = {-1, -1, -1, -1, -1};
+  Roles best_ = {-1, -1, -1, -1, -1};
+  double best_misfit_ = std::numeric_limits<double>::infinity();
 };
-
-// Tries every way to give the roles to the tips; equal roles (two hands) count once.
-void TryRoles(int role, Roles& roles, std::span<const Branch> branches, int candidates,
-              Assignment& best) {
-  if (role == kTipCount) {
-    const double misfit = Misfit(roles, branches, candidates);
-    if (misfit < best.misfit) best = {roles, misfit};
-    return;
-  }
-  const bool is_second =
-      role == static_cast<int>(Tip::kHandB) || role == static_cast<int>(Tip::kFootB);
-  const bool first_is_empty = is_second && roles[role - 1] < 0;
-  const int first = is_second ? roles[role - 1] + 1 : 0;
-  for (int tip = first; tip < candidates && !first_is_empty; ++tip) {
-    if (std::find(roles.begin(), roles.begin() + role, tip) != roles.begin() + role) continue;
-    roles[role] = tip;
-    TryRoles(role + 1, roles, branches, candidates, best);
-  }
-  roles[role] = -1;
-  TryRoles(role + 1, roles, branches, candidates, best);
-}
 
 // All vertices that can be reached from the tip without sinking to the level.
 std::vector<std::uint32_t> VerticesAbove(const SurfaceGraph& graph,
@@ -124,6 +186,7 @@ std::vector<std::uint32_t> VerticesAbove(const SurfaceGraph& graph,
   return vertices;
 }
 
+// The vertices nearest to the centroid.
 std::vector<GeodesicSource> MiddleOfTheBody(std::span<const Eigen::Vector3d> points) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& p : points) nearest = std::min(nearest, p.norm());
@@ -135,17 +198,89 @@ std::vector<GeodesicSource> MiddleOfTheBody(std::span<const Eigen::Vector3d> poi
   return sources;
 }
 
-Limb MakeLimb(const SurfaceGraph& graph, std::span<const double> distance,
-              std::span<const Branch> branches, int branch, const Roles& roles) {
-  Limb limb;
-  limb.tip = branches[branch].tip;
-  limb.tip_distance = branches[branch].tip_distance;
-  for (const int other : roles) {
-    if (other < 0 || other == branch) continue;
-    limb.junction = std::max(limb.junction, JunctionLevel(branches, branch, other));
+// The same, patch by patch, the largest first: a hand that sinks into the hips is near the centroid
+// too, but it is a patch of its own.
+std::vector<std::vector<GeodesicSource>> PatchesOf(const std::vector<GeodesicSource>& sources,
+                                                   std::span<const Eigen::Vector3d> points,
+                                                   std::span<const double> vertex_areas,
+                                                   const SurfaceGraph& graph) {
+  std::vector<char> is_free(points.size(), 0);
+  for (const GeodesicSource& s : sources) is_free[s.vertex] = 1;
+  std::vector<std::pair<double, std::vector<GeodesicSource>>> patches;
+  for (const GeodesicSource& s : sources) {
+    if (!is_free[s.vertex]) continue;
+    is_free[s.vertex] = 0;
+    std::vector<GeodesicSource> patch = {s};
+    double area = 0.0;
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      area += vertex_areas[patch[i].vertex];
+      for (const std::uint32_t n : graph.Neighbours(patch[i].vertex)) {
+        if (!is_free[n]) continue;
+        is_free[n] = 0;
+        patch.push_back({n, points[n].norm()});
+      }
+    }
+    patches.emplace_back(area, std::move(patch));
   }
-  limb.vertices = VerticesAbove(graph, distance, limb.tip, limb.junction);
-  return limb;
+  std::stable_sort(patches.begin(), patches.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::vector<GeodesicSource>> result;
+  for (auto& [area, patch] : patches) result.push_back(std::move(patch));
+  return result;
+}
+
+// Level at which a branch joins the first of the others.
+double FirstJunction(std::span<const Branch> branches, int branch, int count) {
+  double level = 0.0;
+  for (int other = 0; other < count; ++other) {
+    if (other != branch) level = std::max(level, JunctionLevel(branches, branch, other));
+  }
+  return level;
+}
+
+// The tips that stand out, but for what is as wide as a trunk.
+std::vector<Candidate> Candidates(std::span<const Branch> branches,
+                                  std::span<const double> distance,
+                                  std::span<const double> vertex_areas, const SurfaceGraph& graph) {
+  const int count = std::min(kMaxCandidates, static_cast<int>(branches.size()));
+  std::vector<Candidate> candidates;
+  if (count < 2) return candidates;  // a ball, a cube: one way out is none
+  for (int b = 0; b < count; ++b) {
+    const double level = FirstJunction(branches, b, count);
+    double area = 0.0;
+    for (const std::uint32_t v : VerticesAbove(graph, distance, branches[b].tip, level)) {
+      area += vertex_areas[v];
+    }
+    const double girth = area / std::max(branches[b].tip_distance - level, 1e-6);
+    if (girth <= kMaxLimbGirth) candidates.push_back({b, girth});
+  }
+  return candidates;
+}
+
+Extremities FromSources(const std::vector<GeodesicSource>& sources,
+                        std::span<const double> vertex_areas, const SurfaceGraph& graph) {
+  Extremities result;
+  result.distance = graph.Distances(sources);
+  const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinPersistence);
+  const std::vector<Candidate> candidates =
+      Candidates(branches, result.distance, vertex_areas, graph);
+  RoleFinder finder(branches, candidates);
+  finder.Run();
+  result.misfit = finder.misfit();
+  for (int role = 0; role < kTipCount; ++role) {
+    const int candidate = finder.roles()[role];
+    if (candidate < 0) continue;
+    const Branch& branch = branches[candidates[candidate].branch];
+    Limb limb = {branch.tip, 0.0, branch.tip_distance, {}};
+    for (const int other : finder.roles()) {
+      if (other < 0 || other == candidate) continue;
+      limb.junction = std::max(limb.junction, JunctionLevel(branches, candidates[candidate].branch,
+                                                            candidates[other].branch));
+    }
+    limb.vertices = VerticesAbove(graph, result.distance, limb.tip, limb.junction);
+    result.limbs[role] = std::move(limb);
+  }
+  return result;
 }
 
 }  // namespace
@@ -155,20 +290,17 @@ int Extremities::found() const {
       std::count_if(limbs.begin(), limbs.end(), [](const auto& limb) { return limb.has_value(); }));
 }
 
-Extremities FindExtremities(std::span<const Eigen::Vector3d> points, const SurfaceGraph& graph) {
-  Extremities result;
-  result.distance = graph.Distances(MiddleOfTheBody(points));
-  const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinPersistence);
-  const int candidates = std::min(kMaxCandidates, static_cast<int>(branches.size()));
-  Assignment best;
-  Roles roles = {-1, -1, -1, -1, -1};
-  TryRoles(0, roles, branches, candidates, best);
-  result.misfit = best.misfit;
-  for (int role = 0; role < kTipCount; ++role) {
-    if (best.roles[role] < 0) continue;
-    result.limbs[role] = MakeLimb(graph, result.distance, branches, best.roles[role], best.roles);
+Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
+                            std::span<const double> vertex_areas, const SurfaceGraph& graph) {
+  const std::vector<GeodesicSource> sources = MiddleOfTheBody(points);
+  Extremities best = FromSources(sources, vertex_areas, graph);
+  if (best.misfit <= kGoodMisfit) return best;
+  const auto patches = PatchesOf(sources, points, vertex_areas, graph);
+  for (std::size_t i = 0; i < patches.size() && i < kMaxMiddles; ++i) {
+    Extremities other = FromSources(patches[i], vertex_areas, graph);
+    if (other.misfit < best.misfit) best = std::move(other);
   }
-  return result;
+  return best;
 }
 
 }  // namespace capfit::body

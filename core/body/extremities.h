@@ -40,8 +40,10 @@ struct Extremities {
 // `points` in a frame where the surface's area is 1 and the body's centroid lies at the origin.
 // Lengths along the surface do not change when limbs bend, so neither does the answer: tips are
 // the maxima of the geodesic distance from the middle, and their roles follow from the lengths of
-// the ways between them (the head is near the hands, the feet are far from all). O(n log n).
+// the ways between them (the head is near the hands, the feet are far from all) and from how thick
+// the limbs are. O(n log n).
 [[nodiscard]] Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
+                                          std::span<const double> vertex_areas,
                                           const SurfaceGraph& graph);
 
 }  // namespace capfit::body

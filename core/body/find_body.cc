@@ -125,7 +125,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   (void)pool;
   const WorkingCopy copy = MakeWorkingCopy(mesh);
   const SurfaceGraph graph(copy.points, copy.triangles);
-  const Extremities extremities = FindExtremities(copy.points, graph);
+  const Extremities extremities = FindExtremities(copy.points, copy.vertex_areas, graph);
   CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame, FindFrame(options, copy, extremities));
   std::vector<Warning> warnings;
   CAPFIT_ASSIGN_OR_RETURN(const geometry::Similarity body_from_caller,

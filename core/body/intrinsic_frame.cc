@@ -13,10 +13,18 @@ namespace {
 // Distances here are in units of the square root of the surface's area, 0.75 of the height.
 
 // Pairs that miss their mirror image by more than this count little: a limb in another pose.
-constexpr double kMirrorTolerance = 0.008;
+constexpr double kMirrorTolerance = 0.012;
+constexpr double kFirstTolerance = 0.10;
 constexpr int kRobustIterations = 30;
-// The body stands on its soles when "up at rest" is within 15 degrees of the trunk.
-constexpr double kMinCosineToTrunk = 0.966;
+// Rings of trunk and head lie near one line and say little about how the plane is turned.
+constexpr double kSelfPairWeight = 0.3;
+// The body stands on its soles when "up at rest" is within 6 degrees of the trunk.
+constexpr double kMinCosineToTrunk = 0.9945;
+constexpr double kSoleTolerance = 0.02;
+// A trunk this much wider than deep says by itself where left and right are, to within the angle of
+// this cosine (5 degrees).
+constexpr double kClearlyWide = 1.2;
+constexpr double kMinCosineToWidth = 0.996;
 // Height of the slice at the bottom in which the soles are looked for.
 constexpr double kSoleSlice = 0.12;
 // What tells front from back: how far it must show to be clear, and its say.
@@ -72,13 +80,19 @@ LevelCentroids LimbCentroids(std::span<const Eigen::Vector3d> points, std::span<
   return sums.Centroids();
 }
 
-LevelCentroids TrunkCentroids(std::span<const Eigen::Vector3d> points,
-                              std::span<const double> areas, const Extremities& extremities) {
-  std::vector<char> is_limb(points.size(), 0);
+// 1 for each vertex of a limb.
+std::vector<char> LimbMask(std::size_t count, const Extremities& extremities) {
+  std::vector<char> is_limb(count, 0);
   for (const auto& limb : extremities.limbs) {
     if (!limb) continue;
     for (const std::uint32_t v : limb->vertices) is_limb[v] = 1;
   }
+  return is_limb;
+}
+
+LevelCentroids TrunkCentroids(std::span<const Eigen::Vector3d> points,
+                              std::span<const double> areas, const Extremities& extremities,
+                              const std::vector<char>& is_limb) {
   double farthest = 1e-9;
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (!is_limb[v]) farthest = std::max(farthest, extremities.distance[v]);
@@ -129,19 +143,29 @@ double MirrorError(const Plane& plane, const MirrorPair& pair) {
   return (image - pair.b).norm();
 }
 
-// Iteratively reweighted (Geman-McClure): what does not mirror loses its say. Starts wide, so that
-// a limb in another pose cannot capture the plane.
-Plane FitMirrorRobustly(std::vector<MirrorPair> pairs) {
-  const std::vector<MirrorPair> given = pairs;
-  Plane plane = FitMirror(pairs);
-  double tolerance = 32.0 * kMirrorTolerance;
+// Geman-McClure: what misses by much more than the tolerance counts as a constant.
+double RobustCost(const Plane& plane, const std::vector<MirrorPair>& pairs, double tolerance) {
+  double cost = 0.0;
+  for (const MirrorPair& pair : pairs) {
+    const double ratio = MirrorError(plane, pair) / tolerance;
+    cost += pair.weight * ratio * ratio / (1.0 + ratio * ratio);
+  }
+  return cost;
+}
+
+// Iteratively reweighted: what does not mirror loses its say. Starts wide, so that a limb in
+// another pose does not capture the plane.
+Plane FitMirrorRobustly(Plane plane, const std::vector<MirrorPair>& pairs) {
+  std::vector<MirrorPair> reweighted = pairs;
+  double tolerance = kFirstTolerance;
   for (int i = 0; i < kRobustIterations; ++i) {
-    tolerance = std::max(0.7 * tolerance, kMirrorTolerance);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const double ratio = MirrorError(plane, given[k]) / tolerance;
-      pairs[k].weight = given[k].weight / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio));
+      const double ratio = MirrorError(plane, pairs[k]) / tolerance;
+      const double falloff = 1.0 + ratio * ratio;
+      reweighted[k].weight = pairs[k].weight / (falloff * falloff);
     }
-    plane = FitMirror(pairs);
+    plane = FitMirror(reweighted);
+    tolerance = std::max(0.75 * tolerance, kMirrorTolerance);
   }
   return plane;
 }
@@ -155,20 +179,47 @@ struct Rings {
   }
 };
 
+void AddPairs(const Rings& rings, Tip a, Tip b, int levels, std::vector<MirrorPair>& pairs) {
+  if (!rings.limb(a) || !rings.limb(b)) return;
+  for (int i = 0; i < levels; ++i) {
+    pairs.push_back({(*rings.limb(a))[i], (*rings.limb(b))[i], 1.0});
+  }
+}
+
+// The best of several starts: everything; the legs; the arms; the roots of the limbs, which stay
+// put when a body walks or waves.
 Plane SymmetryPlane(const Rings& rings) {
-  std::vector<MirrorPair> pairs;
-  for (const auto& [a, b] :
-       {std::pair(Tip::kHandA, Tip::kHandB), std::pair(Tip::kFootA, Tip::kFootB)}) {
-    if (!rings.limb(a) || !rings.limb(b)) continue;
-    for (int i = 0; i < kLevels; ++i) {
-      pairs.push_back({(*rings.limb(a))[i], (*rings.limb(b))[i], 1.0});
+  std::vector<MirrorPair> legs, arms, roots, all;
+  AddPairs(rings, Tip::kFootA, Tip::kFootB, kLevels, legs);
+  AddPairs(rings, Tip::kHandA, Tip::kHandB, kLevels, arms);
+  AddPairs(rings, Tip::kFootA, Tip::kFootB, kLevels / 4, roots);
+  AddPairs(rings, Tip::kHandA, Tip::kHandB, kLevels / 4, roots);
+  all = legs;
+  all.insert(all.end(), arms.begin(), arms.end());
+  for (const Eigen::Vector3d& c : rings.trunk) all.push_back({c, c, kSelfPairWeight});
+  if (rings.limb(Tip::kHead)) {
+    for (const Eigen::Vector3d& c : *rings.limb(Tip::kHead)) {
+      all.push_back({c, c, kSelfPairWeight});
     }
   }
-  for (const Eigen::Vector3d& c : rings.trunk) pairs.push_back({c, c, 1.0});
-  if (rings.limb(Tip::kHead)) {
-    for (const Eigen::Vector3d& c : *rings.limb(Tip::kHead)) pairs.push_back({c, c, 1.0});
+  Plane best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (const std::vector<MirrorPair>* start : {&all, &legs, &arms, &roots}) {
+    if (start->empty()) continue;
+    const Plane plane = FitMirrorRobustly(FitMirror(*start), all);
+    const double cost = RobustCost(plane, all, kMirrorTolerance);
+    if (cost >= best_cost) continue;
+    best_cost = cost;
+    best = plane;
   }
-  return FitMirrorRobustly(std::move(pairs));
+  return best;
+}
+
+// Where head or arm begins: the first rings may hold a piece of the neighbour. Legs are far enough
+// apart, and further down a thigh may already point forward.
+Eigen::Vector3d Root(const LevelCentroids& limb, bool is_leg) {
+  if (is_leg) return 0.5 * (limb[0] + limb[1]);
+  return (limb[2] + limb[3] + limb[4] + limb[5]) / 4.0;
 }
 
 // From where the legs come together to where head and arms do; without legs or without head and
@@ -179,7 +230,7 @@ Eigen::Vector3d TrunkDirection(const Rings& rings) {
     int count = 0;
     for (const Tip tip : tips) {
       if (!rings.limb(tip)) continue;
-      sum += rings.limb(tip)->front();
+      sum += Root(*rings.limb(tip), tip == Tip::kFootA || tip == Tip::kFootB);
       ++count;
     }
     return count > 0 ? std::optional<Eigen::Vector3d>(sum / count) : std::nullopt;
@@ -190,6 +241,38 @@ Eigen::Vector3d TrunkDirection(const Rings& rings) {
                                   ? rings.limb(Tip::kHead)->front()
                                   : roots({Tip::kHandA, Tip::kHandB}).value_or(middle);
   return top - roots({Tip::kFootA, Tip::kFootB}).value_or(middle);
+}
+
+// The direction in which the trunk is widest, across its own axis, and by how much it is wider than
+// deep (ratio of standard deviations).
+struct TrunkWidth {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double ratio = 1.0;
+};
+
+TrunkWidth MeasureTrunk(std::span<const Eigen::Vector3d> points, std::span<const double> areas,
+                        const std::vector<char>& is_limb, const Eigen::Vector3d& axis) {
+  TrunkWidth width;
+  double total = 0.0;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (is_limb[v]) continue;
+    width.center += areas[v] * points[v];
+    total += areas[v];
+  }
+  if (total <= 0.0) return width;
+  width.center /= total;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (is_limb[v]) continue;
+    Eigen::Vector3d across = points[v] - width.center;
+    across -= across.dot(axis) * axis;
+    covariance += areas[v] / total * across * across.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  width.direction = solver.eigenvectors().col(2);
+  width.ratio = std::sqrt(solver.eigenvalues()[2] / std::max(solver.eigenvalues()[1], 1e-12));
+  return width;
 }
 
 // A point seen along the left axis: forward and up.
@@ -212,10 +295,25 @@ std::vector<Profile> Underside(std::vector<Profile> points) {
   return hull;
 }
 
+// Whether both legs reach down to the ground, so that no foot is in the air.
+bool StandsOn(std::span<const Eigen::Vector3d> points, const Extremities& extremities,
+              const Eigen::Vector3d& up, double ground) {
+  for (const Tip tip : {Tip::kFootA, Tip::kFootB}) {
+    if (!extremities.limb(tip)) return false;
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : extremities.limb(tip)->vertices) {
+      lowest = std::min(lowest, up.dot(points[v]));
+    }
+    if (lowest > ground + kSoleTolerance) return false;
+  }
+  return true;
+}
+
 // Up, if the body (centroid at the origin) is put down on its soles and left to itself: across the
 // edge of the underside that the centroid stands over.
 std::optional<Eigen::Vector3d> UpAtRest(std::span<const Eigen::Vector3d> points,
-                                        const Eigen::Vector3d& up, const Eigen::Vector3d& forward) {
+                                        const Extremities& extremities, const Eigen::Vector3d& up,
+                                        const Eigen::Vector3d& forward) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& p : points) lowest = std::min(lowest, up.dot(p));
   std::vector<Profile> low;
@@ -227,7 +325,9 @@ std::optional<Eigen::Vector3d> UpAtRest(std::span<const Eigen::Vector3d> points,
     const Profile edge = hull[i + 1] - hull[i];
     if (edge.dot(hull[i]) > 0.0 || edge.dot(hull[i + 1]) < 0.0) continue;  // centroid not over it
     const Eigen::Vector3d normal = (edge.x() * up - edge.y() * forward).normalized();
-    if (normal.dot(up) >= kMinCosineToTrunk) return normal;
+    if (normal.dot(up) < kMinCosineToTrunk) continue;
+    const double ground = normal.dot(hull[i].x() * forward + hull[i].y() * up);
+    if (StandsOn(points, extremities, normal, ground)) return normal;
   }
   return std::nullopt;
 }
@@ -318,18 +418,25 @@ IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
     if (!extremities.limbs[i]) continue;
     rings.limbs[i] = LimbCentroids(points, vertex_areas, extremities, *extremities.limbs[i]);
   }
-  rings.trunk = TrunkCentroids(points, vertex_areas, extremities);
-  const Plane plane = SymmetryPlane(rings);
+  const std::vector<char> is_limb = LimbMask(points.size(), extremities);
+  rings.trunk = TrunkCentroids(points, vertex_areas, extremities, is_limb);
+  Plane plane = SymmetryPlane(rings);
   IntrinsicFrame frame;
+  const Eigen::Vector3d trunk = TrunkDirection(rings).normalized();
+  const TrunkWidth width = MeasureTrunk(points, vertex_areas, is_limb, trunk);
+  const Eigen::Vector3d across = (plane.normal - plane.normal.dot(trunk) * trunk).normalized();
+  if (width.ratio > kClearlyWide && std::abs(width.direction.dot(across)) < kMinCosineToWidth) {
+    // Limbs in stride can mirror each other in a plane that is turned against the trunk.
+    plane = {width.direction, width.direction.dot(width.center)};
+  }
   frame.left = plane.normal;
   frame.plane_offset = plane.offset;
-  const Eigen::Vector3d trunk = TrunkDirection(rings).normalized();
   if (up) {
     frame.up = *up;
     frame.left = (plane.normal - plane.normal.dot(*up) * *up).normalized();
   } else {
     frame.up = (trunk - trunk.dot(frame.left) * frame.left).normalized();
-    const auto at_rest = UpAtRest(points, frame.up, frame.left.cross(frame.up));
+    const auto at_rest = UpAtRest(points, extremities, frame.up, frame.left.cross(frame.up));
     if (at_rest) frame.up = *at_rest;
   }
   frame.up_agreement = frame.up.dot(trunk);

@@ -88,7 +88,10 @@ absl::Status FindLandmarks(const Extremities& extremities, Shape& shape, Landmar
   FindEnds(shape, landmarks);
   FindCrotch(shape, landmarks);
   if (!landmarks[Index(LandmarkId::kCrotch)]) {
-    return CannotFit("PART_MISSING", "the legs do not part: no crotch found between the thighs");
+    return CannotFit(
+        "PART_MISSING",
+        "the legs do not part where the thighs meet (closed, fused, or folded up as in "
+        "sitting); a crotch landmark would help");
   }
   for (const int side : {kLeft, kRight}) {
     FindThigh(shape, side, landmarks);

@@ -17,10 +17,15 @@ constexpr double kWristTo = 0.170;
 constexpr double kPalmFrom = 0.010;
 constexpr double kPalmWiderThanWrist = 1.25;
 
-// Foot. It sticks out from the axis of the shin; a cut ankle does not.
+// Foot. Where its direction and that of the shin are taken, and the turn (35 degrees) between them
+// that makes it one.
+constexpr double kFootFrom = 0.015;
+constexpr double kFootTo = 0.065;
+constexpr double kShinFrom = 0.170;
+constexpr double kShinTo = 0.240;
+constexpr double kFootTurnCosine = 0.82;
 constexpr double kAnkleFrom = 0.060;
 constexpr double kAnkleTo = 0.165;
-constexpr double kToeReach = 0.055;
 // The heel's tip is looked for below this height.
 constexpr double kHeelHeight = 0.012;
 // The ankle joint lies this far above the heel's greatest girth.
@@ -133,14 +138,25 @@ void FindWrist(Shape& shape, int side, Landmarks& landmarks) {
   Put(landmarks, Sided(LandmarkId::kLeftFingertip, side), shape.points[shape.arms[side]->tip], 0.9);
 }
 
+namespace {
+
+// A foot makes the middle line turn at the ankle; a cut shin goes on straight.
+bool EndsInFoot(const LimbProfile& leg, double stature) {
+  const auto direction = [&](double from, double to) {
+    return (leg.At(to * stature).center - leg.At(from * stature).center).normalized();
+  };
+  return direction(kFootFrom, kFootTo).dot(direction(kShinFrom, kShinTo)) < kFootTurnCosine;
+}
+
+}  // namespace
+
 void FindAnkle(Shape& shape, int side, Landmarks& landmarks) {
   const LimbProfile& leg = *shape.leg_profiles[side];
   const double stature = shape.stature_m;
   const double heel_arc = leg.WidestArc(kAnkleFrom * stature, kAnkleTo * stature);
   const Eigen::Vector3d ankle = leg.At(heel_arc + kAnkleAboveHeelGirth * stature).center;
   const Eigen::Vector3d& toe = shape.points[shape.legs[side]->tip];
-  shape.has_foot[side] =
-      Eigen::Vector2d(toe.x() - ankle.x(), toe.z() - ankle.z()).norm() > kToeReach * stature;
+  shape.has_foot[side] = EndsInFoot(leg, stature);
   if (!shape.has_foot[side]) {
     Put(landmarks, Sided(LandmarkId::kLeftAnkle, side), CutEnd(leg), 0.9);
     return;

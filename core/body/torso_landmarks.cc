@@ -71,10 +71,12 @@ double CrotchHeightAt(const Shape& shape, const Eigen::Vector3d& near) {
 void FindCrotch(const Shape& shape, Landmarks& landmarks) {
   std::array<std::uint32_t, 2> thighs = {0, 0};
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero();
   for (const int side : {kLeft, kRight}) {
     const LimbProfile& leg = *shape.leg_profiles[side];
     const Eigen::Vector3d thigh = leg.At(leg.end() - kThighBelowEnd * shape.stature_m).center;
     middle += 0.5 * leg.stations.back().center;
+    outward += (thigh - leg.stations.back().center).normalized();
     double nearest = std::numeric_limits<double>::infinity();
     for (const std::uint32_t v : shape.legs[side]->vertices) {
       const double distance = (shape.points[v] - thigh).squaredNorm();
@@ -83,9 +85,8 @@ void FindCrotch(const Shape& shape, Landmarks& landmarks) {
       thighs[side] = v;
     }
   }
-  const auto cleft =
-      FindCleft(shape.points, *shape.graph, thighs[kLeft], thighs[kRight],
-                -Eigen::Vector3d::UnitY(), {middle, kCrotchRegion * shape.stature_m});
+  const auto cleft = FindCleft(shape.points, *shape.graph, thighs[kLeft], thighs[kRight],
+                               outward.normalized(), {middle, kCrotchRegion * shape.stature_m});
   if (!cleft) return;
   // The perineum is nearly flat from front to back; a place behind the middle of the thighs is a
   // steadier choice along it than the cleft's own vertex.
