@@ -21,8 +21,9 @@ constexpr std::size_t kPointsPerChunk = 512;
 constexpr double kOutM = 1e-4;
 // Cells of the distance grid along the body: 4 to 5 cm, where a cell keeps a few candidates.
 constexpr int kDistanceCells = 40;
-// Points at which the solids' surfaces are looked at for creases: about 1 cm apart on a body.
-constexpr int kCreaseGridPoints = 40'000;
+// Points at which the solids' surfaces are looked at for creases: 1 to 2 cm apart on a body. Twenty
+// times as many change E_M by less than 0.1 % of itself.
+constexpr int kCreaseGridPoints = 16'000;
 
 UnionDistance DistanceTo(const body::Body& body, const capsule::PrimitiveSet& set,
                          const ThreadPool& pool) {

@@ -10,6 +10,8 @@ namespace {
 
 // Rounding a weight below 2^-9 to float moves it by at most 2^-34.
 constexpr float kFineWeight = 0x1p-9f;
+// The roundings of a row add up to 1e-9 or so: 1e-5 of such a weight.
+constexpr float kAmpleWeight = 0x1p-13f;
 constexpr double kSumTolerance = 1e-10;
 // Below this share of the absolute sum, a sum of weights is noise and must not be divided by.
 constexpr double kUsableSum = 1e-9;
@@ -106,10 +108,29 @@ void LayOnGrid(std::span<float> row) {
   *largest = static_cast<float>(*largest + (1.0 - sum));
 }
 
+// Four sums side by side: one alone would wait for each addition.
 double Sum(std::span<const float> row) {
-  double sum = 0.0;
-  for (const float weight : row) sum += weight;
+  Lanes sums = Lanes::Zero();
+  std::size_t i = 0;
+  for (; i + kLanes <= row.size(); i += kLanes) {
+    sums += Eigen::Map<const Eigen::Array<float, kLanes, 1>>(&row[i]).cast<double>();
+  }
+  double sum = sums.sum();
+  for (; i < row.size(); ++i) sum += row[i];
   return sum;
+}
+
+// A weight of which the rounding of a whole row is a small part, or else the largest of the fine
+// ones; nothing where all are coarse.
+float* FindFineWeight(std::span<float> row) {
+  float* largest = nullptr;
+  for (float& weight : row) {
+    const float size = std::abs(weight);
+    if (size == 0.0f || size >= kFineWeight) continue;
+    if (size >= kAmpleWeight) return &weight;
+    if (largest == nullptr || size > std::abs(*largest)) largest = &weight;
+  }
+  return largest;
 }
 
 }  // namespace
@@ -139,17 +160,10 @@ void MakeLinearlyPrecise(std::span<const Eigen::Vector3d> vertices,
 }
 
 void MendFloatSum(std::span<float> row) {
-  double sum = 0.0;
-  float* finest = nullptr;  // the largest of the fine weights: the smallest change for it
-  for (float& weight : row) {
-    sum += weight;
-    const float size = std::abs(weight);
-    if (size == 0.0f || size >= kFineWeight) continue;
-    if (finest == nullptr || size > std::abs(*finest)) finest = &weight;
-  }
+  const double sum = Sum(row);
   if (std::abs(1.0 - sum) <= kSumTolerance) return;
-  if (finest != nullptr) {
-    *finest = static_cast<float>(*finest + (1.0 - sum));
+  if (float* const fine = FindFineWeight(row)) {
+    *fine = static_cast<float>(*fine + (1.0 - sum));
     if (std::abs(1.0 - Sum(row)) <= kSumTolerance) return;
   }
   LayOnGrid(row);

@@ -140,7 +140,7 @@ std::vector<Eigen::Vector3d> Apply(const DenseWeights& weights,
     for (std::size_t k = 0; k < kLanes; ++k) {
       rows[k] = weights.Row(first + std::min(k, count - 1)).data();
     }
-    std::array<Lanes, kLanes> sums;  // x, y, z and an unused number
+    std::array<Lanes, kLanes> sums;  // x, y, z and a number not used
     sums.fill(Lanes::Zero());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const Eigen::Vector3d d = vertices[i] - origin;

@@ -28,7 +28,7 @@ struct DenseWeights {
   std::span<const float> Row(std::size_t sphere) && = delete;
 };
 
-// O(centres * triangles): about 0.4 ms for a centre and 64k triangles; centres in parallel.
+// O(centres * triangles): about 0.7 ms for a centre and 64k triangles; centres in parallel.
 // Finite centres may lie inside, on or outside the surface: on a vertex all weight is that
 // vertex's, on a face or edge the weights are the barycentric ones. Weight of a vertex that no
 // caller's vertex maps to (the middle of a closed hole) goes to its neighbours. Every row depends
@@ -40,7 +40,7 @@ struct DenseWeights {
 // Centres carried by the deformed vertices: sum of weight * position. `vertices` are the caller's,
 // weights.vertex_count of them, all finite, in any frame and unit: a turn, move or uniform scale of
 // the vertices turns, moves or scales the centres with them, however far from the origin.
-// O(spheres * vertices): about 2 ms for 64 x 32k.
+// O(spheres * vertices): about 4 ms for 64 x 32k.
 [[nodiscard]] std::vector<Eigen::Vector3d> Apply(const DenseWeights& weights,
                                                  std::span<const Eigen::Vector3d> vertices,
                                                  const ThreadPool& pool);
