@@ -11,6 +11,7 @@ namespace {
 using geometry::TaperedCapsule;
 using Corners = std::array<Eigen::Vector3d, 3>;
 
+constexpr double kAskedFor = 0.8;
 constexpr std::size_t kChunk = 2048;
 // Distances by PointGrid are good to this.
 constexpr double kGridAccuracy = 1e-6;
@@ -86,11 +87,24 @@ Corners CornersOf(const CoverTarget& target, std::size_t triangle) {
   return {target.points_m[t[0]], target.points_m[t[1]], target.points_m[t[2]]};
 }
 
-// All corners within `limit_m` of the same solid: what is true of nearly every triangle.
-bool IsPlainlyNear(const mesh::Triangle& t, const UnionDistances& at, double limit_m) {
-  if (at.solid[t[0]] != at.solid[t[1]] || at.solid[t[0]] != at.solid[t[2]]) return false;
-  const double furthest = std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]});
-  return furthest <= limit_m - kGridAccuracy;
+// All corners within `limit_m` of the same solid: true of nearly every triangle, and quick to see.
+bool IsPlainlyNear(const CoverTarget& target, std::size_t triangle, const UnionDistances& at,
+                   const std::vector<TaperedCapsule>& solids, double limit_m) {
+  const mesh::Triangle& t = target.triangles[triangle];
+  if (at.solid[t[0]] == at.solid[t[1]] && at.solid[t[0]] == at.solid[t[2]]) {
+    return std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]}) <=
+           limit_m - kGridAccuracy;
+  }
+  return std::any_of(t.begin(), t.end(), [&](std::uint32_t nearest_to) {
+    const TaperedCapsule& solid = solids[static_cast<std::size_t>(at.solid[nearest_to])];
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
+      return solid.SignedDistance(target.points_m[corner]) <= limit_m;
+    });
+  });
+}
+
+bool HasCornerOutside(const mesh::Triangle& t, const UnionDistances& at, double limit_m) {
+  return std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]}) > limit_m;
 }
 
 void FindOutside(const TriangleProbe& probe, double max_gap_m, std::vector<Eigen::Vector3d>& out) {
@@ -103,17 +117,13 @@ void FindOutside(const TriangleProbe& probe, double max_gap_m, std::vector<Eigen
     // The middle quarter's corners are the new points; the piece's middle is the fourth.
     const std::array<Eigen::Vector3d, 4> candidates = {quarters[3][0], quarters[3][1],
                                                        quarters[3][2], MiddleOf(piece)};
-    double furthest = 0.5 * max_gap_m;
-    const Eigen::Vector3d* worst = nullptr;
+    const std::size_t count_before = out.size();
     for (const Eigen::Vector3d& candidate : candidates) {
-      const double distance = probe.Distance(candidate);
-      if (distance <= furthest) continue;
-      furthest = distance;
-      worst = &candidate;
+      if (probe.Distance(candidate) > kAskedFor * max_gap_m) out.push_back(candidate);
     }
-    if (worst != nullptr) {
-      out.push_back(*worst);  // looked at again when it is covered
-    } else if (ReachOf(piece, candidates[3]) > 0.25 * max_gap_m) {
+    if (out.size() > count_before) {
+      continue;  // looked at again when they are covered
+    } else if (ReachOf(piece, candidates[3]) > 0.1 * max_gap_m) {
       pieces.insert(pieces.end(), quarters.begin(), quarters.end());
     }
   }
@@ -164,7 +174,8 @@ std::vector<Eigen::Vector3d> FindPointsOutside(const CoverTarget& target,
   std::vector<std::vector<Eigen::Vector3d>> found((count + kChunk - 1) / kChunk);
   pool.ForChunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (IsPlainlyNear(target.triangles[i], at_vertices, max_gap_m)) continue;
+      if (IsPlainlyNear(target, i, at_vertices, solids, max_gap_m)) continue;
+      if (HasCornerOutside(target.triangles[i], at_vertices, max_gap_m)) continue;
       FindOutside(TriangleProbe(CornersOf(target, i), solids), max_gap_m, found[begin / kChunk]);
     }
   });
@@ -193,7 +204,7 @@ double CertifiedGap(const CoverTarget& target, const capsule::PrimitiveSet& set,
   pool.ForChunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
     double& most = gaps[begin / kChunk];
     for (std::size_t i = begin; i < end; ++i) {
-      if (IsPlainlyNear(target.triangles[i], at_vertices, most)) continue;
+      if (IsPlainlyNear(target, i, at_vertices, solids, most)) continue;
       most = std::max(most, GapOf(TriangleProbe(CornersOf(target, i), solids), at_least));
     }
   });

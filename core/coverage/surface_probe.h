@@ -13,7 +13,8 @@ namespace capfit::coverage {
 
 // Points inside triangles that are more than half of `max_gap_m` outside all solids, one or a few
 // for each triangle of which it cannot be proved that nothing of it is more than `max_gap_m`
-// outside. None: proved for all triangles. What the corners themselves stick out does not count.
+// outside. None: proved for all triangles. Triangles with a corner that far out are left alone: the
+// corner has to come in first.
 //
 // A triangle is proved when its corners are that near to one solid (which is convex), or when its
 // middle is near enough for its size; otherwise it is cut into four. `at_vertices` are the

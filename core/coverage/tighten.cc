@@ -18,7 +18,7 @@ using geometry::TaperedCapsule;
 constexpr double kMaxSin = 0.8;
 // Relative to the body's size, as the settings of a phase are.
 constexpr double kLeastRadius = 0.003;
-constexpr double kSampleSpacing = 0.02;
+constexpr double kSampleSpacing = 0.025;
 constexpr double kSteepnessReach = 0.05;  // capsules this near to the limit get a row
 constexpr double kSteepnessPenalty = 100.0;
 // Points deeper than this many trust regions cannot get out in one step: both ends move and grow.
@@ -50,7 +50,8 @@ class Tightener {
     PenaltyProgram program;
     AddVolume(seed, program);
     AddBounds(trust_m, program);
-    AddPointRows(kDepthOfInterest * trust_m, penalty, row_spacing_m, program);
+    AddPointRows(kDepthOfInterest * trust_m, row_spacing_m, program);
+    SetPenalties(penalty, program);
     AddSteepnessRows(program);
     const Eigen::VectorXd change = Solve(program, kRelativeGap);
     if (change.allFinite()) variables_.Apply(change, set_);
@@ -63,6 +64,7 @@ class Tightener {
     const VolumeGradient gradient =
         UnionVolumeGradient(set_, variables_.solids(), kSampleSpacing * size_, seed, pool_);
     if (volume_ == 0.0) volume_ = std::max(gradient.volume_m3, 1e-6 * size_ * size_ * size_);
+    growth_rate_ = std::max(gradient.area_m2 / volume_, 1e-6 / size_);
     program.gradient = Eigen::VectorXd::Zero(variables_.count());
     program.hessian =
         Eigen::VectorXd::Constant(variables_.count(), kIdleCurvature / (size_ * size_));
@@ -105,17 +107,16 @@ class Tightener {
 
   double Allowed(std::uint32_t i) const { return allowed_[points_.order()[i]]; }
 
-  void AddPointRow(std::uint32_t i, double penalty, PenaltyProgram& program) const {
+  void AddPointRow(std::uint32_t i, PenaltyProgram& program) const {
     const auto index = static_cast<std::size_t>(distances_.solid[i]);
     const geometry::CapsuleDistance at = shapes_[index].Locate(points_.point(i));
     const Eigen::Vector4d speed(at.normal.x(), at.normal.y(), at.normal.z(), 1.0);
     AddRow(variables_.solids()[index], -(1.0 - at.axis_parameter) * speed,
-           -at.axis_parameter * speed, at.distance_m - Allowed(i), penalty, program);
+           -at.axis_parameter * speed, at.distance_m - Allowed(i), 1.0, program);
   }
 
   // In each block the furthest out first, and none near a chosen one on the same solid.
-  void AddPointRows(double depth_m, double penalty, double spacing_m,
-                    PenaltyProgram& program) const {
+  void AddPointRows(double depth_m, double spacing_m, PenaltyProgram& program) const {
     if (shapes_.empty()) return;
     std::vector<std::uint32_t> candidates;
     std::vector<std::uint32_t> chosen;
@@ -138,9 +139,17 @@ class Tightener {
             });
         if (is_spoken_for) continue;
         chosen.push_back(i);
-        AddPointRow(i, penalty, program);
+        AddPointRow(i, program);
       }
     }
+  }
+
+  // Together the rows weigh `penalty` times as much as the volume does when the whole surface
+  // moves: so it means the same for any number of points, and below 1 everything would shrink to
+  // nothing.
+  void SetPenalties(double penalty, PenaltyProgram& program) const {
+    const double each = penalty * growth_rate_ / static_cast<double>(program.rows.size());
+    for (PenaltyRow& row : program.rows) row.penalty = each;
   }
 
   // |r_a - r_b| <= kMaxSin * length. Where that is broken already it must not get worse.
@@ -166,7 +175,8 @@ class Tightener {
   SetVariables variables_;
   std::vector<TaperedCapsule> shapes_;
   UnionDistances distances_;
-  double volume_ = 0.0;  // of the union when the phase began: the unit of the objective
+  double growth_rate_ = 0.0;  // relative volume that one metre of growth everywhere adds
+  double volume_ = 0.0;       // of the union when the phase began: the unit of the objective
 };
 
 }  // namespace
@@ -178,7 +188,7 @@ void Tighten(const PointGrid& points, std::span<const double> allowed_m, double 
   for (int i = 0; i < phase.steps && !observer.IsCancelled(); ++i) {
     const double trust = Between(phase.first_trust, phase.last_trust, i, phase.steps);
     const double penalty = Between(phase.first_penalty, phase.last_penalty, i, phase.steps);
-    tightener.Step(trust * body_size_m, penalty / body_size_m, phase.row_spacing * body_size_m,
+    tightener.Step(trust * body_size_m, penalty, phase.row_spacing * body_size_m,
                    seed + static_cast<std::uint64_t>(i));
   }
 }

@@ -20,10 +20,11 @@ struct TightenPhase {
   int steps = 8;
   double first_trust = 0.01;  // how far a coordinate or radius may go in one step
   double last_trust = 0.01;
-  // What a point sticking out by one body size costs, in volumes of the set. Small: points may be
-  // left out for the while, and the set finds its shape; large: all points must be inside.
-  double first_penalty = 0.1;
-  double last_penalty = 0.1;
+  // What all points together cost when they stick out, relative to what the volume costs when the
+  // whole surface moves by as much. Above 1; small: points may be left out for the while, and the
+  // set finds its shape; hundreds: all points must be inside.
+  double first_penalty = 3.0;
+  double last_penalty = 3.0;
   // Points closer together than this, on the same solid, stand for each other: the furthest out of
   // them counts. Others are heard in the next step, should they stick out then.
   double row_spacing = 0.015;

@@ -95,8 +95,9 @@ class BodyFit {
 
   absl::Status Approximate() {
     clock_.Begin(Stage::kSection);
-    const circle::Budget chains =
-        ChainBudget(TotalBudget(options_), OverheadOf(*body_, options_.parts));
+    const circle::Budget total = TotalBudget(options_);
+    CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, options_.parts, total));
+    const circle::Budget chains = ChainBudget(total, OverheadOf(*body_, options_.parts, total));
     section::FeaturePolygons features =
         section::ExtractFeaturePolygons(*body_, PlanSections(options_, *body_, chains), pool_);
     Append(std::move(features.warnings), result_.warnings);

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -62,6 +66,25 @@ bool Fits(const circle::PrimitiveCount& cost, const circle::Budget& budget) {
          cost.capsules <= budget.max_capsules;
 }
 
+int CountBalls(const body::Body& body, const body::PartSelection& parts) {
+  std::array<bool, body::kPartCount> has_vertices{};
+  for (const body::Segment segment : body.vertex_segments) {
+    has_vertices[static_cast<std::size_t>(body::PartOf(segment))] = true;
+  }
+  int balls = 0;
+  for (int i = body::kChainCount; i < body::kPartCount; ++i) {
+    const bool is_wanted = parts.Includes(static_cast<body::Part>(i));
+    if (is_wanted && has_vertices[static_cast<std::size_t>(i)]) ++balls;
+  }
+  return balls;
+}
+
+absl::Status CheckLimit(const std::string& field, int limit, int least) {
+  if (limit >= least) return absl::OkStatus();
+  return InvalidField(field, absl::StrCat("is ", limit, ", must be at least ", least,
+                                          " for the parts asked for on this body"));
+}
+
 int Reduced(int limit, int by) {
   return limit == std::numeric_limits<int>::max() ? limit : std::max(0, limit - by);
 }
@@ -79,19 +102,27 @@ circle::Budget TotalBudget(const FitOptions& options) {
   return budget;
 }
 
-Overhead OverheadOf(const body::Body& body, const body::PartSelection& parts) {
+Overhead OverheadOf(const body::Body& body, const body::PartSelection& parts,
+                    const circle::Budget& total) {
   Overhead overhead;
-  std::array<bool, body::kPartCount> has_vertices{};
-  for (const body::Segment segment : body.vertex_segments) {
-    has_vertices[static_cast<std::size_t>(body::PartOf(segment))] = true;
-  }
-  for (int i = body::kChainCount; i < body::kPartCount; ++i) {
-    const auto part = static_cast<body::Part>(i);
-    if (parts.Includes(part) && has_vertices[static_cast<std::size_t>(i)]) ++overhead.balls;
-  }
+  overhead.balls = CountBalls(body, parts);
   const ChainsPresent chains = CountChains(body, parts);
-  if (chains.torsos > 0) overhead.links = chains.arms + chains.legs;
+  if (chains.torsos == 0) return overhead;
+  const int links = chains.arms + chains.legs;
+  circle::PrimitiveCount least = Cost(kLadder.front(), chains, 1);
+  least.spheres += overhead.balls;
+  least.capsules += links;
+  if (Fits(least, total)) overhead.links = links;
   return overhead;
+}
+
+absl::Status CheckBudget(const body::Body& body, const body::PartSelection& parts,
+                         const circle::Budget& total) {
+  circle::PrimitiveCount least = Cost(kLadder.front(), CountChains(body, parts), 1);
+  least.spheres += CountBalls(body, parts);
+  CAPFIT_RETURN_IF_ERROR(CheckLimit("max_primitives", total.max_primitives, least.total()));
+  CAPFIT_RETURN_IF_ERROR(CheckLimit("max_spheres", total.max_spheres, least.spheres));
+  return CheckLimit("max_capsules", total.max_capsules, least.capsules);
 }
 
 circle::Budget ChainBudget(const circle::Budget& total, const Overhead& overhead) {

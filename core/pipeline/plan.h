@@ -2,6 +2,7 @@
 #ifndef CAPFIT_CORE_PIPELINE_PLAN_H_
 #define CAPFIT_CORE_PIPELINE_PLAN_H_
 
+#include "absl/status/status.h"
 #include "core/body/body.h"
 #include "core/circle/allocation.h"
 #include "core/pipeline/fit.h"
@@ -12,12 +13,19 @@ namespace capfit::pipeline {
 // The caller's budget for the whole set; unlimited where the budget is an error threshold.
 [[nodiscard]] circle::Budget TotalBudget(const FitOptions& options);
 
-// Balls that head, hands and feet will take, and capsules that link limbs to the trunk.
+// Balls that head, hands and feet will take, and capsules that link limbs to the trunk (none where
+// the budget has no room for them beside the smallest chains).
 struct Overhead {
   int balls = 0;
   int links = 0;
 };
-[[nodiscard]] Overhead OverheadOf(const body::Body& body, const body::PartSelection& parts);
+[[nodiscard]] Overhead OverheadOf(const body::Body& body, const body::PartSelection& parts,
+                                  const circle::Budget& total);
+
+// INVALID_ARGUMENT naming the limit that is too low for the parts found: a chain takes two spheres
+// and a capsule at least, a head, hand or foot one sphere.
+[[nodiscard]] absl::Status CheckBudget(const body::Body& body, const body::PartSelection& parts,
+                                       const circle::Budget& total);
 
 // `total` without the overhead: what the feature polygons of the chains may use.
 [[nodiscard]] circle::Budget ChainBudget(const circle::Budget& total, const Overhead& overhead);

@@ -41,12 +41,13 @@ int Unused(const Counts& counts, const circle::Budget& budget) {
 
 PrimitiveStage Build(const body::Body& body, const FitOptions& options,
                      std::span<const section::FeaturePolygon> polygons,
-                     const std::vector<int>& circle_counts, const circle::ErrorCurves& curves) {
+                     const std::vector<int>& circle_counts, bool link_limbs,
+                     const circle::ErrorCurves& curves) {
   PrimitiveStage stage;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     stage.approximations.push_back(curves.Approximation(static_cast<int>(i), circle_counts[i]));
   }
-  stage.set = capsule::BuildPrimitives(polygons, stage.approximations, /*link_limbs=*/true);
+  stage.set = capsule::BuildPrimitives(polygons, stage.approximations, link_limbs);
   capsule::AddEndBalls(body, options.parts, stage.set);
   capsule::RemoveCoveredCapsules(stage.set);
   return stage;
@@ -57,7 +58,7 @@ PrimitiveStage BuildByThreshold(const body::Body& body, const FitOptions& option
                                 const circle::ErrorCurves& curves) {
   const std::vector<int> counts = circle::AllocateByThreshold(
       polygons, *options.polygon_error, curves.max_circles(), curves.AsErrorOf());
-  return Build(body, options, polygons, counts, curves);
+  return Build(body, options, polygons, counts, /*link_limbs=*/true, curves);
 }
 
 // `budget` with `more` primitives on top of each limit that is set.
@@ -77,7 +78,8 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
     return BuildByThreshold(body, options, polygons, curves);
   }
   const circle::Budget total = TotalBudget(options);
-  const circle::Budget chains = ChainBudget(total, OverheadOf(body, options.parts));
+  const Overhead overhead = OverheadOf(body, options.parts, total);
+  const circle::Budget chains = ChainBudget(total, overhead);
   PrimitiveStage best;
   std::vector<int> tried;
   int bonus = 0;  // what pruning is expected to free again
@@ -86,7 +88,7 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
         polygons, Raised(chains, bonus), curves.max_circles(), curves.AsErrorOf());
     if (counts == tried) break;
     tried = counts;
-    PrimitiveStage stage = Build(body, options, polygons, counts, curves);
+    PrimitiveStage stage = Build(body, options, polygons, counts, overhead.links > 0, curves);
     const Counts spent = CountsOf(stage.set);
     const bool fits = Fits(spent, total);
     if (round == 0 || (fits && Unused(spent, total) < Unused(CountsOf(best.set), total))) {

@@ -73,7 +73,9 @@ void ExpectSameBits(const FitResult& a, const FitResult& b) {
   EXPECT_TRUE(SameBits(a.metrics.E_r, b.metrics.E_r));
   EXPECT_TRUE(SameBits(a.metrics.E_M, b.metrics.E_M));
   ASSERT_EQ(a.weights.has_value(), b.weights.has_value());
-  if (a.weights.has_value()) EXPECT_EQ(a.weights->weights, b.weights->weights);
+  if (a.weights.has_value()) {
+    EXPECT_EQ(a.weights->weights, b.weights->weights);
+  }
 }
 
 TEST(Fit, EnclosesTheMannequinWithinEveryBudget) {
@@ -86,6 +88,16 @@ TEST(Fit, EnclosesTheMannequinWithinEveryBudget) {
     EXPECT_LE(FurthestOut(soup, result), kJudgeTolerance_m);
     EXPECT_LE(result.metrics.uncovered, 0.002);
   }
+}
+
+TEST(Fit, RefusesABudgetThatThePartsCannotFitInto) {
+  const ThreadPool pool(1);
+  NullObserver observer;
+  const auto result = Fit(Mannequin(), AllParts(19), pool, observer);
+  EXPECT_EQ(result.status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(result.status().message()),
+              testing::HasSubstr("max_primitives is 19, must be at least 20"));
+  EXPECT_LE(FitOrDie(Mannequin(), AllParts(20)).metrics.n_p, 20);
 }
 
 TEST(Fit, KeepsSphereAndCapsuleLimitsApart) {
@@ -120,24 +132,26 @@ TEST(Fit, SameBitsForAnyNumberOfThreads) {
   ExpectSameBits(one, FitOrDie(soup, options, 7));
 }
 
+// Rounding may tip a choice among near equals (which restart wins, say), so the two sets need not
+// be alike sphere by sphere; they must be as tight, and enclose the body where and as large as it
+// is.
 TEST(Fit, FollowsTheBodyIntoAnotherFrameAndUnit) {
   const mesh::PolygonSoup soup = Mannequin();
-  const double turn_rad = 0.7;
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()).matrix();
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY()).matrix();
   const double scale = 100.0;
   const Eigen::Vector3d move(120.0, -30.0, 77.0);
   mesh::PolygonSoup moved = soup;
   for (Eigen::Vector3d& p : moved.positions) p = scale * (turn * p) + move;
   const FitResult here = FitOrDie(soup, AllParts(64));
   const FitResult there = FitOrDie(moved, AllParts(64));
-  ASSERT_EQ(here.primitives.spheres.size(), there.primitives.spheres.size());
-  EXPECT_EQ(here.primitives.capsules, there.primitives.capsules);
-  for (std::size_t i = 0; i < here.primitives.spheres.size(); ++i) {
-    const geometry::Sphere& a = here.primitives.spheres[i];
-    const geometry::Sphere& b = there.primitives.spheres[i];
-    const Eigen::Vector3d expected = scale * (turn * a.center_m) + move;
-    EXPECT_LE((b.center_m - expected).norm(), scale * 1.7e-6) << "sphere " << i;
-    EXPECT_NEAR(b.radius_m, scale * a.radius_m, scale * 1.7e-6) << "sphere " << i;
+  EXPECT_LE(FurthestOut(moved, there), scale * kJudgeTolerance_m);
+  EXPECT_NEAR(there.metrics.E_r, here.metrics.E_r, 0.05 * here.metrics.E_r);
+  EXPECT_NEAR(there.body_from_caller.scale, 0.01, 1e-12);
+  ASSERT_EQ(here.landmarks.size(), there.landmarks.size());
+  for (std::size_t i = 0; i < here.landmarks.size(); ++i) {
+    const Eigen::Vector3d expected = scale * (turn * here.landmarks[i].position) + move;
+    EXPECT_LE((there.landmarks[i].position - expected).norm(), scale * 1e-3)
+        << here.landmarks[i].name;
   }
 }
 
@@ -159,7 +173,9 @@ TEST(Fit, ReportsStagesInOrderAndTimeThatAddsUp) {
   class Recorder final : public FitObserver {
    public:
     void OnStage(Stage stage, double fraction_done) override {
-      if (!stages.empty()) EXPECT_GE(fraction_done, last_fraction);
+      if (!stages.empty()) {
+        EXPECT_GE(fraction_done, last_fraction);
+      }
       last_fraction = fraction_done;
       stages.push_back(stage);
     }
@@ -203,7 +219,9 @@ TEST(Fit, RealBodiesAreEnclosed) {
       EXPECT_GE(result.metrics.n_p, budget - 3);
       EXPECT_LE(FurthestOut(soup, result), kJudgeTolerance_m);
       EXPECT_LE(result.metrics.uncovered, 0.002);
-      if (is_cut) EXPECT_LE(result.metrics.E_r, budget == 64 ? 0.55 : 0.42);
+      if (is_cut) {
+        EXPECT_LE(result.metrics.E_r, budget == 64 ? 0.55 : 0.42);
+      }
     }
   }
 }
