@@ -38,8 +38,8 @@ constexpr TightenPhase kTightPhase{.steps = 3,
                                    .last_penalty = 600.0,
                                    .row_spacing = 0.01};
 // Once more, with what was found to stick out between vertices.
-constexpr TightenPhase kLastPhase{.steps = 3,
-                                  .first_trust = 0.003,
+constexpr TightenPhase kLastPhase{.steps = 2,
+                                  .first_trust = 0.002,
                                   .last_trust = 0.0005,
                                   .first_penalty = 600.0,
                                   .last_penalty = 600.0,

@@ -22,7 +22,7 @@ constexpr double kSampleSpacing = 0.025;
 constexpr double kSteepnessReach = 0.05;  // capsules this near to the limit get a row
 constexpr double kSteepnessPenalty = 100.0;
 // Points deeper than this many trust regions cannot get out in one step: both ends move and grow.
-constexpr double kDepthOfInterest = 2.0;
+constexpr double kDepthOfInterest = 1.5;
 // The programmes need not be solved better than their rows are true.
 constexpr double kRelativeGap = 0.01;
 // Added curvature, in volumes per body size squared: keeps idle variables where they are.
