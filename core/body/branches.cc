@@ -1,6 +1,7 @@
 #include "core/body/branches.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 namespace capfit::body {
@@ -86,16 +87,17 @@ std::vector<Branch> FindBranches(const SurfaceGraph& graph, std::span<const doub
   std::vector<Merge> merges = MergesFromTheTop(graph, distance, order);
   std::erase_if(merges,
                 [&](const Merge& m) { return distance[m.tip] - m.level < min_persistence; });
-  std::stable_sort(merges.begin(), merges.end(), [&](const Merge& a, const Merge& b) {
-    return distance[a.tip] > distance[b.tip];
+  // The order of FarthestFirst, so that survivors come before what they swallow, ties included.
+  std::sort(merges.begin(), merges.end(), [&](const Merge& a, const Merge& b) {
+    return distance[a.tip] != distance[b.tip] ? distance[a.tip] > distance[b.tip] : a.tip < b.tip;
   });
   for (const Merge& m : merges) {
-    // A survivor persists at least as long as what it swallows, so it is in the list already.
+    // A survivor has the farther tip and goes on longer, so it is in the list already.
     const auto parent = std::find_if(branches.begin(), branches.end(),
                                      [&](const Branch& b) { return b.tip == m.survivor; });
-    branches.push_back(
-        {m.tip, distance[m.tip], m.level,
-         parent == branches.end() ? 0 : static_cast<int>(std::distance(branches.begin(), parent))});
+    assert(parent != branches.end());
+    const int index = static_cast<int>(std::distance(branches.begin(), parent));
+    branches.push_back({m.tip, distance[m.tip], m.level, index});
   }
   return branches;
 }

@@ -10,11 +10,15 @@ namespace {
 
 // Lengths below are in units of the square root of the surface's area (0.75 of the height).
 
-// A limb stands out by at least this much. The shortest, the stump of a neck cut at half height,
-// has 0.075; the longest finger 0.06.
+// A limb stands out by at least this much; the longest finger has 0.06.
 constexpr double kMinPersistence = 0.068;
+// The stump of a neck may be shorter. It is taken for one where it joins well inside the body
+// (fingers join far out, at 0.7 of the farthest tip and more), and for nothing but a head.
+constexpr double kMinStump = 0.018;
+constexpr double kMaxStumpJunction = 0.66;
 // More tips than this are not looked at; five are a body, a bun or a tail may add one or two.
 constexpr int kMaxCandidates = 8;
+constexpr int kMaxStumps = 3;
 // Distances start at the vertices nearest to the centroid, as far out as this factor, so that not
 // a single vertex decides.
 constexpr double kSourceShell = 1.3;
@@ -37,11 +41,11 @@ constexpr double kUnusedTipCost = 0.10;
 constexpr double kHeadGirth = 0.45;
 constexpr double kArmGirth = 0.18;
 constexpr double kLegGirth = 0.31;
-constexpr double kGirthCost = 0.10;
+constexpr double kGirthCost = 0.25;
 constexpr double kMaxLimbGirth = 0.85;
 
 // A result worse than this is not trusted before other middles of the body have been tried.
-constexpr double kGoodMisfit = 0.25;
+constexpr double kGoodMisfit = 0.30;
 // At most this many other middles.
 constexpr int kMaxMiddles = 4;
 
@@ -49,6 +53,7 @@ constexpr int kMaxMiddles = 4;
 struct Candidate {
   int branch = 0;
   double girth = 0.0;  // mean, from its junction to the tip
+  bool is_stump = false;
 };
 
 double UsualWay(Tip a, Tip b) {
@@ -93,6 +98,7 @@ class RoleFinder {
     const int count = static_cast<int>(candidates_.size());
     for (int tip = first; tip < count && !first_is_empty; ++tip) {
       if (std::find(roles_.begin(), roles_.begin() + role, tip) != roles_.begin() + role) continue;
+      if (candidates_[tip].is_stump && role != static_cast<int>(Tip::kHead)) continue;
       roles_[role] = tip;
       TryFrom(role + 1);
     }
@@ -150,6 +156,16 @@ class RoleFinder {
     return count > 0 ? sum / count : 0.0;
   }
 
+  [[nodiscard]] int UnusedTips() const {
+    int unused = 0;
+    for (int c = 0; c < static_cast<int>(candidates_.size()); ++c) {
+      if (!candidates_[c].is_stump && std::find(roles_.begin(), roles_.end(), c) == roles_.end()) {
+        ++unused;
+      }
+    }
+    return unused;
+  }
+
   [[nodiscard]] double Misfit() const {
     const int used =
         static_cast<int>(std::count_if(roles_.begin(), roles_.end(), [](int r) { return r >= 0; }));
@@ -157,8 +173,7 @@ class RoleFinder {
         Inequality(static_cast<int>(Tip::kHandA), static_cast<int>(Tip::kHandB)) +
         Inequality(static_cast<int>(Tip::kFootA), static_cast<int>(Tip::kFootB));
     return WayDeviation() + kUnequalPairCost * inequality + kGirthCost * GirthDeviation() +
-           kEmptyRoleCost * (kTipCount - used) +
-           kUnusedTipCost * static_cast<double>(candidates_.size() - used);
+           kEmptyRoleCost * (kTipCount - used) + kUnusedTipCost * UnusedTips();
   }
 
   std::span<const Branch> branches_;
@@ -229,31 +244,43 @@ std::vector<std::vector<GeodesicSource>> PatchesOf(const std::vector<GeodesicSou
   return result;
 }
 
-// Level at which a branch joins the first of the others.
-double FirstJunction(std::span<const Branch> branches, int branch, int count) {
+// Level at which a branch joins the first of `others`.
+double FirstJunction(std::span<const Branch> branches, int branch, std::span<const int> others) {
   double level = 0.0;
-  for (int other = 0; other < count; ++other) {
+  for (const int other : others) {
     if (other != branch) level = std::max(level, JunctionLevel(branches, branch, other));
   }
   return level;
 }
 
-// The tips that stand out, but for what is as wide as a trunk.
+// The tips that stand out, but for what is as wide as a trunk, and stumps after them.
 std::vector<Candidate> Candidates(std::span<const Branch> branches,
                                   std::span<const double> distance,
                                   std::span<const double> vertex_areas, const SurfaceGraph& graph) {
-  const int count = std::min(kMaxCandidates, static_cast<int>(branches.size()));
+  std::vector<int> tall;
+  std::vector<int> stumps;
+  for (int b = 0; b < static_cast<int>(branches.size()); ++b) {
+    if (branches[b].Persistence() >= kMinPersistence) {
+      tall.push_back(b);
+    } else if (branches[b].saddle_distance <= kMaxStumpJunction * branches[0].tip_distance) {
+      stumps.push_back(b);
+    }
+  }
+  if (tall.size() < 2) return {};  // a ball, a cube: one way out is none
+  if (tall.size() > kMaxCandidates) tall.resize(kMaxCandidates);
+  if (stumps.size() > kMaxStumps) stumps.resize(kMaxStumps);
   std::vector<Candidate> candidates;
-  if (count < 2) return candidates;  // a ball, a cube: one way out is none
-  for (int b = 0; b < count; ++b) {
-    const double level = FirstJunction(branches, b, count);
+  const auto add = [&](int b, bool is_stump) {
+    const double level = FirstJunction(branches, b, tall);
     double area = 0.0;
     for (const std::uint32_t v : VerticesAbove(graph, distance, branches[b].tip, level)) {
       area += vertex_areas[v];
     }
     const double girth = area / std::max(branches[b].tip_distance - level, 1e-6);
-    if (girth <= kMaxLimbGirth) candidates.push_back({b, girth});
-  }
+    if (is_stump || girth <= kMaxLimbGirth) candidates.push_back({b, girth, is_stump});
+  };
+  for (const int b : tall) add(b, false);
+  for (const int b : stumps) add(b, true);
   return candidates;
 }
 
@@ -261,7 +288,7 @@ Extremities FromSources(const std::vector<GeodesicSource>& sources,
                         std::span<const double> vertex_areas, const SurfaceGraph& graph) {
   Extremities result;
   result.distance = graph.Distances(sources);
-  const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinPersistence);
+  const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump);
   const std::vector<Candidate> candidates =
       Candidates(branches, result.distance, vertex_areas, graph);
   RoleFinder finder(branches, candidates);

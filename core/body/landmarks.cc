@@ -68,7 +68,9 @@ absl::Status MissingParts(const Shape& shape, std::vector<Warning>& warnings) {
                         1});
   }
   if (!shape.head) {
-    warnings.push_back({"PART_MISSING", "neither head nor neck was found", 1});
+    warnings.push_back({"PART_MISSING",
+                        "neither head nor neck was found; the trunk ends at its highest section",
+                        1});
   }
   return absl::OkStatus();
 }

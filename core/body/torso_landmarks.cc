@@ -137,12 +137,12 @@ void FindNeck(Shape& shape, Landmarks& landmarks) {
   const double stature = shape.stature_m;
   const std::vector<NeckLevel> levels =
       NeckLevels(shape, MeanArmpitHeight(shape, landmarks) + kNeckAboveArmpit * stature);
-  if (levels.empty() || !shape.head) return;
+  if (levels.empty()) return;
   if (!shape.has_head) {
     shape.neck_middle_m = levels.back().loop.centroid;
     shape.neck_base_m =
         *shape.neck_middle_m - kNeckBaseBelowNarrowest * stature * NeckPlane(0).normal;
-    Put(landmarks, Index(LandmarkId::kNeck), *shape.neck_middle_m, 0.8);
+    Put(landmarks, Index(LandmarkId::kNeck), *shape.neck_middle_m, shape.head ? 0.8 : 0.3);
     return;
   }
   const auto narrowest = std::min_element(

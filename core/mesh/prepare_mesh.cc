@@ -12,15 +12,14 @@
 #include "absl/strings/str_format.h"
 #include "core/base/status.h"
 #include "core/mesh/close_holes.h"
-#include "core/mesh/crowded_edges.h"
 #include "core/mesh/edge_mates.h"
+#include "core/mesh/join_triangles.h"
 #include "core/mesh/mend_flat_triangles.h"
 #include "core/mesh/soup_checks.h"
 #include "core/mesh/split_vertices.h"
 #include "core/mesh/surface.h"
 #include "core/mesh/surface_parts.h"
 #include "core/mesh/triangulate_faces.h"
-#include "core/mesh/weld_vertices.h"
 
 namespace capfit::mesh {
 namespace {
@@ -58,8 +57,6 @@ struct Box {
   }
 };
 
-bool HasEqualCorners(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
-
 std::string PointText(const Eigen::Vector3d& p) {
   return absl::StrFormat("(%.4g, %.4g, %.4g)", p.x(), p.y(), p.z());
 }
@@ -73,14 +70,12 @@ class MeshMender {
   }
 
   absl::StatusOr<PreparedMesh> Run() {
-    EdgeMates mates = FindMates();
-    if (!mates.IsClosedAndOriented()) mates = Join(std::move(mates));
+    Join();
     if (surface_.triangles.empty()) {
       return CannotFit("NO_SURFACE", absl::StrCat("all ", degenerate_,
                                                   " faces are degenerate: none has three "
                                                   "different vertices"));
     }
-    surface_.mate = std::move(mates.mate);
     CAPFIT_RETURN_IF_ERROR(KeepMainPart());
     CAPFIT_RETURN_IF_ERROR(CloseAllHoles());
     CAPFIT_RETURN_IF_ERROR(TurnOutward());
@@ -95,14 +90,6 @@ class MeshMender {
     TriangulatedFaces faces = TriangulateFaces(soup);
     surface_.triangles = std::move(faces.triangles);
     degenerate_ = faces.degenerate;
-  }
-
-  void AddTriangle(const Triangle& triangle) {
-    if (HasEqualCorners(triangle)) {
-      ++degenerate_;
-    } else {
-      surface_.triangles.push_back(triangle);
-    }
   }
 
   // Only vertices that faces use count for the size of the mesh.
@@ -123,105 +110,23 @@ class MeshMender {
     }
   }
 
-  [[nodiscard]] EdgeMates FindMates() const {
-    return FindEdgeMates(surface_.triangles, positions_.size());
-  }
-
-  // Makes one surface of what touches: copies of faces and vertices, fins, crowded edges.
-  EdgeMates Join(EdgeMates mates) {
-    mates = DropDuplicates(std::move(mates));
-    if (mates.open > 0) mates = Weld(std::move(mates));
-    mates = DropFins(std::move(mates));
-    if (!mates.crowded_sizes.empty()) {
-      Warn("NONMANIFOLD_EDGES", static_cast<std::int64_t>(mates.crowded_sizes.size()),
-           absl::StrCat(mates.crowded_sizes.size(),
+  void Join() {
+    JoinedTriangles joined =
+        JoinTriangles(positions_, std::move(surface_.triangles), kWeldShare * diagonal_);
+    surface_ = std::move(joined.surface);
+    stand_in_ = std::move(joined.stand_in);
+    duplicates_ = joined.duplicates;
+    degenerate_ += joined.degenerate;
+    welded_ = joined.welded;
+    if (joined.fins > 0) {
+      Warn("FINS_DROPPED", static_cast<std::int64_t>(joined.fins),
+           absl::StrCat(joined.fins, " loose faces at edges that already have two were dropped"));
+    }
+    if (joined.crowded > 0) {
+      Warn("NONMANIFOLD_EDGES", static_cast<std::int64_t>(joined.crowded),
+           absl::StrCat(joined.crowded,
                         " edges belong to more than two faces; the flattest pairs were joined"));
-      MatchCrowdedEdges(positions_, surface_.triangles, mates);
     }
-    return mates;
-  }
-
-  EdgeMates DropDuplicates(EdgeMates mates) {
-    if (mates.crowded_sizes.empty()) return mates;
-    const std::vector<std::uint32_t> copies = FindDuplicates(surface_.triangles, mates);
-    if (copies.empty()) return mates;
-    duplicates_ += copies.size();
-    Drop(copies);
-    return FindMates();
-  }
-
-  // First what is equal, then, where that leaves edges open, what is close.
-  EdgeMates Weld(EdgeMates mates) {
-    const std::vector<std::uint32_t> equal = WeldEqual(positions_, OpenVertices(mates));
-    mates = Replace(equal, std::move(mates));
-    if (mates.open == 0 || !(diagonal_ > 0.0)) return mates;
-    const std::vector<std::uint32_t> close =
-        WeldWithin(positions_, OpenVertices(mates), kWeldShare * diagonal_);
-    return Replace(close, std::move(mates));
-  }
-
-  // The vertices at edges with one triangle only: closed parts that touch are left alone.
-  [[nodiscard]] std::vector<std::uint32_t> OpenVertices(const EdgeMates& mates) const {
-    std::vector<bool> open(positions_.size(), false);
-    for (HalfEdge h = 0; h < mates.mate.size(); ++h) {
-      if (mates.mate[h] != kNoMate) continue;
-      open[StartOf(surface_.triangles, h)] = open[EndOf(surface_.triangles, h)] = true;
-    }
-    std::vector<std::uint32_t> vertices;
-    for (std::uint32_t v = 0; v < open.size(); ++v) {
-      if (open[v]) vertices.push_back(v);
-    }
-    return vertices;
-  }
-
-  EdgeMates Replace(const std::vector<std::uint32_t>& standing_for, EdgeMates mates) {
-    std::size_t welded = 0;
-    for (std::uint32_t v = 0; v < standing_for.size(); ++v) welded += standing_for[v] != v;
-    if (welded == 0) return mates;
-    welded_ += welded;
-    if (stand_in_.empty()) {
-      stand_in_ = standing_for;
-    } else {
-      for (std::uint32_t& v : stand_in_) v = standing_for[v];
-    }
-    const std::vector<Triangle> old = std::move(surface_.triangles);
-    surface_.triangles.clear();
-    surface_.triangles.reserve(old.size());
-    for (const Triangle& t : old) {
-      AddTriangle({standing_for[t[0]], standing_for[t[1]], standing_for[t[2]]});
-    }
-    return DropDuplicates(FindMates());
-  }
-
-  // A dropped fin may leave the next one loose.
-  EdgeMates DropFins(EdgeMates mates) {
-    std::size_t dropped = 0;
-    while (!mates.crowded_sizes.empty()) {
-      const std::vector<std::uint32_t> fins = FindFins(mates);
-      if (fins.empty()) break;
-      dropped += fins.size();
-      Drop(fins);
-      mates = FindMates();
-    }
-    if (dropped > 0) {
-      Warn("FINS_DROPPED", static_cast<std::int64_t>(dropped),
-           absl::StrCat(dropped, " loose faces at edges that already have two were dropped"));
-    }
-    return mates;
-  }
-
-  // `triangles` is ascending.
-  void Drop(const std::vector<std::uint32_t>& triangles) {
-    std::size_t kept = triangles.front();
-    auto next = triangles.begin();
-    for (std::uint32_t t = triangles.front(); t < surface_.triangles.size(); ++t) {
-      if (next != triangles.end() && *next == t) {
-        ++next;
-      } else {
-        surface_.triangles[kept++] = surface_.triangles[t];
-      }
-    }
-    surface_.triangles.resize(kept);
   }
 
   absl::Status KeepMainPart() {

@@ -1,5 +1,6 @@
 #include "core/metrics/volumes.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -36,9 +37,10 @@ Volumes RowLengths(const RowIntervals& body, const RowIntervals& fitted, const R
     in_fitted += CommonLength(fitted.Column(i), set.Column(i));
     in_image += CommonLength(set.Column(i), set.Column(columns - 1 - i));
   }
-  sum.outside = sum.set - in_body;
-  sum.uncovered = sum.fitted - in_fitted;
-  sum.mirror_xor = 2.0 * (sum.set - in_image);
+  // Rounding must not leave a share of -1e-17.
+  sum.outside = std::max(0.0, sum.set - in_body);
+  sum.uncovered = std::max(0.0, sum.fitted - in_fitted);
+  sum.mirror_xor = 2.0 * std::max(0.0, sum.set - in_image);
   return sum;
 }
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 
 #include "core/base/status.h"
@@ -129,6 +129,7 @@ TEST(RealFilesTest, ExporterStyleObjGivesTheSameVertices) {
 struct Input {
   const char* file;
   const char* outcome;  // the codes of all warnings, or a part of the refusal
+  friend void PrintTo(const Input& input, std::ostream* os) { *os << input.file; }
 };
 class BrokenInputTest : public testing::TestWithParam<Input> {};
 
@@ -137,7 +138,7 @@ TEST_P(BrokenInputTest, DoesWhatItsDescriptionSaysWithinTwoSeconds) {
   CAPFIT_REQUIRE_BODIES();
   const std::filesystem::path path = test_support::BodiesFolder() / "broken" / GetParam().file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "SKIPPED: no " << path;
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();  // the processor's time: machines may be busy
   const auto soup = ReadFile(path);
   absl::Status status = soup.status();
   std::string outcome;
@@ -149,7 +150,7 @@ TEST_P(BrokenInputTest, DoesWhatItsDescriptionSaysWithinTwoSeconds) {
       EXPECT_EQ(fuzz::BrokenPromiseOfPrepare(*prepared, soup->positions.size()), "");
     }
   }
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0);
   if (status.ok()) {
     EXPECT_EQ(outcome, GetParam().outcome);
   } else {

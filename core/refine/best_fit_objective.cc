@@ -1,0 +1,78 @@
+#include "core/refine/best_fit_objective.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/refine/best_fit_descent.h"
+#include "core/refine/cone.h"
+
+namespace capfit::refine {
+namespace {
+
+constexpr double kLeafDistanceM = 0.04;  // between the points where leaves are tried
+constexpr double kLeastMissM = 0.002;    // points nearer to the set than this need no leaf
+constexpr int kTrialSteps = 24;
+
+std::size_t U(int i) { return static_cast<std::size_t>(i); }
+
+class BestFitRound final : public Objective::Round {
+ public:
+  BestFitRound(const OccupancyGrid& grid, std::uint64_t seed, const CapsuleGraph& graph)
+      : grid_(grid), seed_(seed), before_(graph) {}
+
+  double Try(EditedGraph& edited) const override {
+    const std::vector<char> active = Neighbourhood(edited.graph, edited.touched, 1);
+    BestFitOptions options;
+    options.steps = kTrialSteps;
+    options.first_rate_m = 0.004;
+    options.last_rate_m = 0.0003;
+    options.seed = seed_;
+    options.active = &active;
+    Eigen::AlignedBox3d box = ReachOf(edited.graph, active);
+    box.extend(ReachOf(before_, Neighbourhood(before_, edited.touched_before, 1)));
+    DescendBestFit(grid_, options, edited.graph);
+    box.extend(ReachOf(edited.graph, active));
+    const Box cells = {box.min(), box.max()};
+    return (FillError(grid_, before_, cells) - FillError(grid_, edited.graph, cells)) /
+           grid_.volume_m3;
+  }
+
+ private:
+  const OccupancyGrid& grid_;
+  std::uint64_t seed_;
+  CapsuleGraph before_;
+};
+
+}  // namespace
+
+BestFitObjective::BestFitObjective(OccupancyGrid grid, CoverPoints points, std::uint64_t seed)
+    : grid_(std::move(grid)), points_(std::move(points)), seed_(seed) {}
+
+void BestFitObjective::Settle(Effort effort, CapsuleGraph& graph) const {
+  BestFitOptions options;
+  options.seed = seed_;
+  options.steps = effort == Effort::kTouch ? 30 : effort == Effort::kRough ? 80 : 120;
+  options.first_rate_m = effort == Effort::kRough ? 0.008 : 0.003;
+  DescendBestFit(grid_, options, graph);
+}
+
+double BestFitObjective::Value(const CapsuleGraph& graph) const { return GridError(grid_, graph); }
+
+std::unique_ptr<Objective::Round> BestFitObjective::StartRound(const CapsuleGraph& graph) const {
+  return std::make_unique<BestFitRound>(grid_, seed_, graph);
+}
+
+std::vector<Eigen::Vector3d> BestFitObjective::WorstPoints(const CapsuleGraph& graph,
+                                                           int count) const {
+  const Deepest deepest = FindDeepest(points_, ConesOf(graph));
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<double> scores;
+  for (int i = 0; i < points_.size(); ++i) {
+    if (deepest.excess_m[U(i)] < kLeastMissM) continue;
+    positions.push_back(points_.At(i).position_m.cast<double>());
+    scores.push_back(deepest.excess_m[U(i)]);
+  }
+  return BestApart(positions, scores, kLeafDistanceM, count);
+}
+
+}  // namespace capfit::refine

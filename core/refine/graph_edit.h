@@ -1,0 +1,55 @@
+// Changes of topology: where another primitive could go, and which could be spared.
+#ifndef CAPFIT_CORE_REFINE_GRAPH_EDIT_H_
+#define CAPFIT_CORE_REFINE_GRAPH_EDIT_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/refine/capsule_graph.h"
+
+namespace capfit::refine {
+
+enum class EditKind {
+  kSplit,     // a sphere in the middle of capsule `first`: changes no shape
+  kLink,      // a capsule between spheres `first` and `second`
+  kLeaf,      // a new sphere at `center_m`, tied to sphere `first`
+  kBall,      // a new sphere alone
+  kPart,      // the mid-plane sphere `first` becomes a mirrored pair; tied when `second` is 1
+  kUnlink,    // capsule `first` goes
+  kDissolve,  // sphere `first` goes; its two neighbours, if it has two, are tied instead
+};
+
+struct Edit {
+  EditKind kind = EditKind::kSplit;
+  int first = -1;
+  int second = -1;
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
+  double radius_m = 0.0;
+};
+
+struct EditedGraph {
+  CapsuleGraph graph;
+  std::vector<int> touched;         // nodes of `graph` whose surroundings changed
+  std::vector<int> touched_before;  // the same in the graph before
+  bool possible = false;
+};
+
+// The graph with the edit, mirrored where symmetric. Not possible: the tie exists already, the
+// sphere to dissolve joins three capsules, and so on.
+[[nodiscard]] EditedGraph Apply(const CapsuleGraph& graph, const Edit& edit);
+
+// The nodes within `radius` capsules of the given ones, and their images.
+[[nodiscard]] std::vector<char> Neighbourhood(const CapsuleGraph& graph,
+                                              const std::vector<int>& nodes, int radius);
+
+// A leaf that touches the body's surface at `point_m` from inside, at half the radius of the
+// nearest capsule there; one for each end of that capsule.
+[[nodiscard]] std::vector<Edit> LeavesAt(const CapsuleGraph& graph, const Eigen::Vector3d& point_m);
+
+// Removes what does nothing: capsules swallowed by an end, spheres without a capsule inside
+// another primitive.
+void RemoveSwallowed(CapsuleGraph& graph);
+
+}  // namespace capfit::refine
+
+#endif  // CAPFIT_CORE_REFINE_GRAPH_EDIT_H_

@@ -1,0 +1,255 @@
+#include "core/refine/growth.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/refine/graph_edit.h"
+
+namespace capfit::refine {
+namespace {
+
+std::size_t U(int i) { return static_cast<std::size_t>(i); }
+
+// Spheres whose surfaces come within this share of their radii are worth a capsule's trial.
+constexpr double kLinkReach = 1.1;
+// A round keeps edits that gain at least this share of its best one, per primitive.
+constexpr double kKeepShare = 0.35;
+
+Edit Simple(EditKind kind, int first, int second) {
+  Edit edit;
+  edit.kind = kind;
+  edit.first = first;
+  edit.second = second;
+  return edit;
+}
+
+struct Candidate {
+  Edit edit;
+  EditedGraph result;
+  double score = 0.0;  // gain per primitive, > 0 is good
+};
+
+// Spheres and capsules weigh alike under one total. Under two limits each weighs what share of the
+// room left it takes.
+double CostOf(const Spending& spending, const CapsuleGraph& before, const CapsuleGraph& after) {
+  const double spheres = after.sphere_count() - before.sphere_count();
+  const double capsules = after.capsule_count() - before.capsule_count();
+  constexpr int kNoLimit = 1'000'000;
+  if (spending.max_spheres >= kNoLimit || spending.max_capsules >= kNoLimit) {
+    return std::max(0.5, spheres + capsules);
+  }
+  const double sphere_room = std::max(1, spending.max_spheres - before.sphere_count());
+  const double capsule_room = std::max(1, spending.max_capsules - before.capsule_count());
+  const double unit = 0.5 * (sphere_room + capsule_room);
+  return std::max(0.5, unit * (spheres / sphere_room + capsules / capsule_room));
+}
+
+void ProposeLinks(const CapsuleGraph& graph, std::vector<Edit>& edits) {
+  for (int i = 0; i < graph.sphere_count(); ++i) {
+    for (int j = i + 1; j < graph.sphere_count(); ++j) {
+      const Node& a = graph.nodes[U(i)];
+      const Node& b = graph.nodes[U(j)];
+      if (graph.symmetric && std::minmax(a.mirror, b.mirror) < std::minmax(i, j)) continue;
+      const double reach = kLinkReach * (a.radius_m + b.radius_m);
+      if ((a.center_m - b.center_m).norm() > reach || graph.HasEdge(i, j)) continue;
+      edits.push_back(Simple(EditKind::kLink, i, j));
+    }
+  }
+}
+
+std::vector<Edit> Additions(const Objective& objective, const GrowthOptions& options,
+                            const CapsuleGraph& graph) {
+  std::vector<Edit> edits;
+  for (int e = 0; e < graph.capsule_count(); ++e) {
+    if (graph.IsEdgeRepresentative(e)) edits.push_back(Simple(EditKind::kSplit, e, -1));
+  }
+  if (options.links) {
+    ProposeLinks(graph, edits);
+    for (int v = 0; v < graph.sphere_count(); ++v) {
+      if (!graph.IsOnPlane(v)) continue;
+      edits.push_back(Simple(EditKind::kPart, v, 0));
+      edits.push_back(Simple(EditKind::kPart, v, 1));
+    }
+  }
+  for (const Eigen::Vector3d& p : objective.WorstPoints(graph, options.worst_points)) {
+    const std::vector<Edit> leaves = LeavesAt(graph, p);
+    edits.insert(edits.end(), leaves.begin(), leaves.end());
+    if (!leaves.empty()) {
+      Edit ball = leaves.front();
+      ball.kind = EditKind::kBall;
+      edits.push_back(ball);
+    }
+  }
+  return edits;
+}
+
+std::vector<Edit> Removals(const CapsuleGraph& graph) {
+  std::vector<Edit> edits;
+  for (int e = 0; e < graph.capsule_count(); ++e) {
+    if (graph.IsEdgeRepresentative(e)) edits.push_back(Simple(EditKind::kUnlink, e, -1));
+  }
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (graph.IsNodeRepresentative(v)) edits.push_back(Simple(EditKind::kDissolve, v, -1));
+  }
+  return edits;
+}
+
+// Applies and settles all edits in parallel; `cost` turns a gain into a score.
+template <class Admit, class Score>
+std::vector<Candidate> TryAll(const Objective& objective, const CapsuleGraph& graph,
+                              const std::vector<Edit>& edits, const ThreadPool& pool,
+                              const FitObserver& observer, const Admit& admit, const Score& score) {
+  const std::unique_ptr<Objective::Round> round = objective.StartRound(graph);
+  std::vector<Candidate> candidates(edits.size());
+  pool.ForEach(edits.size(), [&](std::size_t i) {
+    if (observer.IsCancelled()) return;
+    Candidate& c = candidates[i];
+    c.edit = edits[i];
+    c.result = Apply(graph, edits[i]);
+    if (!c.result.possible || !admit(c.result.graph)) {
+      c.result.possible = false;
+      return;
+    }
+    const CapsuleGraph fresh = c.result.graph;
+    c.score = score(fresh, round->Try(c.result));
+  });
+  std::erase_if(candidates, [](const Candidate& c) { return !c.result.possible; });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  return candidates;
+}
+
+// Whether the edit's surroundings are still as they were tried; locks them if so.
+bool LockSurroundings(const CapsuleGraph& graph, const Candidate& c, std::vector<char>& locked) {
+  const std::vector<char> around = Neighbourhood(graph, c.result.touched_before, 0);
+  for (std::size_t v = 0; v < around.size(); ++v) {
+    if (around[v] && locked[v]) return false;
+  }
+  for (std::size_t v = 0; v < around.size(); ++v) locked[v] |= around[v];
+  return true;
+}
+
+// The edit again on a graph that has grown by other edits meanwhile, with the places that were
+// found in the trial. Only for edits that add: they keep all indices of nodes.
+std::optional<CapsuleGraph> Replay(const CapsuleGraph& base, const Candidate& c,
+                                   const CapsuleGraph& grown) {
+  Edit edit = c.edit;
+  if (edit.kind == EditKind::kSplit) {
+    const Edge& wanted = base.edges[U(edit.first)];
+    edit.first = -1;
+    for (int e = 0; e < grown.capsule_count(); ++e) {
+      if (grown.edges[U(e)].a == wanted.a && grown.edges[U(e)].b == wanted.b) edit.first = e;
+    }
+    if (edit.first < 0) return std::nullopt;
+  }
+  EditedGraph again = Apply(grown, edit);
+  if (!again.possible) return std::nullopt;
+  const int shift = grown.sphere_count() - base.sphere_count();
+  for (const int v : c.result.touched) {
+    const int image = c.result.graph.symmetric ? c.result.graph.nodes[U(v)].mirror : v;
+    for (const int from : {v, image}) {
+      Node& to = again.graph.nodes[U(from < base.sphere_count() ? from : from + shift)];
+      to.center_m = c.result.graph.nodes[U(from)].center_m;
+      to.radius_m = c.result.graph.nodes[U(from)].radius_m;
+    }
+  }
+  return again.graph;
+}
+
+int RoomIn(const Spending& spending, const CapsuleGraph& graph) {
+  return std::min({spending.max_primitives - graph.primitive_count(),
+                   spending.max_spheres - graph.sphere_count() + spending.max_capsules -
+                       graph.capsule_count()});
+}
+
+// Keeps the best candidates that do not touch each other.
+CapsuleGraph KeepBest(const CapsuleGraph& graph, const std::vector<Candidate>& candidates,
+                      const Spending& spending, double room_to_spend) {
+  std::vector<char> locked(graph.nodes.size(), 0);
+  CapsuleGraph grown = graph;
+  const int start = graph.primitive_count();
+  for (const Candidate& c : candidates) {
+    if (c.score < kKeepShare * candidates.front().score || c.score <= 0.0) break;
+    if (grown.primitive_count() > start && grown.primitive_count() - start >= room_to_spend) break;
+    // Parting a mid-plane sphere re-ties its neighbours: only ever alone.
+    const bool parts = c.edit.kind == EditKind::kPart;
+    if (parts && grown.primitive_count() > start) continue;
+    if (!LockSurroundings(graph, c, locked)) continue;
+    std::optional<CapsuleGraph> next = Replay(graph, c, grown);
+    if (!next || !spending.Allows(*next)) continue;
+    grown = *std::move(next);
+    if (parts) break;
+  }
+  return grown;
+}
+
+bool GrowOnce(const Objective& objective, const Spending& spending, const GrowthOptions& options,
+              const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
+  const std::vector<Candidate> candidates = TryAll(
+      objective, graph, Additions(objective, options, graph), pool, observer,
+      [&](const CapsuleGraph& after) { return spending.Allows(after); },
+      [&](const CapsuleGraph& after, double gain) {
+        return gain / CostOf(spending, graph, after);
+      });
+  if (candidates.empty() || candidates.front().score <= 0.0) return false;
+  CapsuleGraph grown =
+      KeepBest(graph, candidates, spending, options.batch_share * RoomIn(spending, graph));
+  if (grown.primitive_count() == graph.primitive_count()) return false;
+  objective.Settle(Effort::kTouch, grown);
+  RemoveSwallowed(grown);
+  const bool grew = grown.primitive_count() > graph.primitive_count();
+  graph = std::move(grown);
+  return grew;
+}
+
+// Gives up the capsule or sphere whose loss is least.
+bool SpareOnce(const Objective& objective, const ThreadPool& pool, const FitObserver& observer,
+               CapsuleGraph& graph) {
+  std::vector<Candidate> candidates = TryAll(
+      objective, graph, Removals(graph), pool, observer, [](const CapsuleGraph&) { return true; },
+      [&](const CapsuleGraph& after, double gain) {
+        return gain / std::max(1, graph.primitive_count() - after.primitive_count());
+      });
+  if (candidates.empty()) return false;
+  graph = std::move(candidates.front().result.graph);
+  objective.Settle(Effort::kTouch, graph);
+  return true;
+}
+
+void Fill(const Objective& objective, const Spending& spending, const GrowthOptions& options,
+          const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
+  const int most_rounds = 4 + RoomIn(spending, graph);
+  for (int i = 0; i < most_rounds && RoomIn(spending, graph) > 0; ++i) {
+    if (observer.IsCancelled()) return;
+    if (!GrowOnce(objective, spending, options, pool, observer, graph)) return;
+  }
+}
+
+}  // namespace
+
+void Spare(const Objective& objective, const Spending& spending, const ThreadPool& pool,
+           const FitObserver& observer, CapsuleGraph& graph) {
+  while (!spending.Allows(graph) && !observer.IsCancelled()) {
+    if (!SpareOnce(objective, pool, observer, graph)) return;
+  }
+}
+
+void Grow(const Objective& objective, const Spending& spending, const GrowthOptions& options,
+          const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
+  Fill(objective, spending, options, pool, observer, graph);
+  double value = options.exchanges > 0 ? objective.Value(graph) : 0.0;
+  for (int i = 0; i < options.exchanges && !observer.IsCancelled(); ++i) {
+    CapsuleGraph other = graph;
+    if (!SpareOnce(objective, pool, observer, other)) return;
+    Fill(objective, spending, options, pool, observer, other);
+    const double other_value = objective.Value(other);
+    if (other_value >= value) return;
+    graph = std::move(other);
+    value = other_value;
+  }
+}
+
+}  // namespace capfit::refine

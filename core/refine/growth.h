@@ -1,0 +1,42 @@
+// Spending a budget where it pays most: growing, sparing and exchanging primitives.
+#ifndef CAPFIT_CORE_REFINE_GROWTH_H_
+#define CAPFIT_CORE_REFINE_GROWTH_H_
+
+#include "core/base/fit_observer.h"
+#include "core/base/thread_pool.h"
+#include "core/refine/capsule_graph.h"
+#include "core/refine/objective.h"
+
+namespace capfit::refine {
+
+// What may be spent; a huge number where there is no limit.
+struct Spending {
+  int max_primitives;
+  int max_spheres;
+  int max_capsules;
+
+  [[nodiscard]] bool Allows(const CapsuleGraph& graph) const {
+    return graph.primitive_count() <= max_primitives && graph.sphere_count() <= max_spheres &&
+           graph.capsule_count() <= max_capsules;
+  }
+};
+
+struct GrowthOptions {
+  int worst_points = 16;      // where leaves are tried in each round
+  double batch_share = 0.25;  // of the room left, spent in one round (at least one edit)
+  int exchanges = 0;          // rounds that give up the least and spend it elsewhere
+  bool links = true;          // try new capsules between spheres that nearly touch
+};
+
+// Removes what costs least until the graph is within the spending.
+void Spare(const Objective& objective, const Spending& spending, const ThreadPool& pool,
+           const FitObserver& observer, CapsuleGraph& graph);
+
+// Adds what gains most per primitive until nothing fits or nothing gains. Each round tries all
+// edits, settled near by, in parallel; the best ones that do not touch each other are kept.
+void Grow(const Objective& objective, const Spending& spending, const GrowthOptions& options,
+          const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph);
+
+}  // namespace capfit::refine
+
+#endif  // CAPFIT_CORE_REFINE_GROWTH_H_

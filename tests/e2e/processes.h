@@ -1,0 +1,62 @@
+// Starts the programs as their users do.
+#ifndef CAPFIT_TESTS_E2E_PROCESSES_H_
+#define CAPFIT_TESTS_E2E_PROCESSES_H_
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace capfit::e2e {
+
+// A folder of its own for one test, removed with it.
+class Scratch {
+ public:
+  Scratch();
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] std::string Path(const std::string& name) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// How a program ended, and what it said.
+struct Outcome {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+// Runs build/<preset>/client/capfit to its end.
+[[nodiscard]] Outcome RunCapfit(const std::vector<std::string>& arguments);
+
+// build/<preset>/server/capfit-server on a free port of the loopback, ready when constructed.
+class ServerProcess {
+ public:
+  explicit ServerProcess(const std::vector<std::string>& flags = {});
+  // Stops it, if nobody has.
+  ~ServerProcess();
+  ServerProcess(const ServerProcess&) = delete;
+  ServerProcess& operator=(const ServerProcess&) = delete;
+
+  [[nodiscard]] const std::string& address() const { return address_; }
+  void Signal(int signal) const;
+  // Waits for the end; the exit code, or minus the signal that killed it.
+  [[nodiscard]] int Wait();
+
+ private:
+  Scratch scratch_;
+  pid_t pid_ = -1;
+  std::string address_;
+};
+
+// Whole files.
+[[nodiscard]] std::string ReadText(const std::string& path);
+void WriteText(const std::string& path, const std::string& text);
+
+}  // namespace capfit::e2e
+
+#endif  // CAPFIT_TESTS_E2E_PROCESSES_H_
