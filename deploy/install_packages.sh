@@ -18,7 +18,7 @@ build=(
 )
 test=(python3 python3-grpcio python3-protobuf npm git)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3)
-run=(libgrpc++1.51 libopenmesh1 libtinygltf2d libtbb12 libspdlog1.10 libcairo2)
+run=(libgrpc++1.51 libtinygltf2d libtbb12 libspdlog1.10 libcairo2)
 
 wanted=()
 for group in "${@:-build}"; do
