@@ -5,8 +5,11 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <functional>
 #include <memory>
 #include <thread>
+#include <vector>
 
 namespace capfit {
 namespace {
@@ -21,6 +24,21 @@ int EffectiveThreads(int threads) {
 void LiftProcessLimit() {
   static const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 256);
 }
+
+#ifdef CAPFIT_POOL_OF_STD_THREADS
+// ThreadSanitizer cannot see how the packaged oneTBB hands work over and would call every loop a
+// race. Under it, the same chunks run on threads whose start and end it understands.
+void RunOnStdThreads(int threads, std::size_t chunks, const std::function<void(std::size_t)>& run) {
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < chunks; i = next++) run(i);
+  };
+  std::vector<std::thread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+}
+#endif
 
 }  // namespace
 
@@ -51,8 +69,12 @@ void ThreadPool::ForChunks(std::size_t count, std::size_t chunk,
     for (std::size_t i = 0; i < chunks; ++i) run(i);
     return;
   }
+#ifdef CAPFIT_POOL_OF_STD_THREADS
+  RunOnStdThreads(threads_, chunks, run);
+#else
   arena_->arena.execute(
       [&] { tbb::parallel_for(std::size_t{0}, chunks, run, tbb::simple_partitioner()); });
+#endif
 }
 
 }  // namespace capfit

@@ -15,7 +15,8 @@ struct Grid {
   int height;
   Ring vertices;
   [[nodiscard]] std::uint32_t& at(int a, int b) {
-    return vertices[static_cast<std::size_t>(b * (width + 1) + a)];
+    return vertices[static_cast<std::size_t>(b) * static_cast<std::size_t>(width + 1) +
+                    static_cast<std::size_t>(a)];
   }
 };
 

@@ -138,7 +138,7 @@ Vector3d LimitVertex(const Vector3d& p, const Star& star) {
 }
 
 Vector3d EdgePoint(const QuadMesh& mesh, const EdgeRecord& edge) {
-  const Vector3d middle = 0.5 * (mesh.vertices[edge.ends[0]] + mesh.vertices[edge.ends[1]]);
+  Vector3d middle = 0.5 * (mesh.vertices[edge.ends[0]] + mesh.vertices[edge.ends[1]]);
   if (edge.is_sharp) return middle;
   return 0.5 * middle + 0.25 * (Centroid(mesh, mesh.quads[edge.quads[0]]) +
                                 Centroid(mesh, mesh.quads[edge.quads[1]]));
