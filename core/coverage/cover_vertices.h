@@ -39,8 +39,9 @@ struct CoverReport {
 };
 
 // Moves, shrinks and grows spheres until every point is inside and no triangle sticks out by more
-// than options.max_gap_m, with the least volume it can find. Topology and count stay. Mirrored
-// spheres stay exact images of each other, whatever the small asymmetries of the points.
+// than options.max_gap_m, with the least volume it can find. Spheres and capsules stay the same
+// ones, but for capsules that an end sphere has come to swallow: those go. Mirrored spheres stay
+// exact images of each other, whatever the small asymmetries of the points.
 //
 // Points only in: vertices end up 1 um deep or more, unless the observer cancels. Terminates: every
 // growing step covers a point and uncovers none. Typically 40 ms for 12k vertices at n_p 64.

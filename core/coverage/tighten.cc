@@ -74,7 +74,7 @@ class Tightener {
       const int first = variables_.of(i).first;
       program.gradient.segment<4>(first) += variables_.ToVariables(i, by_sphere);
       program.hessian.segment<4>(first).array() +=
-          0.5 * by_sphere.w() / set_.spheres[index].radius_m;
+          0.5 * by_sphere.w() / std::max(set_.spheres[index].radius_m, kLeastRadius * size_);
     }
   }
 

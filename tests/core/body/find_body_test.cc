@@ -1,0 +1,299 @@
+// The body's own frame, its symmetry, the caller's wishes, and inputs that are awkward or no body.
+#include "core/body/find_body.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/base/status.h"
+#include "core/mannequin/random_mannequin.h"
+#include "core/mesh/prepare_mesh.h"
+#include "tests/core/body/body_files.h"
+#include "tests/support/bodies.h"
+
+namespace capfit::body {
+namespace {
+
+mesh::BodyMesh Mannequin(const mannequin::MannequinOptions& options) {
+  const auto soup = mannequin::MakeMannequin(options);
+  EXPECT_TRUE(soup.ok()) << soup.status();
+  auto prepared = mesh::PrepareMesh(*soup);
+  EXPECT_TRUE(prepared.ok()) << prepared.status();
+  return std::move(prepared->mesh);
+}
+
+mesh::BodyMesh SmallMannequin() {
+  mannequin::MannequinOptions options;
+  options.faces = 4000;
+  return Mannequin(options);
+}
+
+geometry::Similarity Moved(double angle_rad, const Eigen::Vector3d& axis, double scale,
+                           const Eigen::Vector3d& translation) {
+  geometry::Similarity similarity;
+  similarity.rotation = Eigen::AngleAxisd(angle_rad, axis.normalized()).toRotationMatrix();
+  similarity.scale = scale;
+  similarity.translation = translation;
+  return similarity;
+}
+
+// Everything that a later room sees, to 1e-6 of the height.
+void ExpectSameBody(const Body& a, const Body& b) {
+  const double tolerance = 1e-6 * a.height_m;
+  EXPECT_NEAR(a.height_m, b.height_m, tolerance);
+  EXPECT_EQ(a.is_symmetric, b.is_symmetric);
+  for (int i = 0; i < kLandmarkCount; ++i) {
+    ASSERT_EQ(a.landmarks[i].has_value(), b.landmarks[i].has_value());
+    if (!a.landmarks[i]) continue;
+    EXPECT_LE((a.landmarks[i]->position_m - b.landmarks[i]->position_m).norm(), tolerance)
+        << LandmarkName(static_cast<LandmarkId>(i));
+  }
+  ASSERT_EQ(a.mesh.vertices().size(), b.mesh.vertices().size());
+  for (std::size_t v = 0; v < a.mesh.vertices().size(); ++v) {
+    ASSERT_LE((a.mesh.vertices()[v] - b.mesh.vertices()[v]).norm(), tolerance);
+  }
+  EXPECT_EQ(a.vertex_segments, b.vertex_segments);
+  for (int c = 0; c < kChainCount; ++c) {
+    ASSERT_EQ(a.chains[c].has_value(), b.chains[c].has_value());
+    if (!a.chains[c]) continue;
+    for (const double share : {0.0, 0.3, 0.7, 1.0}) {
+      EXPECT_LE((a.chains[c]->PointAt(share * a.chains[c]->length_m()) -
+                 b.chains[c]->PointAt(share * b.chains[c]->length_m()))
+                    .norm(),
+                tolerance);
+    }
+  }
+}
+
+struct Motion {
+  std::string name;
+  geometry::Similarity similarity;
+  friend void PrintTo(const Motion& m, std::ostream* os) { *os << m.name; }
+};
+class MovedBody : public testing::TestWithParam<Motion> {};
+
+TEST_P(MovedBody, IsTheSameBody) {
+  CAPFIT_REQUIRE_BODIES();
+  for (const char* const file : {"broken/good_5k.obj", "broken/one_arm_up.obj"}) {
+    const mesh::BodyMesh mesh = LoadBody(file);
+    const auto still = Find(mesh);
+    const auto moved = Find(mesh.Transformed(GetParam().similarity));
+    ASSERT_TRUE(still.ok() && moved.ok());
+    ExpectSameBody(*still, *moved);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Motions, MovedBody,
+    testing::Values(Motion{"Turned37", Moved(0.6458, {0, 1, 0}, 1, {0, 0, 0})},
+                    Motion{"FacingBack", Moved(3.14159265, {0, 1, 0}, 1, {0, 0, 0})},
+                    Motion{"LyingOnBack", Moved(-1.57079633, {1, 0, 0}, 1, {0, 0, 0})},
+                    Motion{"Rolled", Moved(1.57079633, {0, 0, 1}, 1, {0, 0, 0})},
+                    Motion{"UpsideDown", Moved(3.14159265, {0, 0, 1}, 1, {0, 0, 0})},
+                    Motion{"Anyhow", Moved(2.2, {0.3, -0.7, 0.9}, 1, {3, -2, 7})},
+                    Motion{"FarAway", Moved(0.0, {0, 1, 0}, 1, {10000, 5000, -20000})},
+                    Motion{"Centimetres", Moved(0.0, {0, 1, 0}, 100, {0, 0, 0})},
+                    Motion{"InchesAnyhow", Moved(1.1, {1, 2, 3}, 1 / 0.0254, {40, 0, 9})}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(FindBody, NamesTheUnitThatItAssumed) {
+  const mesh::BodyMesh mesh = SmallMannequin();
+  const auto metres = Find(mesh);
+  const auto inches = Find(mesh.Transformed(Moved(0, {0, 1, 0}, 1 / 0.0254, {0, 0, 0})));
+  ASSERT_TRUE(metres.ok() && inches.ok());
+  EXPECT_TRUE(metres->warnings.empty());
+  ASSERT_EQ(inches->warnings.size(), 1u);
+  EXPECT_EQ(inches->warnings[0].code, "UNIT_ASSUMED");
+  EXPECT_NE(inches->warnings[0].message.find("inches"), std::string::npos);
+  EXPECT_NEAR(inches->body_from_caller.scale, 0.0254, 1e-12);
+}
+
+TEST(FindBody, TakesTheUnitAndTheAxisThatItIsTold) {
+  const mesh::BodyMesh lying =
+      SmallMannequin().Transformed(Moved(1.57079633, {1, 0, 0}, 1, {0, 0, 0}));  // up is +Z
+  BodyOptions options;
+  options.up = UpAxis::kZ;
+  options.unit = Unit::kInch;
+  const auto body = Find(lying, options);
+  ASSERT_TRUE(body.ok()) << body.status();
+  EXPECT_TRUE(body->warnings.empty());
+  EXPECT_EQ(body->body_from_caller.scale, 0.0254);
+  EXPECT_LT(
+      (body->body_from_caller.Turn(Eigen::Vector3d::UnitZ()) - Eigen::Vector3d::UnitY()).norm(),
+      1e-12);
+}
+
+TEST(FindBody, MirroredMeshesGiveMirroredBodies) {
+  CAPFIT_REQUIRE_BODIES();
+  const mesh::BodyMesh mesh = LoadBody("broken/one_arm_up.obj");
+  std::vector<Eigen::Vector3d> points(mesh.vertices().begin(), mesh.vertices().end());
+  std::vector<mesh::Triangle> triangles(mesh.triangles().begin(), mesh.triangles().end());
+  for (Eigen::Vector3d& p : points) p.x() = -p.x();
+  for (mesh::Triangle& t : triangles) std::swap(t[1], t[2]);
+  const auto body = Find(mesh);
+  const auto mirrored = Find(mesh::BodyMesh(points, triangles, {}));
+  ASSERT_TRUE(body.ok() && mirrored.ok());
+  for (int i = 0; i < kLandmarkCount; ++i) {
+    const LandmarkId id = static_cast<LandmarkId>(i);
+    const Eigen::Vector3d here = body->landmark(id)->position_m;
+    const Eigen::Vector3d there = mirrored->landmark(MirrorLandmark(id))->position_m;
+    EXPECT_LE((here - Eigen::Vector3d(-there.x(), there.y(), there.z())).norm(), 2e-6)
+        << LandmarkName(id);
+  }
+}
+
+TEST(FindBody, DoesNotDependOnTheOrderOfVerticesAndFaces) {
+  CAPFIT_REQUIRE_BODIES();
+  const mesh::BodyMesh mesh = LoadBody("broken/good_5k.obj");
+  const std::uint32_t count = static_cast<std::uint32_t>(mesh.vertices().size());
+  const auto renamed = [&](std::uint32_t v) { return (v * 7u + 11u) % count; };  // 7: coprime
+  ASSERT_NE(count % 7, 0u);
+  std::vector<Eigen::Vector3d> points(count);
+  for (std::uint32_t v = 0; v < count; ++v) points[renamed(v)] = mesh.vertices()[v];
+  std::vector<mesh::Triangle> triangles;
+  for (const mesh::Triangle& t : mesh.triangles()) {
+    triangles.push_back({renamed(t[1]), renamed(t[2]), renamed(t[0])});
+  }
+  std::reverse(triangles.begin(), triangles.end());
+  const auto body = Find(mesh);
+  const auto shuffled = Find(mesh::BodyMesh(points, triangles, {}));
+  ASSERT_TRUE(body.ok() && shuffled.ok());
+  for (int i = 0; i < kLandmarkCount; ++i) {
+    EXPECT_LE((body->landmarks[i]->position_m - shuffled->landmarks[i]->position_m).norm(), 1e-6);
+  }
+}
+
+TEST(FindBody, SymmetricBodiesMirrorExactly) {
+  const auto body = Find(SmallMannequin());
+  ASSERT_TRUE(body.ok()) << body.status();
+  ASSERT_TRUE(body->is_symmetric);
+  for (int i = 0; i < kLandmarkCount; ++i) {
+    const LandmarkId id = static_cast<LandmarkId>(i);
+    ASSERT_TRUE(body->landmark(id)) << LandmarkName(id);
+    const Eigen::Vector3d here = body->landmark(id)->position_m;
+    const Eigen::Vector3d there = body->landmark(MirrorLandmark(id))->position_m;
+    EXPECT_EQ(here, Eigen::Vector3d(-there.x(), there.y(), there.z())) << LandmarkName(id);
+  }
+  for (const Part part : {Part::kTorso, Part::kLeftArm, Part::kLeftLeg}) {
+    const auto& left = body->chain(part)->points_m;
+    const auto& right = body->chain(MirrorPart(part))->points_m;
+    ASSERT_EQ(left.size(), right.size());
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      EXPECT_EQ(left[i], Eigen::Vector3d(-right[i].x(), right[i].y(), right[i].z()));
+    }
+  }
+}
+
+TEST(FindBody, AsymmetricPosesAreNotSymmetric) {
+  CAPFIT_REQUIRE_BODIES();
+  EXPECT_FALSE(Find(LoadBody("broken/one_arm_up.obj"))->is_symmetric);
+}
+
+TEST(FindBody, CallersLandmarksReplaceAndSteer) {
+  const mesh::BodyMesh mesh = SmallMannequin();
+  const auto found = Find(mesh);
+  ASSERT_TRUE(found.ok());
+  BodyOptions options;
+  const Eigen::Vector3d wrist = found->body_from_caller.Inverse().Apply(
+      0.7 * found->landmark(LandmarkId::kLeftWrist)->position_m +
+      0.3 * found->landmark(LandmarkId::kLeftElbow)->position_m);
+  options.landmarks[LandmarkId::kLeftWrist] = wrist;
+  const auto body = Find(mesh, options);
+  ASSERT_TRUE(body.ok()) << body.status();
+  const auto& landmark = body->landmark(LandmarkId::kLeftWrist);
+  EXPECT_EQ(landmark->method, LandmarkMethod::kCaller);
+  EXPECT_LT((body->body_from_caller.Inverse().Apply(landmark->position_m) - wrist).norm(), 1e-9);
+  // The curve ends there, and the hand has grown.
+  EXPECT_LT((body->chain(Part::kLeftArm)->points_m.back() - landmark->position_m).norm(), 1e-9);
+  const auto count = [](const Body& b, Segment s) {
+    return std::count(b.vertex_segments.begin(), b.vertex_segments.end(), s);
+  };
+  EXPECT_GT(count(*body, Segment::kLeftHand), count(*found, Segment::kLeftHand));
+  EXPECT_EQ(count(*body, Segment::kRightHand), count(*found, Segment::kRightHand));
+}
+
+struct Refusal {
+  std::string file;
+  std::string reason;
+  std::string evidence;
+  friend void PrintTo(const Refusal& r, std::ostream* os) { *os << r.file; }
+};
+class Refused : public testing::TestWithParam<Refusal> {};
+
+TEST_P(Refused, WithReasonAndEvidence) {
+  CAPFIT_REQUIRE_BODIES();
+  const auto body = Find(LoadBody("broken/" + GetParam().file + ".obj"));
+  ASSERT_FALSE(body.ok());
+  EXPECT_EQ(body.status().code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(ReasonOf(body.status()), GetParam().reason);
+  EXPECT_NE(body.status().ToString().find(GetParam().evidence), std::string::npos) << body.status();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    NoBody, Refused,
+    testing::Values(Refusal{"cube", "NOT_A_BODY", "found 0 of 5 extremities"},
+                    Refusal{"sphere", "NOT_A_BODY", "found 0 of 5 extremities"},
+                    Refusal{"torus", "NOT_A_BODY", "found 0 of 5 extremities"},
+                    Refusal{"upper_half", "PART_MISSING", "leg was not found"},
+                    Refusal{"upper_half_open", "PART_MISSING", "leg was not found"}),
+    [](const auto& tested) { return tested.param.file; });
+
+struct Acceptance {
+  std::string file;
+  int missing_arms;
+  friend void PrintTo(const Acceptance& a, std::ostream* os) { *os << a.file; }
+};
+class Accepted : public testing::TestWithParam<Acceptance> {};
+
+TEST_P(Accepted, WithAWarningForEachMissingArm) {
+  CAPFIT_REQUIRE_BODIES();
+  const auto body = Find(LoadBody("broken/" + GetParam().file + ".obj"));
+  ASSERT_TRUE(body.ok()) << body.status();
+  const auto missing = std::count_if(body->warnings.begin(), body->warnings.end(),
+                                     [](const Warning& w) { return w.code == "PART_MISSING"; });
+  EXPECT_EQ(missing, GetParam().missing_arms);
+  EXPECT_EQ(!body->chain(Part::kLeftArm) + !body->chain(Part::kRightArm), GetParam().missing_arms);
+  EXPECT_TRUE(body->chain(Part::kTorso) && body->chain(Part::kLeftLeg));
+}
+
+INSTANTIATE_TEST_SUITE_P(Awkward, Accepted,
+                         testing::Values(Acceptance{"no_left_arm", 1},
+                                         Acceptance{"arms_fused_to_torso", 2},
+                                         Acceptance{"arms_through_torso", 0},
+                                         Acceptance{"one_arm_up", 0}, Acceptance{"anisotropic", 0},
+                                         Acceptance{"mixed_polygons", 0},
+                                         Acceptance{"open_neck_wrists_ankles", 0}),
+                         [](const auto& tested) { return tested.param.file; });
+
+// The way along the inside of the arm: shoulder, elbow and wrist follow each other; so do the legs.
+TEST(FindBody, MannequinsByLotHaveAllTheirLandmarksInOrder) {
+  mannequin::RandomMannequinLimits limits;
+  limits.max_faces = 5000;
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    SCOPED_TRACE(seed);
+    const mannequin::MannequinOptions options = mannequin::RandomMannequin(seed, limits);
+    const auto body = Find(Mannequin(options));
+    ASSERT_TRUE(body.ok()) << body.status();
+    EXPECT_TRUE(body->is_symmetric);
+    EXPECT_EQ(body->landmark(LandmarkId::kHeadTop).has_value(), options.with_head);
+    EXPECT_EQ(body->landmark(LandmarkId::kLeftFingertip).has_value(), options.with_hands);
+    EXPECT_EQ(body->landmark(LandmarkId::kLeftToe).has_value(), options.with_feet);
+    // Made upright and facing +Z, so the way to the body frame hardly turns.
+    EXPECT_GT(body->body_from_caller.rotation.trace(), 3.0 - 0.01);
+    const auto y = [&](LandmarkId id) { return body->landmark(id)->position_m.y(); };
+    EXPECT_LT(y(LandmarkId::kLeftAnkle), y(LandmarkId::kLeftKnee));
+    EXPECT_LT(y(LandmarkId::kLeftKnee), y(LandmarkId::kCrotch));
+    EXPECT_LT(y(LandmarkId::kCrotch), y(LandmarkId::kLeftHip));
+    EXPECT_LT(y(LandmarkId::kHip), y(LandmarkId::kWaist));
+    EXPECT_LT(y(LandmarkId::kWaist), y(LandmarkId::kBust));
+    EXPECT_LT(y(LandmarkId::kBust), y(LandmarkId::kLeftShoulder));
+    EXPECT_LT(y(LandmarkId::kLeftShoulder), y(LandmarkId::kNeck));
+    for (const auto& chain : body->chains) EXPECT_TRUE(chain.has_value());
+  }
+}
+
+}  // namespace
+}  // namespace capfit::body

@@ -1,0 +1,149 @@
+// The pieces that the finders stand on, against closed forms and brute force.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/base/status.h"
+#include "core/body/body_unit.h"
+#include "core/body/branches.h"
+#include "core/body/cross_section.h"
+#include "core/body/surface_graph.h"
+
+namespace capfit::body {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+struct Surface {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<mesh::Triangle> triangles;
+};
+
+// A closed tube of radius 1 along Z from 0 to `length`, capped at both ends.
+Surface Tube(int around, int along, double length) {
+  Surface tube;
+  for (int i = 0; i <= along; ++i) {
+    for (int k = 0; k < around; ++k) {
+      const double angle = 2.0 * kPi * k / around;
+      tube.points.emplace_back(std::cos(angle), std::sin(angle), length * i / along);
+    }
+  }
+  const auto id = [&](int i, int k) { return static_cast<std::uint32_t>(i * around + k % around); };
+  for (int i = 0; i < along; ++i) {
+    for (int k = 0; k < around; ++k) {
+      tube.triangles.push_back({id(i, k), id(i, k + 1), id(i + 1, k + 1)});
+      tube.triangles.push_back({id(i, k), id(i + 1, k + 1), id(i + 1, k)});
+    }
+  }
+  const std::uint32_t bottom = static_cast<std::uint32_t>(tube.points.size());
+  tube.points.emplace_back(0, 0, 0);
+  tube.points.emplace_back(0, 0, length);
+  for (int k = 0; k < around; ++k) {
+    tube.triangles.push_back({bottom, id(0, k + 1), id(0, k)});
+    tube.triangles.push_back({bottom + 1, id(along, k), id(along, k + 1)});
+  }
+  return tube;
+}
+
+TEST(CutSurface, TubeSectionsHaveTheirClosedForms) {
+  const Surface tube = Tube(64, 40, 4.0);
+  const CutSurface surface(tube.points, tube.triangles);
+  const double polygon_area = 0.5 * 64 * std::sin(2.0 * kPi / 64);
+  for (const double tilt : {0.0, 0.3, 0.6}) {
+    const CutPlane plane = {{0.1, 0.0, 2.03}, {std::sin(tilt), 0.0, std::cos(tilt)}};
+    const auto loops = surface.Cut(plane);
+    ASSERT_EQ(loops.size(), 1u);
+    EXPECT_TRUE(loops[0].is_closed);
+    EXPECT_NEAR(loops[0].area, polygon_area / std::cos(tilt), 1e-9);  // positive: orientation
+    EXPECT_NEAR(loops[0].centroid.x(), 0.0, 1e-9);
+    EXPECT_NEAR(plane.Height(loops[0].centroid), 0.0, 1e-12);
+    EXPECT_NEAR(loops[0].Max(Eigen::Vector3d::UnitX()), 1.0, 1e-9);
+  }
+  EXPECT_NEAR(surface.Cut({{0, 0, 1.01}, {0, 0, 1}})[0].girth, 64 * 2 * std::sin(kPi / 64), 1e-9);
+  EXPECT_TRUE(surface.Cut({{0, 0, 9}, {0, 0, 1}}).empty());
+}
+
+TEST(CutSurface, TwoTubesGiveTwoLoopsAndTheNearestIsTheOneAsked) {
+  Surface both = Tube(24, 10, 2.0);
+  const std::uint32_t shift = static_cast<std::uint32_t>(both.points.size());
+  const Surface other = Tube(16, 10, 2.0);
+  for (const Eigen::Vector3d& p : other.points) both.points.push_back(p + Eigen::Vector3d(5, 0, 0));
+  for (const mesh::Triangle& t : other.triangles) {
+    both.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  }
+  const CutSurface surface(both.points, both.triangles);
+  EXPECT_EQ(surface.Cut({{0, 0, 1.03}, {0, 0, 1}}).size(), 2u);
+  const auto nearest = surface.CutNearest({{4.5, 0, 1.03}, {0, 0, 1}}, 0.1);
+  ASSERT_TRUE(nearest);
+  EXPECT_NEAR(nearest->centroid.x(), 5.0, 1e-9);
+  EXPECT_FALSE(surface.CutNearest({{4.5, 0, 1.03}, {0, 0, 1}}, 100.0));
+}
+
+TEST(SurfaceGraph, DistancesOnATubeAreNearThoseOnTheUnrolledSheet) {
+  const int around = 48;
+  const Surface tube = Tube(around, 60, 6.0);
+  const SurfaceGraph graph(tube.points, tube.triangles);
+  const std::uint32_t source = 30 * around;  // at angle 0, z = 3
+  const auto distance = graph.Distances(std::vector<GeodesicSource>{{source, 0.0}});
+  for (int i = 5; i <= 55; ++i) {
+    for (int k = 0; k < around; ++k) {
+      const double angle = 2.0 * kPi * std::min(k, around - k) / around;
+      const double truth = std::hypot(angle, 6.0 * i / 60 - 3.0);
+      EXPECT_GE(distance[i * around + k], 0.99 * truth);
+      EXPECT_LE(distance[i * around + k], 1.12 * truth + 1e-9);
+    }
+  }
+}
+
+TEST(SurfaceGraph, NoEdgeCanShortenADistanceAndSourcesKeepTheirHeadStart) {
+  const Surface tube = Tube(20, 30, 5.0);
+  const SurfaceGraph graph(tube.points, tube.triangles);
+  const std::vector<GeodesicSource> sources = {{7, 0.25}, {433, 0.0}};
+  const auto distance = graph.Distances(sources);
+  EXPECT_LE(distance[7], 0.25);
+  EXPECT_EQ(distance[433], 0.0);
+  for (std::uint32_t v = 0; v < tube.points.size(); ++v) {
+    for (const std::uint32_t n : graph.Neighbours(v)) {
+      EXPECT_LE(distance[n], distance[v] + (tube.points[n] - tube.points[v]).norm() + 1e-6);
+    }
+  }
+}
+
+TEST(Branches, TheEndsOfATubeStandOutFromItsMiddle) {
+  const int around = 24;
+  const Surface tube = Tube(around, 40, 8.0);
+  const SurfaceGraph graph(tube.points, tube.triangles);
+  std::vector<GeodesicSource> ring;  // a little below the middle, so the top is farther
+  for (int k = 0; k < around; ++k) {
+    ring.push_back({static_cast<std::uint32_t>(19 * around + k), 0.0});
+  }
+  const auto distance = graph.Distances(ring);
+  const auto branches = FindBranches(graph, distance, 0.5);
+  ASSERT_EQ(branches.size(), 2u);
+  EXPECT_EQ(branches[0].tip, tube.points.size() - 1);
+  EXPECT_EQ(branches[1].tip, tube.points.size() - 2);
+  EXPECT_EQ(branches[1].parent, 0);
+  EXPECT_NEAR(branches[1].saddle_distance, 0.0, 1e-9);
+  EXPECT_NEAR(JunctionLevel(branches, 0, 1), 0.0, 1e-9);
+}
+
+TEST(BodyUnit, IsTheOneThatMakesAHuman) {
+  const auto unit = [](double height) { return ChooseUnit(Unit::kAuto, height)->unit; };
+  EXPECT_EQ(unit(1.59), Unit::kMetre);
+  EXPECT_EQ(unit(0.75), Unit::kMetre);
+  EXPECT_EQ(unit(63.0), Unit::kInch);
+  EXPECT_EQ(unit(40.0), Unit::kInch);
+  EXPECT_EQ(unit(159.0), Unit::kCentimetre);
+  EXPECT_EQ(unit(110.0), Unit::kCentimetre);
+  EXPECT_EQ(unit(1590.0), Unit::kMillimetre);
+  EXPECT_EQ(ChooseUnit(Unit::kInch, 1.59)->unit, Unit::kInch);  // told
+  EXPECT_EQ(ReasonOf(ChooseUnit(Unit::kAuto, 12.0).status()), "UNIT_UNKNOWN");
+  EXPECT_EQ(ReasonOf(ChooseUnit(Unit::kAuto, 0.01).status()), "UNIT_UNKNOWN");
+}
+
+}  // namespace
+}  // namespace capfit::body

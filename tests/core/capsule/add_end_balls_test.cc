@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "core/capsule/build_primitives.h"
+
+namespace capfit::capsule {
+namespace {
+
+using body::Part;
+using body::Segment;
+
+// A body whose vertices are the corners of one small box for each of the segments. Its faces are
+// those of the boxes; nothing here looks at them.
+body::Body BoxBody(const std::vector<std::pair<Segment, Eigen::Vector3d>>& boxes, bool symmetric) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<mesh::Triangle> triangles;
+  std::vector<Segment> segments;
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> kFaces = {
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (const auto& [segment, middle] : boxes) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (int i = 0; i < 8; ++i) {
+      vertices.push_back(middle +
+                         0.1 * Eigen::Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+      segments.push_back(segment);
+    }
+    for (const auto& f : kFaces) {
+      triangles.push_back({first + f[0], first + f[1], first + f[2]});
+      triangles.push_back({first + f[0], first + f[2], first + f[3]});
+    }
+  }
+  body::Body body{mesh::BodyMesh(vertices, triangles, std::vector<std::int32_t>(vertices.size())),
+                  {},
+                  1.8,
+                  symmetric,
+                  {},
+                  segments,
+                  {},
+                  {}};
+  return body;
+}
+
+constexpr body::PartSelection kAll{true, true, true, true, true, true};
+
+TEST(AddEndBallsTest, BallsAroundHeadHandsAndFeetOnly) {
+  const body::Body body = BoxBody({{Segment::kTorso, {0, 1, 0}},
+                                   {Segment::kHead, {0, 1.6, 0}},
+                                   {Segment::kLeftHand, {0.5, 1, 0}},
+                                   {Segment::kRightHand, {-0.6, 1, 0}},
+                                   {Segment::kLeftFoot, {0.1, 0, 0.1}}},
+                                  false);
+  PrimitiveSet set;
+  AddEndBalls(body, kAll, set);
+  ASSERT_EQ(set.spheres.size(), 4u);
+  EXPECT_EQ(set.origins[0].part, Part::kHead);
+  EXPECT_EQ(set.origins[1].part, Part::kLeftHand);
+  EXPECT_EQ(set.origins[2].part, Part::kRightHand);
+  EXPECT_EQ(set.origins[3].part, Part::kLeftFoot);
+  for (const SphereOrigin& origin : set.origins) {
+    EXPECT_EQ(origin.mirror, -1);
+    EXPECT_EQ(origin.polygon, -1);
+  }
+  EXPECT_NEAR((set.spheres[2].center_m - Eigen::Vector3d(-0.6, 1, 0)).norm(), 0.0, 1e-12);
+  for (const geometry::Sphere& ball : set.spheres) {
+    EXPECT_NEAR(ball.radius_m, 0.1 * std::sqrt(3.0), 1e-12);
+  }
+}
+
+TEST(AddEndBallsTest, OnASymmetricBodyTheyAreExactImagesAroundBothSides) {
+  const body::Body body = BoxBody({{Segment::kHead, {0.001, 1.6, 0}},
+                                   {Segment::kLeftHand, {0.5, 1, 0}},
+                                   {Segment::kRightHand, {-0.51, 1, 0.02}}},
+                                  true);
+  PrimitiveSet set;
+  AddEndBalls(body, kAll, set);
+  ASSERT_EQ(set.spheres.size(), 3u);
+  EXPECT_EQ(set.spheres[0].center_m.x(), 0.0);
+  EXPECT_EQ(set.origins[0].mirror, 0);
+  EXPECT_EQ(set.origins[1].mirror, 2);
+  EXPECT_EQ(set.origins[2].mirror, 1);
+  EXPECT_EQ(set.spheres[1].center_m.x(), -set.spheres[2].center_m.x());
+  EXPECT_EQ(set.spheres[1].radius_m, set.spheres[2].radius_m);
+  for (std::size_t v = 0; v < body.vertex_segments.size(); ++v) {
+    double least = 1e9;
+    for (const geometry::Sphere& ball : set.spheres) {
+      least = std::min(least, geometry::SignedDistance(ball, body.mesh.vertices()[v]));
+    }
+    EXPECT_LE(least, 1e-12);
+  }
+}
+
+TEST(AddEndBallsTest, OnlyWhatIsAskedForIndicesGoOnFromTheSet) {
+  const body::Body body =
+      BoxBody({{Segment::kHead, {0, 1.6, 0}}, {Segment::kLeftFoot, {0.1, 0, 0.1}}}, true);
+  PrimitiveSet set;
+  set.spheres.push_back({{0, 1, 0}, 0.1});
+  set.origins.emplace_back();
+  AddEndBalls(body, {true, true, true, true, false, false}, set);
+  ASSERT_EQ(set.spheres.size(), 2u);
+  EXPECT_EQ(set.origins[1].part, Part::kHead);
+  EXPECT_EQ(set.origins[1].mirror, 1);
+}
+
+}  // namespace
+}  // namespace capfit::capsule

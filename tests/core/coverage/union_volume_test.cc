@@ -1,0 +1,116 @@
+#include "core/coverage/union_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "tests/core/coverage/tube_body.h"
+
+namespace capfit::coverage {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Exact along each column of a fine grid.
+double ColumnVolume(const capsule::PrimitiveSet& set, double step) {
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set);
+  double volume = 0.0;
+  std::vector<std::pair<double, double>> hits;
+  for (double x = -1.0 + 0.5 * step; x < 1.0; x += step) {
+    for (double y = -0.3 + 0.5 * step; y < 1.9; y += step) {
+      hits.clear();
+      for (const geometry::TaperedCapsule& solid : solids) {
+        const auto inside = solid.Intersect({x, y, 0}, {0, 0, 1});
+        if (inside) hits.emplace_back(inside->begin, inside->end);
+      }
+      std::sort(hits.begin(), hits.end());
+      double reached = -1e9;
+      for (const auto& [begin, end] : hits) {
+        volume += std::max(0.0, end - std::max(begin, reached));
+        reached = std::max(reached, end);
+      }
+    }
+  }
+  return volume * step * step;
+}
+
+TEST(UnionVolumeTest, OneBallInClosedForm) {
+  capsule::PrimitiveSet set;
+  set.spheres = {{{0.3, 1.0, -0.2}, 0.25}};
+  set.origins.resize(1);
+  const SetVariables variables(set);
+  const VolumeGradient gradient =
+      UnionVolumeGradient(set, variables.solids(), 0.01, 1, ThreadPool(1));
+  EXPECT_NEAR(gradient.volume_m3, 4.0 / 3.0 * kPi * 0.015625, 1e-9);
+  EXPECT_NEAR(gradient.area_m2, 4.0 * kPi * 0.0625, 1e-9);
+  EXPECT_NEAR(gradient.by_sphere[0].w(), 4.0 * kPi * 0.0625, 1e-9);
+  EXPECT_LT(gradient.by_sphere[0].head<3>().norm(), 1e-3);
+}
+
+TEST(UnionVolumeTest, AHiddenBallDoesNotCount) {
+  capsule::PrimitiveSet set;
+  set.spheres = {{{0, 1, 0}, 0.3}, {{0.1, 1, 0}, 0.1}};
+  set.origins.resize(2);
+  const SetVariables variables(set);
+  const VolumeGradient gradient =
+      UnionVolumeGradient(set, variables.solids(), 0.01, 1, ThreadPool(1));
+  EXPECT_EQ(gradient.by_sphere[1].norm(), 0.0);
+  EXPECT_NEAR(gradient.volume_m3, 4.0 / 3.0 * kPi * 0.027, 1e-6);  // sampled
+}
+
+TEST(UnionVolumeTest, ACapsuleHasItsVolumeAndItsLengthsDerivative) {
+  capsule::PrimitiveSet set;
+  set.spheres = {{{0, 0.5, 0}, 0.1}, {{0, 1.2, 0}, 0.1}};
+  set.origins.resize(2);
+  set.capsules = {{0, 1}};
+  const SetVariables variables(set);
+  const VolumeGradient gradient =
+      UnionVolumeGradient(set, variables.solids(), 0.004, 1, ThreadPool(1));
+  EXPECT_NEAR(gradient.volume_m3, set.Capsule(0).Volume_m3(), 2e-3 * gradient.volume_m3);
+  EXPECT_NEAR(gradient.by_sphere[1].y(), kPi * 0.01, 1e-3);  // pi r^2 per metre of length
+  EXPECT_NEAR(gradient.by_sphere[0].y(), -kPi * 0.01, 1e-3);
+}
+
+TEST(UnionVolumeTest, GradientMatchesDifferencesOfTheVolume) {
+  const TubeBody body = MakeTubeBody(5, 0.0);
+  capsule::PrimitiveSet set = body.set;
+  const SetVariables variables(set);
+  const VolumeGradient gradient =
+      UnionVolumeGradient(set, variables.solids(), 0.003, 1, ThreadPool(2));
+  EXPECT_NEAR(gradient.volume_m3, ColumnVolume(set, 0.004), 0.01 * gradient.volume_m3);
+  const double step = 2e-3;
+  for (const std::size_t sphere : {std::size_t{0}, std::size_t{2}, std::size_t{8}}) {
+    for (int k = 0; k < 4; ++k) {
+      const auto shifted = [&](double by) {
+        capsule::PrimitiveSet moved = set;
+        if (k < 3) {
+          moved.spheres[sphere].center_m[k] += by;
+        } else {
+          moved.spheres[sphere].radius_m += by;
+        }
+        return ColumnVolume(moved, 0.004);
+      };
+      const double slope = (shifted(step) - shifted(-step)) / (2 * step);
+      EXPECT_NEAR(gradient.by_sphere[sphere][k], slope, 2e-3) << sphere << " " << k;
+    }
+  }
+}
+
+TEST(UnionVolumeTest, SameBitsForAnyNumberOfThreads) {
+  TubeBody body = MakeTubeBody(6, 0.0);
+  const SetVariables variables(body.set);
+  const VolumeGradient one =
+      UnionVolumeGradient(body.set, variables.solids(), 0.01, 3, ThreadPool(1));
+  const VolumeGradient seven =
+      UnionVolumeGradient(body.set, variables.solids(), 0.01, 3, ThreadPool(7));
+  EXPECT_EQ(one.volume_m3, seven.volume_m3);
+  for (std::size_t i = 0; i < one.by_sphere.size(); ++i) {
+    EXPECT_EQ(one.by_sphere[i], seven.by_sphere[i]);
+  }
+}
+
+}  // namespace
+}  // namespace capfit::coverage
