@@ -12,13 +12,13 @@ set -euo pipefail
 build=(
   g++ cmake ninja-build ccache pkg-config ca-certificates
   libabsl-dev libgrpc++-dev protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libssl-dev
-  libopenmesh-dev libtinygltf-dev libeigen3-dev libtbb-dev
+  libopenmesh-dev libeigen3-dev libtbb-dev
   libspdlog-dev libcli11-dev nlohmann-json3-dev libcairo2-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 test=(python3 python3-grpcio python3-protobuf npm git)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3)
-run=(libgrpc++1.51 libtinygltf2d libtbb12 libspdlog1.10 libcairo2)
+run=(libgrpc++1.51 libtbb12 libspdlog1.10 libcairo2)
 
 wanted=()
 for group in "${@:-build}"; do
