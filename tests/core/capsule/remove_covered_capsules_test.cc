@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/base/random.h"
@@ -138,14 +140,6 @@ TEST(RemoveCoveredCapsulesTest, ACapsuleWhoseInsideNobodyElseFillsStays) {
   PrimitiveSet set = SetOf(spheres, capsules);
   RemoveCoveredCapsules(set);
   EXPECT_THAT(set.capsules, Contains(CapsuleEnds{0, 1}));
-  // With a core it is not needed any more.
-  const int first = static_cast<int>(spheres.size());
-  spheres.push_back({{0, -0.8, 0}, 0.4});
-  spheres.push_back({{0, 0.8, 0}, 0.4});
-  capsules.push_back({first, first + 1});
-  set = SetOf(spheres, capsules);
-  RemoveCoveredCapsules(set);
-  EXPECT_THAT(set.capsules, Not(Contains(CapsuleEnds{0, 1})));
 }
 
 TEST(RemoveCoveredCapsulesProperty, WhatIsGoneWasCoveredToTheTolerance) {
