@@ -88,6 +88,8 @@ ServerProcess::~ServerProcess() {
 
 void ServerProcess::Signal(int signal) const { kill(pid_, signal); }
 
+std::string ServerProcess::Log() const { return ReadText(scratch_.Path("err")); }
+
 int ServerProcess::Wait() {
   const int exit_code = WaitFor(pid_);
   pid_ = -1;

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <limits>
+#include <thread>
 
 #include "capfit/v1/service.grpc.pb.h"
 #include "client/body_client.h"
@@ -137,6 +138,16 @@ TEST(ServerProcess, MisuseOfTheStreamIsNamed) {
   }
 }
 
+// Whether the server's log shows that a fit ended with `status` before its end, within five
+// seconds.
+bool LogsSoon(const ServerProcess& server, const std::string& status) {
+  for (int i = 0; i < 500; ++i) {
+    if (server.Log().find("status=" + status) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
 // Uploads a large mannequin and gives up after the first progress message.
 void CancelAfterFirstProgress(const ServerProcess& server, const mesh::PolygonSoup& soup) {
   const auto stub = v1::BodyApproximationService::NewStub(ChannelTo(server));
@@ -169,6 +180,7 @@ void CancelAfterFirstProgress(const ServerProcess& server, const mesh::PolygonSo
 TEST(ServerProcess, ACancelledFitMakesRoomForTheNext) {
   const ServerProcess server({"--max-concurrent-fits", "1", "--max-queued-fits", "0"});
   CancelAfterFirstProgress(server, Mannequin(60'000));
+  EXPECT_TRUE(LogsSoon(server, "CANCELLED")) << server.Log();
   // The only place is free again as soon as the core has seen the cancel.
   const auto begin = std::chrono::steady_clock::now();
   absl::Status status;
@@ -190,6 +202,7 @@ TEST(ServerProcess, ADeadlineEndsTheFit) {
                 .status()
                 .code(),
             absl::StatusCode::kDeadlineExceeded);
+  EXPECT_TRUE(LogsSoon(server, "DEADLINE_EXCEEDED")) << server.Log();
   // And the server goes on.
   EXPECT_TRUE(client::BodyClient(ChannelTo(server)).GetServerInfo().ok());
 }
