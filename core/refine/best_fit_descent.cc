@@ -7,11 +7,11 @@
 #include "core/base/random.h"
 #include "core/refine/boundary_integral.h"
 #include "core/refine/cone.h"
+#include "core/refine/internal.h"
 
 namespace capfit::refine {
 namespace {
 
-constexpr double kLeastRadiusM = 0.003;
 constexpr double kMeanDecay = 0.9;
 constexpr double kSquareDecay = 0.95;
 

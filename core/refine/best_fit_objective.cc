@@ -5,15 +5,14 @@
 
 #include "core/refine/best_fit_descent.h"
 #include "core/refine/cone.h"
+#include "core/refine/internal.h"
 
 namespace capfit::refine {
 namespace {
 
-constexpr double kLeafDistanceM = 0.04;  // between the points where leaves are tried
-constexpr double kLeastMissM = 0.002;    // points nearer to the set than this need no leaf
-constexpr int kTrialSteps = 24;
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
+constexpr double kBestFitLeafDistanceM = 0.04;  // between the points where leaves are tried
+constexpr double kLeastMissM = 0.002;           // points nearer to the set than this need no leaf
+constexpr int kBestFitTrialSteps = 24;
 
 class BestFitRound final : public Objective::Round {
  public:
@@ -23,7 +22,7 @@ class BestFitRound final : public Objective::Round {
   double Try(EditedGraph& edited) const override {
     const std::vector<char> active = Neighbourhood(edited.graph, edited.touched, 1);
     BestFitOptions options;
-    options.steps = kTrialSteps;
+    options.steps = kBestFitTrialSteps;
     options.first_rate_m = 0.004;
     options.last_rate_m = 0.0003;
     options.seed = seed_;
@@ -72,7 +71,7 @@ std::vector<Eigen::Vector3d> BestFitObjective::WorstPoints(const CapsuleGraph& g
     positions.push_back(points_.At(i).position_m.cast<double>());
     scores.push_back(deepest.excess_m[U(i)]);
   }
-  return BestApart(positions, scores, kLeafDistanceM, count);
+  return BestApart(positions, scores, kBestFitLeafDistanceM, count);
 }
 
 }  // namespace capfit::refine

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/refine/internal.h"
+
 namespace capfit::refine {
 namespace {
 
@@ -14,10 +16,6 @@ constexpr double kGoldenShare = 0.6180339887498949;
 constexpr int kMaxSamples = 512;  // on one ring or one end
 
 using Vec3 = Eigen::Vector3d;
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
-
-double Fraction(double x) { return x - std::floor(x); }
 
 // One ring or one end sphere: normals in a local frame, points in space, what is visible.
 struct Patch {

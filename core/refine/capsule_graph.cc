@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/refine/internal.h"
+
 namespace capfit::refine {
 namespace {
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
 
 Eigen::Vector3d Mirrored(const Eigen::Vector3d& p) { return {-p.x(), p.y(), p.z()}; }
 
 }  // namespace
 
 bool CapsuleGraph::HasEdge(int a, int b) const {
-  const auto [low, high] = std::minmax(a, b);
+  const int low = std::min(a, b);
+  const int high = std::max(a, b);
   return std::any_of(edges.begin(), edges.end(),
                      [&](const Edge& e) { return e.a == low && e.b == high; });
 }

@@ -7,14 +7,14 @@
 #include <limits>
 #include <utility>
 
+#include "core/refine/internal.h"
+
 namespace capfit::refine {
 namespace {
 
 constexpr int kBlockSize = 48;
 constexpr float kOffset = 8.0f;        // makes all coordinates positive
 constexpr float kCurveCells = 256.0f;  // per metre
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
 
 // Spreads 21 bits so that two zero bits follow each.
 std::uint64_t Spread(std::uint64_t v) {

@@ -8,19 +8,15 @@
 #include "core/refine/boundary_integral.h"
 #include "core/refine/cone.h"
 #include "core/refine/interior_point.h"
+#include "core/refine/internal.h"
 
 namespace capfit::refine {
 namespace {
 
-constexpr double kLeastRadiusM = 0.003;
 constexpr double kMaxReachM = 0.02;    // linearisation is worthless beyond
 constexpr double kLeastReachM = 2e-4;  // the end
 constexpr double kRowReach = 2.0;      // points deeper than this many reaches cannot get out
 constexpr int kMaxInnerIterations = 25;
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
-
-double Fraction(double x) { return x - std::floor(x); }
 
 // A set with what its gradient and its points say.
 struct State {

@@ -5,17 +5,16 @@
 
 #include "core/refine/cone.h"
 #include "core/refine/enclosing_descent.h"
+#include "core/refine/internal.h"
 #include "core/refine/occupancy_grid.h"
 
 namespace capfit::refine {
 namespace {
 
-constexpr double kPenalty = 12.0;        // body volumes per metre outside
-constexpr double kVolumeCellM = 0.008;   // when volumes are compared
-constexpr double kLeafDistanceM = 0.03;  // between the points where leaves are tried
-constexpr int kTrialSteps = 4;
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
+constexpr double kPenalty = 12.0;                 // body volumes per metre outside
+constexpr double kVolumeCellM = 0.008;            // when volumes are compared
+constexpr double kEnclosingLeafDistanceM = 0.03;  // between the points where leaves are tried
+constexpr int kEnclosingTrialSteps = 4;
 
 class EnclosingRound final : public Objective::Round {
  public:
@@ -34,7 +33,7 @@ class EnclosingRound final : public Objective::Round {
     box.extend(ReachOf(edited.graph, active));
     const double old_value = ValueIn(before_, near, box);
     EnclosingOptions options;
-    options.max_steps = kTrialSteps;
+    options.max_steps = kEnclosingTrialSteps;
     options.reach_m = 0.006;
     options.row_cell_m = 0.018;
     options.gap_share = 0.03;
@@ -110,7 +109,7 @@ std::vector<Eigen::Vector3d> EnclosingObjective::WorstPoints(const CapsuleGraph&
     positions.push_back(points_.At(i).position_m.cast<double>());
     scores.push_back(prices[U(i)]);
   }
-  return BestApart(positions, scores, kLeafDistanceM, count);
+  return BestApart(positions, scores, kEnclosingLeafDistanceM, count);
 }
 
 }  // namespace capfit::refine

@@ -5,11 +5,10 @@
 #include <limits>
 
 #include "core/refine/cone.h"
+#include "core/refine/internal.h"
 
 namespace capfit::refine {
 namespace {
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
 
 // A new sphere nearer to the mid-plane than this share of its radius is put on it.
 constexpr double kOnPlaneShare = 0.3;

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "core/refine/graph_edit.h"
+#include "core/refine/internal.h"
 
 namespace capfit::refine {
 namespace {
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
 
 // Spheres whose surfaces come within this share of their radii are worth a capsule's trial.
 constexpr double kLinkReach = 1.1;

@@ -6,14 +6,14 @@
 #include <optional>
 #include <vector>
 
+#include "core/refine/internal.h"
+
 namespace capfit::refine {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kLeastRadiusM = 0.006;
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
+constexpr double kLeastHungRadiusM = 0.006;
 
 body::Part PartOf(BoneId bone, Side side) {
   const auto of_side = [side](body::Part left) {
@@ -77,7 +77,7 @@ class Hanger {
       chain_has_sphere_[U(static_cast<int>(part))] = true;
     }
     const double radius = node.radius * skeleton_.bone(node.bone, side)->radius_m;
-    return graph_.AddNode(*center, std::max(kLeastRadiusM, radius), !node.paired);
+    return graph_.AddNode(*center, std::max(kLeastHungRadiusM, radius), !node.paired);
   }
 
   void AddEdge(const LayoutEdge& edge) {
@@ -99,7 +99,7 @@ class Hanger {
     int last = -1;
     for (const double share : {0.05, 0.5, 0.95}) {
       const Vec3 center = chain->PointAt(share * chain->length_m());
-      const int v = graph_.AddNode(center, std::max(kLeastRadiusM, SkinDistance(center)),
+      const int v = graph_.AddNode(center, std::max(kLeastHungRadiusM, SkinDistance(center)),
                                    part == body::Part::kTorso);
       if (last >= 0) graph_.AddEdge(last, v);
       last = v;
@@ -108,7 +108,7 @@ class Hanger {
 
   void AddBall() {
     const Vec3 center = 0.5 * (body_.mesh.box_min() + body_.mesh.box_max());
-    graph_.AddNode(center, std::max(kLeastRadiusM, SkinDistance(center)), true);
+    graph_.AddNode(center, std::max(kLeastHungRadiusM, SkinDistance(center)), true);
   }
 
   [[nodiscard]] double SkinDistance(const Vec3& point) const {

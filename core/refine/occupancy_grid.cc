@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/refine/cone.h"
+#include "core/refine/internal.h"
 
 namespace capfit::refine {
 namespace {
@@ -15,8 +16,6 @@ constexpr int kColumnsPerCell = 2;  // in x and in y
 constexpr double kColumnShiftX = 0.5123;
 constexpr double kColumnShiftY = 0.4871;
 constexpr int kMargin = 2;  // cells around the body
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
 
 OccupancyGrid EmptyGrid(const mesh::BodyMesh& mesh, double cell_m, bool folded) {
   OccupancyGrid grid;

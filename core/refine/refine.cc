@@ -14,6 +14,7 @@
 #include "core/refine/enclosing_descent.h"
 #include "core/refine/enclosing_objective.h"
 #include "core/refine/growth.h"
+#include "core/refine/internal.h"
 #include "core/refine/layout.h"
 #include "core/refine/occupancy_grid.h"
 
@@ -27,8 +28,6 @@ constexpr double kThinnedCellM = 0.012;  // of the points that growing works on
 constexpr double kFoldCellM = 2e-5;      // mirrored vertices this close count as one
 constexpr int kNoLimit = 1'000'000;
 constexpr int kClosingRounds = 3;
-
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
 
 Spending SpendingOf(const circle::Budget& budget) {
   return {std::min(budget.max_primitives, kNoLimit), std::min(budget.max_spheres, kNoLimit),

@@ -1,0 +1,20 @@
+// What the sources of this room share.
+#ifndef CAPFIT_CORE_REFINE_INTERNAL_H_
+#define CAPFIT_CORE_REFINE_INTERNAL_H_
+
+#include <cmath>
+#include <cstddef>
+
+namespace capfit::refine {
+
+// No sphere gets smaller than this while it is refined.
+inline constexpr double kLeastRadiusM = 0.003;
+
+[[nodiscard]] constexpr std::size_t U(int i) { return static_cast<std::size_t>(i); }
+
+// What is left of x above its next lower integer, in [0, 1).
+[[nodiscard]] inline double Fraction(double x) { return x - std::floor(x); }
+
+}  // namespace capfit::refine
+
+#endif  // CAPFIT_CORE_REFINE_INTERNAL_H_
