@@ -21,7 +21,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "frames are little-endian float32");
 
-struct Arguments {
+struct AnimateArguments {
   std::string body;
   std::string weights;
   std::string frames;
@@ -31,7 +31,7 @@ struct Arguments {
 
 using Centers = std::vector<Eigen::Vector3d>;
 
-absl::Status CheckVertexCount(const Arguments& arguments, const skinning::DenseWeights& weights) {
+absl::Status CheckVertexCount(const AnimateArguments& arguments, const skinning::DenseWeights& weights) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string file, ReadFileBytes(arguments.body));
   CAPFIT_ASSIGN_OR_RETURN(
       const mesh::PolygonSoup soup,
@@ -52,7 +52,7 @@ absl::StatusOr<bool> ReadFrame(std::istream& in, std::size_t frame, std::vector<
                       absl::StrCat("has ", in.gcount(), " bytes, must have ", bytes));
 }
 
-absl::StatusOr<std::vector<Centers>> MoveCenters(const Arguments& arguments,
+absl::StatusOr<std::vector<Centers>> MoveCenters(const AnimateArguments& arguments,
                                                  const skinning::DenseWeights& weights) {
   std::ifstream in(arguments.frames, std::ios::binary);
   if (!in) return absl::NotFoundError(absl::StrCat("cannot read ", arguments.frames));
@@ -96,7 +96,7 @@ std::string AsJson(const std::vector<Centers>& frames) {
   return text + "\n]}\n";
 }
 
-absl::Status Run(const Arguments& arguments) {
+absl::Status RunAnimate(const AnimateArguments& arguments) {
   CAPFIT_ASSIGN_OR_RETURN(const skinning::DenseWeights weights, ReadWeights(arguments.weights));
   CAPFIT_RETURN_IF_ERROR(CheckVertexCount(arguments, weights));
   CAPFIT_ASSIGN_OR_RETURN(const std::vector<Centers> frames, MoveCenters(arguments, weights));
@@ -110,7 +110,7 @@ absl::Status Run(const Arguments& arguments) {
 }  // namespace
 
 void AddAnimateCommand(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<AnimateArguments>();
   CLI::App* const command = app.add_subcommand(
       "animate", "Carry the sphere centres along with the body's moved vertices");
   command->add_option("BODY", arguments->body, "Mesh file that was fitted")->required();
@@ -129,7 +129,7 @@ void AddAnimateCommand(CLI::App& app, int& exit_code) {
   command->add_option("--threads", arguments->threads, "Threads; 0: one per core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  command->callback([arguments, &exit_code] { exit_code = Report(Run(*arguments)); });
+  command->callback([arguments, &exit_code] { exit_code = Report(RunAnimate(*arguments)); });
 }
 
 }  // namespace capfit::client

@@ -19,7 +19,7 @@
 namespace capfit::client {
 namespace {
 
-struct Arguments {
+struct ApproximateArguments {
   std::string body;
   std::string output;
   std::string server = "127.0.0.1:50051";
@@ -35,7 +35,7 @@ struct Arguments {
 absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
                                             mesh::MeshFormat format,
                                             const pipeline::FitOptions& options,
-                                            const Arguments& arguments, ProgressLine& progress) {
+                                            const ApproximateArguments& arguments, ProgressLine& progress) {
   CAPFIT_RETURN_IF_ERROR(pipeline::ValidateOptions(options));
   CAPFIT_ASSIGN_OR_RETURN(const mesh::PolygonSoup soup, mesh::ReadMesh(bytes, format));
   return pipeline::Fit(soup, options, ThreadPool(arguments.threads), progress);
@@ -44,7 +44,7 @@ absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
 absl::StatusOr<pipeline::FitResult> FitThere(std::span<const std::byte> bytes,
                                              mesh::MeshFormat format,
                                              const pipeline::FitOptions& options,
-                                             const Arguments& arguments, ProgressLine& progress) {
+                                             const ApproximateArguments& arguments, ProgressLine& progress) {
   CallOptions call;
   call.timeout_seconds = arguments.timeout_seconds;
   call.request_id = arguments.request_id;
@@ -52,7 +52,7 @@ absl::StatusOr<pipeline::FitResult> FitThere(std::span<const std::byte> bytes,
   return BodyClient::Connect(arguments.server).ApproximateFile(bytes, format, options, call);
 }
 
-absl::StatusOr<pipeline::FitResult> FitBody(const Arguments& arguments) {
+absl::StatusOr<pipeline::FitResult> FitBody(const ApproximateArguments& arguments) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string file, ReadFileBytes(arguments.body));
   CAPFIT_ASSIGN_OR_RETURN(const pipeline::FitOptions options, OptionsOf(arguments.fit));
   const mesh::MeshFormat format = mesh::FormatFromFileName(arguments.body);
@@ -62,7 +62,7 @@ absl::StatusOr<pipeline::FitResult> FitBody(const Arguments& arguments) {
                             : FitThere(bytes, format, options, arguments, progress);
 }
 
-absl::Status Run(const Arguments& arguments) {
+absl::Status RunApproximate(const ApproximateArguments& arguments) {
   CAPFIT_ASSIGN_OR_RETURN(const pipeline::FitResult result, FitBody(arguments));
   CAPFIT_RETURN_IF_ERROR(FileProblem(WriteFileBytes(arguments.output, FormatResult(result))));
   if (result.weights) {
@@ -72,7 +72,7 @@ absl::Status Run(const Arguments& arguments) {
   return absl::OkStatus();
 }
 
-void AddPlaceFlags(CLI::App& command, Arguments& arguments) {
+void AddPlaceFlags(CLI::App& command, ApproximateArguments& arguments) {
   CLI::Option* const server =
       command.add_option("--server", arguments.server, "HOST:PORT of the server that fits")
           ->capture_default_str();
@@ -94,7 +94,7 @@ void AddPlaceFlags(CLI::App& command, Arguments& arguments) {
 }  // namespace
 
 void AddApproximateCommand(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ApproximateArguments>();
   CLI::App* const command = app.add_subcommand(
       "approximate", "Fit spheres and tapered capsules to a body; write RESULT.json");
   command->add_option("BODY", arguments->body, "Mesh file: .obj, .ply, .stl, .off or .glb")
@@ -106,7 +106,7 @@ void AddApproximateCommand(CLI::App& app, int& exit_code) {
                     "Write the feature polygons with their circles too");
   command->add_flag("--progress", arguments->progress, "Show progress though no terminal reads it");
   command->add_flag("--quiet", arguments->quiet, "Print no table");
-  command->callback([arguments, &exit_code] { exit_code = Report(Run(*arguments)); });
+  command->callback([arguments, &exit_code] { exit_code = Report(RunApproximate(*arguments)); });
 }
 
 }  // namespace capfit::client

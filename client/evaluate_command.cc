@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kGapToleranceM = 1e-4;
 
-struct Arguments {
+struct EvaluateArguments {
   std::string body;
   std::string result;
   body::BodyOptions frame;
@@ -33,7 +33,7 @@ struct Arguments {
   bool as_json = false;
 };
 
-absl::StatusOr<body::Body> LoadBody(const Arguments& arguments, const ThreadPool& pool) {
+absl::StatusOr<body::Body> LoadBody(const EvaluateArguments& arguments, const ThreadPool& pool) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string file, ReadFileBytes(arguments.body));
   CAPFIT_ASSIGN_OR_RETURN(
       const mesh::PolygonSoup soup,
@@ -98,7 +98,7 @@ std::string MetricsJson(const metrics::Metrics& m) {
          "\n";
 }
 
-absl::Status Run(const Arguments& arguments) {
+absl::Status RunEvaluate(const EvaluateArguments& arguments) {
   const ThreadPool pool(arguments.threads);
   CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(arguments.result));
   CAPFIT_ASSIGN_OR_RETURN(const ResultSet result, ParseResultSet(text));
@@ -116,7 +116,7 @@ absl::Status Run(const Arguments& arguments) {
 }  // namespace
 
 void AddEvaluateCommand(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* const command =
       app.add_subcommand("evaluate", "Measure a result, of capfit or of any other program");
   command->add_option("BODY", arguments->body, "Mesh file")->required();
@@ -130,7 +130,7 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->add_flag("--json", arguments->as_json, "Print JSON instead of a table");
-  command->callback([arguments, &exit_code] { exit_code = Report(Run(*arguments)); });
+  command->callback([arguments, &exit_code] { exit_code = Report(RunEvaluate(*arguments)); });
 }
 
 }  // namespace capfit::client

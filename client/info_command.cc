@@ -13,12 +13,12 @@
 namespace capfit::client {
 namespace {
 
-struct Arguments {
+struct InfoArguments {
   std::string server = "127.0.0.1:50051";
   double timeout_seconds = 10.0;
 };
 
-absl::Status Run(const Arguments& arguments) {
+absl::Status RunInfo(const InfoArguments& arguments) {
   CAPFIT_ASSIGN_OR_RETURN(
       const v1::GetServerInfoResponse info,
       BodyClient::Connect(arguments.server).GetServerInfo(arguments.timeout_seconds));
@@ -36,14 +36,14 @@ absl::Status Run(const Arguments& arguments) {
 }  // namespace
 
 void AddInfoCommand(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<InfoArguments>();
   CLI::App* const command =
       app.add_subcommand("info", "Show version, limits, formats, engines and features of a server");
   command->add_option("--server", arguments->server, "HOST:PORT")->capture_default_str();
   command->add_option("--timeout", arguments->timeout_seconds, "Seconds to wait")
       ->check(CLI::Range(0.001, 3600.0))
       ->capture_default_str();
-  command->callback([arguments, &exit_code] { exit_code = Report(Run(*arguments)); });
+  command->callback([arguments, &exit_code] { exit_code = Report(RunInfo(*arguments)); });
 }
 
 }  // namespace capfit::client

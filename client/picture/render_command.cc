@@ -23,7 +23,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Arguments {
+struct RenderArguments {
   std::string body;
   std::string result;
   std::string output;
@@ -52,7 +52,7 @@ const std::map<std::string, NamedView>& Views() {
   return *views;
 }
 
-absl::Status CheckArguments(const Arguments& arguments) {
+absl::Status CheckArguments(const RenderArguments& arguments) {
   const std::string ending = FileEnding(arguments.output);
   if (ending != ".png" && ending != ".svg") {
     return InvalidField("output",
@@ -128,7 +128,7 @@ struct Inputs {
   Eigen::Matrix3d turn;
 };
 
-Scene StillScene(const Arguments& arguments, const Inputs& in,
+Scene StillScene(const RenderArguments& arguments, const Inputs& in,
                  const std::vector<Vector3d>& centers) {
   Scene scene;
   scene.figures.push_back(std::make_unique<Figure>(
@@ -141,7 +141,7 @@ Scene StillScene(const Arguments& arguments, const Inputs& in,
   return scene;
 }
 
-absl::StatusOr<Scene> AnimatedScene(const Arguments& arguments, const Inputs& in) {
+absl::StatusOr<Scene> AnimatedScene(const RenderArguments& arguments, const Inputs& in) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string frames, ReadFileBytes(arguments.frames));
   CAPFIT_ASSIGN_OR_RETURN(const std::string centers, ReadFileBytes(arguments.centers));
   Scene scene;
@@ -188,7 +188,7 @@ PictureUp ToUp(const std::string& word) {
   return word == "z" ? PictureUp::kZ : PictureUp::kAuto;
 }
 
-absl::StatusOr<Inputs> ReadInputs(const Arguments& arguments) {
+absl::StatusOr<Inputs> ReadInputs(const RenderArguments& arguments) {
   Inputs in;
   CAPFIT_ASSIGN_OR_RETURN(const std::string body, ReadFileBytes(arguments.body));
   CAPFIT_ASSIGN_OR_RETURN(in.soup, mesh::ReadMesh(std::as_bytes(std::span(body)),
@@ -202,7 +202,7 @@ absl::StatusOr<Inputs> ReadInputs(const Arguments& arguments) {
   return in;
 }
 
-PictureOptions ToPictureOptions(const Arguments& arguments, const ResultSet& result) {
+PictureOptions ToPictureOptions(const RenderArguments& arguments, const ResultSet& result) {
   PictureOptions options;
   options.width = arguments.width;
   options.height = arguments.height;
@@ -218,7 +218,7 @@ PictureOptions ToPictureOptions(const Arguments& arguments, const ResultSet& res
   return options;
 }
 
-absl::Status Run(const Arguments& arguments) {
+absl::Status RunRender(const RenderArguments& arguments) {
   CAPFIT_RETURN_IF_ERROR(CheckArguments(arguments));
   CAPFIT_ASSIGN_OR_RETURN(const Inputs in, ReadInputs(arguments));
   Scene scene;
@@ -237,7 +237,7 @@ absl::Status Run(const Arguments& arguments) {
   return WriteFileBytes(arguments.output, bytes);
 }
 
-void AddAnimationOptions(CLI::App& command, Arguments& arguments) {
+void AddAnimationOptions(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--frames", arguments.frames,
                      "Deformed vertices: float32, frames x vertices x 3");
   command.add_option("--centers", arguments.centers,
@@ -250,7 +250,7 @@ void AddAnimationOptions(CLI::App& command, Arguments& arguments) {
 }  // namespace
 
 void AddRenderCommand(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RenderArguments>();
   CLI::App* const command =
       app.add_subcommand("render", "Draw a body with its primitives as a PNG or SVG picture");
   command->add_option("body", arguments->body, "Mesh file")->required();
@@ -277,7 +277,7 @@ void AddRenderCommand(CLI::App& app, int& exit_code) {
   command->add_option("--mm-per-unit", arguments->mm_per_unit, "Length of the mesh's unit in mm")
       ->capture_default_str();
   AddAnimationOptions(*command, *arguments);
-  command->callback([arguments, &exit_code] { exit_code = ReportStatus(Run(*arguments)); });
+  command->callback([arguments, &exit_code] { exit_code = ReportStatus(RunRender(*arguments)); });
 }
 
 }  // namespace capfit::client

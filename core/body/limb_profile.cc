@@ -31,7 +31,7 @@ constexpr double kGrowth = 60.0;
 constexpr double kTrunkReach = 0.17;
 
 // (1 2 1) / 4, ends fixed.
-void Smooth(Line& line, int times) {
+void SmoothLine(Line& line, int times) {
   for (int t = 0; t < times; ++t) {
     Line next = line;
     for (std::size_t i = 1; i + 1 < line.size(); ++i) {
@@ -193,7 +193,7 @@ LimbProfile MakeLimbProfile(std::span<const Eigen::Vector3d> points,
   Line line = RingCentroids(points, LimbTriangles(triangles, in_limb), extremities, limb);
   LimbProfile profile;
   if (line.size() < 8) return profile;
-  Smooth(line, 4);
+  SmoothLine(line, 4);
   Extend(line, kExtension * stature);
   const Eigen::Vector3d inner_end = line.back();
   for (const mesh::Triangle& t : triangles) {
@@ -209,7 +209,7 @@ LimbProfile MakeLimbProfile(std::span<const Eigen::Vector3d> points,
     centers.push_back(s.center);
   }
   if (centers.size() < 8) return profile;
-  Smooth(centers, 2);
+  SmoothLine(centers, 2);
   Extend(centers, kExtension * stature);
   profile.stations = CutAlong(surface, centers, stature, kSpacing);
   return profile;

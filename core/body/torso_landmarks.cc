@@ -18,7 +18,7 @@ constexpr double kCrotchRegion = 0.20;
 constexpr double kCrotchBehindThighs = 0.022;
 // The neck leans forward by about this angle; its sections are cut across that direction.
 constexpr double kNeckLeanRad = 0.30;
-constexpr double kLevelStep = 0.005;
+constexpr double kTrunkLevelStep = 0.005;
 // The neck is looked for from here above the armpits up to here below the top.
 constexpr double kNeckAboveArmpit = 0.05;
 constexpr double kNeckBelowTop = 0.08;
@@ -111,7 +111,7 @@ CutPlane NeckPlane(double y) {
 std::vector<NeckLevel> NeckLevels(const Shape& shape, double from_y) {
   std::vector<NeckLevel> levels;
   const double to_y = shape.top_m - (shape.has_head ? kNeckBelowTop * shape.stature_m : 0.0);
-  for (double y = from_y; y < to_y; y += kLevelStep * shape.stature_m) {
+  for (double y = from_y; y < to_y; y += kTrunkLevelStep * shape.stature_m) {
     auto loop = TrunkLoop(shape, NeckPlane(y));
     if (loop) levels.push_back({y, std::move(*loop)});
   }
@@ -173,7 +173,7 @@ void FindTrunkSections(const Shape& shape, Landmarks& landmarks) {
     }
   };
   Extreme hip, waist, bust;
-  for (double y = crotch + kHipFrom * stature; y < armpit; y += kLevelStep * stature) {
+  for (double y = crotch + kHipFrom * stature; y < armpit; y += kTrunkLevelStep * stature) {
     const auto loop = TrunkLoop(shape, Level(y));
     if (!loop) continue;
     const double above = (y - crotch) / stature;

@@ -8,7 +8,7 @@
 namespace capfit::circle {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kWholeTurn = 2.0 * std::numbers::pi;
 
 struct Span {
   double begin = 0.0;
@@ -33,13 +33,13 @@ std::vector<Span> Gaps(std::vector<Span> covered, double low, double high) {
 
 // Adds [begin, end] of the circle's angles, cut where it passes 2 pi.
 void AddAngles(double begin, double end, std::vector<Span>& spans) {
-  begin = std::fmod(std::fmod(begin, kTwoPi) + kTwoPi, kTwoPi);
-  end = std::fmod(std::fmod(end, kTwoPi) + kTwoPi, kTwoPi);
+  begin = std::fmod(std::fmod(begin, kWholeTurn) + kWholeTurn, kWholeTurn);
+  end = std::fmod(std::fmod(end, kWholeTurn) + kWholeTurn, kWholeTurn);
   if (begin <= end) {
     spans.push_back({begin, end});
   } else {
     spans.push_back({0.0, end});
-    spans.push_back({begin, kTwoPi});
+    spans.push_back({begin, kWholeTurn});
   }
 }
 
@@ -65,7 +65,7 @@ std::vector<Span> ExposedArcs(std::span<const Circle> circles, std::size_t i) {
     const double middle = std::atan2(to_other.y(), to_other.x());
     AddAngles(middle - half, middle + half, covered);
   }
-  return Gaps(std::move(covered), 0.0, kTwoPi);
+  return Gaps(std::move(covered), 0.0, kWholeTurn);
 }
 
 // Half the integral of x dy - y dx along an arc.
@@ -120,7 +120,7 @@ std::vector<double> Crossings(const Circle& circle, const section::Polygon& outl
       if (!(t > 0.0 && t < 1.0)) continue;
       const Eigen::Vector2d at = p + t * e - circle.center_m;
       const double angle = std::atan2(at.y(), at.x());
-      angles.push_back(angle < 0.0 ? angle + kTwoPi : angle);
+      angles.push_back(angle < 0.0 ? angle + kWholeTurn : angle);
     }
   }
   std::sort(angles.begin(), angles.end());

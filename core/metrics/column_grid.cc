@@ -13,7 +13,7 @@ namespace {
 using geometry::Interval;
 using geometry::TaperedCapsule;
 
-constexpr std::uint64_t kSeed = 20'180'000;
+constexpr std::uint64_t kColumnSeed = 20'180'000;
 // How far from its cell's middle a column may lie, as a share of the cell. Middles sum smooth
 // shapes five to ten times more exactly than random places; this much chance breaks the beat with
 // meshes whose vertices lie in rows, and costs no exactness that can be seen.
@@ -109,7 +109,7 @@ ColumnGrid MakeColumnGrid(const Eigen::AlignedBox3d& box, int columns) {
   grid.step_y = box.sizes().y() / static_cast<double>(count);
   grid.x.resize(count);
   grid.y.resize(count);
-  Random random(kSeed);
+  Random random(kColumnSeed);
   for (std::size_t i = 0; i < count / 2; ++i) {
     const double place = static_cast<double>(i) + random.NextIn(0.5 - kJitter, 0.5 + kJitter);
     grid.x[i] = grid.low_x + place * grid.step_x;

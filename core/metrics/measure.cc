@@ -14,7 +14,7 @@
 namespace capfit::metrics {
 namespace {
 
-constexpr std::uint64_t kSeed = 20'180'001;
+constexpr std::uint64_t kSurfaceSeed = 20'180'001;
 constexpr std::size_t kPointsPerChunk = 512;
 // A vertex counts as out when it is further out than this, in metres: what the paper's pictures, a
 // cloth engine's thickness and float rounding cannot tell from touching.
@@ -59,7 +59,7 @@ std::vector<Eigen::Vector3d> SampleSurface(std::span<const Eigen::Vector3d> poin
   }
   std::vector<Eigen::Vector3d> samples;
   samples.reserve(static_cast<std::size_t>(count));
-  Random random(kSeed);
+  Random random(kSurfaceSeed);
   std::size_t at = 0;
   for (int i = 0; i < count; ++i) {
     const double target = area * (i + random.NextUnit()) / count;

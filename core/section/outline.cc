@@ -51,17 +51,17 @@ std::vector<Run> OwnedRuns(const SectionLoop& loop, const BelongsTo& belongs) {
   return runs;
 }
 
-struct Candidate {
+struct LoopCandidate {
   std::vector<Eigen::Vector2d> points;
   double owned_length = 0.0;
   double area = 0.0;
 };
 
-Candidate CandidateFrom(const SectionLoop& loop, const BelongsTo& belongs) {
+LoopCandidate LoopCandidateFrom(const SectionLoop& loop, const BelongsTo& belongs) {
   const std::vector<Run> runs = OwnedRuns(loop, belongs);
   double longest = 0.0;
   for (const Run& run : runs) longest = std::max(longest, run.length);
-  Candidate candidate;
+  LoopCandidate candidate;
   for (const Run& run : runs) {
     if (run.length < kStrayShare * longest) continue;
     candidate.owned_length += run.length;
@@ -149,17 +149,17 @@ double SignedArea(std::span<const Eigen::Vector2d> points) {
 
 std::optional<std::vector<Eigen::Vector2d>> PartOutline(const std::vector<SectionLoop>& loops,
                                                         const BelongsTo& belongs) {
-  std::vector<Candidate> candidates;
+  std::vector<LoopCandidate> candidates;
   double longest = 0.0;
   for (const SectionLoop& loop : loops) {
-    Candidate candidate = CandidateFrom(loop, belongs);
+    LoopCandidate candidate = LoopCandidateFrom(loop, belongs);
     if (candidate.area <= 0.0) continue;  // nothing owned, or the wall of a hollow
     longest = std::max(longest, candidate.owned_length);
     candidates.push_back(std::move(candidate));
   }
-  Candidate* best = nullptr;
+  LoopCandidate* best = nullptr;
   double nearest = std::numeric_limits<double>::infinity();
-  for (Candidate& candidate : candidates) {
+  for (LoopCandidate& candidate : candidates) {
     if (candidate.owned_length < kFairShare * longest) continue;
     const double distance = DistanceFromOrigin(candidate.points);
     if (distance >= nearest) continue;

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using geometry::Sphere;
 using geometry::TaperedCapsule;
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 int CoveredSamples(const Raster& raster) {
   int count = 0;
@@ -31,10 +31,10 @@ TEST(ViewTest, FrontSideAndBackShowTheRightAxes) {
   EXPECT_NEAR(from_front.Project(left).x(), 110, 1e-9);
   EXPECT_NEAR(from_front.Project(front).z(), 1, 1e-9);
   EXPECT_NEAR(from_front.Project({0, 1, 0}).y(), 90, 1e-9);  // up is up
-  const View from_left(kPi / 2, Vector3d::Zero(), 100, 100, 10);
+  const View from_left(kHalfTurn / 2, Vector3d::Zero(), 100, 100, 10);
   EXPECT_NEAR(from_left.Project(left).z(), 1, 1e-9);
   EXPECT_NEAR(from_left.Project(front).x(), 90, 1e-9);
-  const View from_behind(kPi, Vector3d::Zero(), 100, 100, 10);
+  const View from_behind(kHalfTurn, Vector3d::Zero(), 100, 100, 10);
   EXPECT_NEAR(from_behind.Project(left).x(), 90, 1e-9);
 }
 
@@ -58,7 +58,7 @@ TEST(RasterTest, SphereCoversExactlyItsDisc) {
       ASSERT_EQ(raster.at(i, j).id >= 0, distance < 50.0) << i << ", " << j;
     }
   }
-  EXPECT_NEAR(CoveredSamples(raster), kPi * 50 * 50, 30);
+  EXPECT_NEAR(CoveredSamples(raster), kHalfTurn * 50 * 50, 30);
 }
 
 TEST(RasterTest, SphereIsAsNearAsItsSurface) {
@@ -78,7 +78,7 @@ TEST(RasterTest, CapsuleCoversTheAreaOfItsOutline) {
   const double cosine = std::sqrt(1 - sine * sine);
   const double lean = std::asin(sine);
   const double area =
-      ra * ra * (kPi / 2 + lean) + rb * rb * (kPi / 2 - lean) + (ra + rb) * length * cosine;
+      ra * ra * (kHalfTurn / 2 + lean) + rb * rb * (kHalfTurn / 2 - lean) + (ra + rb) * length * cosine;
   const View view(0.0, Vector3d::Zero(), 300, 150, 200);
   Raster raster(600, 300);
   raster.DrawCapsules(
@@ -96,7 +96,7 @@ TEST(RasterTest, NearerTriangleHidesTheOther) {
   EXPECT_NEAR(front.at(50, 50).depth, 1.0, 1e-6);
   EXPECT_EQ(front.at(1, 1).id, -1);
   Raster back(100, 100);
-  back.DrawMesh(vertices, triangles, View(kPi, Vector3d::Zero(), 50, 50, 40));
+  back.DrawMesh(vertices, triangles, View(kHalfTurn, Vector3d::Zero(), 50, 50, 40));
   EXPECT_EQ(back.at(50, 50).id, 0);
 }
 

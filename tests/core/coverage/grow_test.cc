@@ -10,7 +10,7 @@
 namespace capfit::coverage {
 namespace {
 
-const NullObserver kObserver;
+const NullObserver kSilent;
 
 Eigen::Vector3d RandomPoint(Random& random) {
   return {random.NextIn(-0.8, 0.8), random.NextIn(-0.1, 1.7), random.NextIn(-0.4, 0.4)};
@@ -68,13 +68,13 @@ TEST(GrowToAllTest, MeetsEveryDemandInAtMostOneStepEach) {
     capsule::PrimitiveSet set = body.set;
     std::vector<Demand> demands;
     for (int i = 0; i < 300; ++i) demands.push_back({RandomPoint(random), -1e-6});
-    const int steps = GrowToAll(demands, kObserver, set);
+    const int steps = GrowToAll(demands, kSilent, set);
     EXPECT_GT(steps, 0);
     EXPECT_LE(steps, 300);
     for (const Demand& demand : demands) {
       EXPECT_LE(DistanceToUnion(set, demand.point_m), 0.0);
     }
-    EXPECT_EQ(GrowToAll(demands, kObserver, set), 0);
+    EXPECT_EQ(GrowToAll(demands, kSilent, set), 0);
   }
 }
 

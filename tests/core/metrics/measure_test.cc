@@ -21,7 +21,7 @@ using std::numbers::pi;
 
 constexpr body::PartSelection kAllParts = {true, true, true, true, true, true};
 
-const ThreadPool& OneThread() {
+const ThreadPool& SingleThread() {
   static const ThreadPool pool(1);
   return pool;
 }
@@ -43,7 +43,7 @@ capsule::PrimitiveSet SetOf(std::vector<Sphere> spheres,
 Metrics MeasureAll(const body::Body& body, const capsule::PrimitiveSet& set,
                    MeasureOptions options = {}) {
   options.parts = kAllParts;
-  return Measure(body, set, options, OneThread(), NullObserver());
+  return Measure(body, set, options, SingleThread(), NullObserver());
 }
 
 double BallVolume(double radius) { return 4.0 / 3.0 * pi * radius * radius * radius; }
@@ -135,7 +135,7 @@ body::Body Tower() {
 }
 
 Metrics MeasureWithoutHead(const body::Body& body, const capsule::PrimitiveSet& set) {
-  return Measure(body, set, {}, OneThread(), NullObserver());  // parts: no head by default
+  return Measure(body, set, {}, SingleThread(), NullObserver());  // parts: no head by default
 }
 
 TEST(MeasurePartsTest, AFullSetCoversTheFittedPartsAndIsOutsideOfNothingLeftOut) {
@@ -270,7 +270,7 @@ TEST(MeasureTest, AnEmptySetCoversNothing) {
 TEST(SignedGapsTest, AreTheSignedDistancesOfTheVertices) {
   const body::Body body = BodyOf(UnitCube());
   const capsule::PrimitiveSet set = SetOf({{{0, 0, 0}, 0.6}, {{0.4, 0.4, 0.4}, 0.2}});
-  const std::vector<double> gaps = SignedGaps(body, set, OneThread());
+  const std::vector<double> gaps = SignedGaps(body, set, SingleThread());
   ASSERT_EQ(gaps.size(), body.mesh.vertices().size());
   for (std::size_t v = 0; v < gaps.size(); ++v) {
     const Vector3d& p = body.mesh.vertices()[v];
