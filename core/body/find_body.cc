@@ -17,6 +17,7 @@
 #include "core/body/mirror.h"
 #include "core/body/segments.h"
 #include "core/body/shape.h"
+#include "core/body/snap.h"
 #include "core/body/surface_graph.h"
 #include "core/body/working_copy.h"
 
@@ -48,17 +49,22 @@ void TurnToCallersSides(const BodyOptions& options, const WorkingCopy& copy,
   for (const auto& [id, position] : options.landmarks) {
     if (MirrorLandmark(id) == id) continue;
     const bool is_left = id < MirrorLandmark(id);
-    const Eigen::Vector3d at = (position - copy.centroid) / copy.unit;
-    agreement += (is_left ? 1.0 : -1.0) * (frame.left.dot(at) - frame.plane_offset);
+    agreement +=
+        (is_left ? 1.0 : -1.0) * (frame.left.dot(copy.FromMesh(position)) - frame.plane_offset);
   }
   if (agreement < 0.0) frame = TurnedAbout(frame);
 }
 
-// From the caller's frame to the body's: upright, in metres, standing at y = 0.
-absl::StatusOr<geometry::Similarity> ToBodyFrame(const BodyOptions& options,
-                                                 const WorkingCopy& copy,
-                                                 const IntrinsicFrame& frame,
-                                                 std::vector<Warning>& warnings) {
+// The way to the body's frame (upright, in metres, standing at y = 0) from the caller's and from
+// the working copy's. The latter is the same for every copy of a body, bit by bit.
+struct WaysToBody {
+  geometry::Similarity from_caller;
+  geometry::Similarity from_copy;
+};
+
+absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const WorkingCopy& copy,
+                                          const IntrinsicFrame& frame,
+                                          std::vector<Warning>& warnings) {
   double low = 0.0;
   double high = 0.0;
   for (const Eigen::Vector3d& p : copy.points) {
@@ -74,15 +80,29 @@ absl::StatusOr<geometry::Similarity> ToBodyFrame(const BodyOptions& options,
                       height * unit.metres, " m tall; name the unit if that is wrong"),
          0});
   }
-  geometry::Similarity similarity;
-  similarity.rotation.row(0) = frame.left;
-  similarity.rotation.row(1) = frame.up;
-  similarity.rotation.row(2) = frame.forward;
-  similarity.scale = unit.metres;
-  similarity.translation =
-      -unit.metres * (similarity.rotation * copy.centroid +
-                      copy.unit * Eigen::Vector3d(frame.plane_offset, low, 0.0));
-  return similarity;
+  WaysToBody ways;
+  ways.from_copy.rotation.row(0) = frame.left;
+  ways.from_copy.rotation.row(1) = frame.up;
+  ways.from_copy.rotation.row(2) = frame.forward;
+  ways.from_copy.scale = Snap(copy.unit * unit.metres, kFineGrid);
+  ways.from_copy.translation =
+      -ways.from_copy.scale * Eigen::Vector3d(frame.plane_offset, low, 0.0);
+  ways.from_caller.rotation = ways.from_copy.rotation * copy.axes;
+  ways.from_caller.scale = unit.metres;
+  ways.from_caller.translation =
+      ways.from_copy.translation - unit.metres * (ways.from_caller.rotation * copy.centroid);
+  return ways;
+}
+
+mesh::BodyMesh MeshInBodyFrame(const mesh::BodyMesh& mesh, const WorkingCopy& copy,
+                               const geometry::Similarity& body_from_copy) {
+  std::vector<Eigen::Vector3d> vertices(copy.points.size());
+  for (std::size_t i = 0; i < copy.points.size(); ++i) {
+    vertices[copy.mesh_vertex[i]] = body_from_copy.Apply(copy.points[i]);
+  }
+  return mesh::BodyMesh(
+      std::move(vertices), std::vector(mesh.triangles().begin(), mesh.triangles().end()),
+      std::vector(mesh.vertex_of_source().begin(), mesh.vertex_of_source().end()));
 }
 
 // Turns the limbs found into left and right ones.
@@ -98,8 +118,8 @@ void AssignSides(const Extremities& extremities, const IntrinsicFrame& frame, Sh
 
 void EnterCallersLandmarks(const BodyOptions& options, Body& body) {
   for (const auto& [id, position] : options.landmarks) {
-    body.landmarks[Index(id)] =
-        Landmark{body.body_from_caller.Apply(position), LandmarkMethod::kCaller, 1.0};
+    body.landmarks[Index(id)] = Landmark{Snap(body.body_from_caller.Apply(position), kFineGrid),
+                                         LandmarkMethod::kCaller, 1.0};
   }
 }
 
@@ -109,7 +129,8 @@ absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Worki
     return CannotFit("NOT_A_BODY", absl::StrCat("not a human body: found ", extremities.found(),
                                                 " of 5 extremities (head, hands, feet)"));
   }
-  const std::optional<Eigen::Vector3d> up = UpDirection(options.up);
+  std::optional<Eigen::Vector3d> up = UpDirection(options.up);
+  if (up) up = Snap(copy.axes * *up, kFineGrid).normalized();
   IntrinsicFrame frame = FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, up);
   if (up && frame.up_agreement < 0.0) {
     return InvalidField("up", "points from the head to the feet of this body");
@@ -128,13 +149,13 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   const Extremities extremities = FindExtremities(copy.points, copy.vertex_areas, graph);
   CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame, FindFrame(options, copy, extremities));
   std::vector<Warning> warnings;
-  CAPFIT_ASSIGN_OR_RETURN(const geometry::Similarity body_from_caller,
-                          ToBodyFrame(options, copy, frame, warnings));
+  CAPFIT_ASSIGN_OR_RETURN(const WaysToBody ways, FindWaysToBody(options, copy, frame, warnings));
   if (frame.facing_trust < kFacingTrust) {
     warnings.push_back({"FACING_UNSURE",
                         "front and back look alike; a left or right landmark would tell them", 0});
   }
-  Body body = {mesh.Transformed(body_from_caller), body_from_caller, 0.0, false, {}, {}, {}, {}};
+  Body body = {
+      MeshInBodyFrame(mesh, copy, ways.from_copy), ways.from_caller, 0.0, false, {}, {}, {}, {}};
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
   EnterCallersLandmarks(options, body);
 

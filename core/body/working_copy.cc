@@ -1,11 +1,15 @@
 #include "core/body/working_copy.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
+
+#include "core/body/snap.h"
 
 namespace capfit::body {
 namespace {
@@ -34,14 +38,19 @@ std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys) {
   return order;
 }
 
-std::vector<std::uint32_t> CurveKeys(const mesh::BodyMesh& mesh) {
+std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d low = points.front();
+  Eigen::Vector3d high = low;
+  for (const Eigen::Vector3d& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   const double cells = (1u << kBitsPerAxis) - 1;
-  const double side =
-      std::max((mesh.box_max() - mesh.box_min()).maxCoeff(), std::numeric_limits<double>::min());
+  const double side = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
   std::vector<std::uint32_t> keys;
-  keys.reserve(mesh.vertices().size());
-  for (const Eigen::Vector3d& v : mesh.vertices()) {
-    const Eigen::Vector3d at = (v - mesh.box_min()) * (cells / side);
+  keys.reserve(points.size());
+  for (const Eigen::Vector3d& p : points) {
+    const Eigen::Vector3d at = (p - low) * (cells / side);
     keys.push_back(Spread(static_cast<std::uint32_t>(at.x())) |
                    Spread(static_cast<std::uint32_t>(at.y())) << 1 |
                    Spread(static_cast<std::uint32_t>(at.z())) << 2);
@@ -68,35 +77,73 @@ std::vector<mesh::Triangle> SortedTriangles(const mesh::BodyMesh& mesh,
   return sorted;
 }
 
+// Of the volume, in the mesh's frame.
+Eigen::Vector3d CentroidOf(const mesh::BodyMesh& mesh) {
+  const Eigen::Vector3d middle = 0.5 * (mesh.box_min() + mesh.box_max());
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double six_volumes = 0.0;
+  for (const mesh::Triangle& t : mesh.triangles()) {
+    const Eigen::Vector3d a = mesh.vertices()[t[0]] - middle;
+    const Eigen::Vector3d b = mesh.vertices()[t[1]] - middle;
+    const Eigen::Vector3d c = mesh.vertices()[t[2]] - middle;
+    const double wedge = a.dot(b.cross(c));
+    six_volumes += wedge;
+    moment += wedge * (a + b + c) / 4.0;
+  }
+  return middle + moment / six_volumes;
+}
+
+// Rows: the directions in which the points spread most, second most and least; right-handed. The
+// first and the more lopsided of the others point to where the points reach out farther.
+Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& p : points) products += (p - mean) * (p - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(products);
+  Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse().transpose();
+  Eigen::Vector3d cubes = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) {
+    const Eigen::Vector3d at = axes * (p - mean);
+    cubes += at.cwiseProduct(at).cwiseProduct(at);
+  }
+  const int lopsided = std::abs(cubes[1]) >= std::abs(cubes[2]) ? 1 : 2;
+  for (const int k : {0, lopsided}) {
+    if (cubes[k] < 0.0) axes.row(k) = -axes.row(k);
+  }
+  if (axes.determinant() < 0.0) axes.row(3 - lopsided) = -axes.row(3 - lopsided);
+  return axes;
+}
+
+void AddAreas(WorkingCopy& copy) {
+  copy.vertex_areas.assign(copy.points.size(), 0.0);
+  double area = 0.0;
+  for (const mesh::Triangle& t : copy.triangles) {
+    const Eigen::Vector3d& a = copy.points[t[0]];
+    const double third = (copy.points[t[1]] - a).cross(copy.points[t[2]] - a).norm() / 6.0;
+    area += 3.0 * third;
+    for (const std::uint32_t v : t) copy.vertex_areas[v] += third;
+  }
+  for (double& a : copy.vertex_areas) a /= area;
+}
+
 }  // namespace
 
 WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh) {
   WorkingCopy copy;
-  copy.mesh_vertex = SortByKey(CurveKeys(mesh));
+  copy.centroid = CentroidOf(mesh);
+  copy.unit = std::sqrt(mesh.area());
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(mesh.vertices().size());
+  for (const Eigen::Vector3d& v : mesh.vertices())
+    points.push_back((v - copy.centroid) / copy.unit);
+  copy.axes = PrincipalAxes(points);
+  for (Eigen::Vector3d& p : points) p = Snap(copy.axes * p, kCoordinateGrid);
+  copy.mesh_vertex = SortByKey(CurveKeys(points));
   copy.triangles = SortedTriangles(mesh, copy.mesh_vertex);
-  const Eigen::Vector3d middle = 0.5 * (mesh.box_min() + mesh.box_max());
-  copy.points.reserve(copy.mesh_vertex.size());
-  for (const std::uint32_t v : copy.mesh_vertex) copy.points.push_back(mesh.vertices()[v] - middle);
-  copy.vertex_areas.assign(copy.points.size(), 0.0);
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  double six_volumes = 0.0;
-  double area = 0.0;
-  for (const mesh::Triangle& t : copy.triangles) {
-    const Eigen::Vector3d& a = copy.points[t[0]];
-    const Eigen::Vector3d& b = copy.points[t[1]];
-    const Eigen::Vector3d& c = copy.points[t[2]];
-    const double wedge = a.dot(b.cross(c));
-    six_volumes += wedge;
-    moment += wedge * (a + b + c) / 4.0;
-    const double third = (b - a).cross(c - a).norm() / 6.0;
-    area += 3.0 * third;
-    for (const std::uint32_t v : t) copy.vertex_areas[v] += third;
-  }
-  const Eigen::Vector3d centroid = moment / six_volumes;
-  copy.centroid = middle + centroid;
-  copy.unit = std::sqrt(area);
-  for (Eigen::Vector3d& p : copy.points) p = (p - centroid) / copy.unit;
-  for (double& a : copy.vertex_areas) a /= area;
+  copy.points.reserve(points.size());
+  for (const std::uint32_t v : copy.mesh_vertex) copy.points.push_back(points[v]);
+  AddAreas(copy);
   return copy;
 }
 
