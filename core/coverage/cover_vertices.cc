@@ -90,7 +90,7 @@ class Coverer {
     report_.certified_gap_m = CertifiedGap(target_, set_, 0.05 * options_.max_gap_m, pool_);
     // Growing ends with a proof for every triangle, which may be sharper by the tolerance.
     if (!observer_.IsCancelled()) {
-      report_.certified_gap_m = std::min(report_.certified_gap_m, options_.max_gap_m);
+      report_.certified_gap_m = std::min(report_.certified_gap_m, MaxGap());
     }
     report_.added_points = static_cast<int>(between_.size());
     // What an end sphere swallows is that sphere, which stays.
@@ -126,9 +126,9 @@ class Coverer {
 
   void Tighten() {
     const std::vector<Eigen::Vector3d> coarse = CoarsePoints();
-    const std::vector<double> coarse_depths(coarse.size(), -kVertexDepth);
+    const std::vector<double> coarse_depths(coarse.size(), AllowedAtVertices());
     RunPhase(kLoosePhase, PointGrid(coarse), coarse_depths, /*seed=*/1);
-    std::vector<double> allowed(target_.points_m.size(), -kVertexDepth);
+    std::vector<double> allowed(target_.points_m.size(), AllowedAtVertices());
     RunPhase(kTightPhase, grid_, allowed, /*seed=*/101);
     // What sticks out between vertices shows only where the vertices are in, and asking for it
     // moves the set on to other such places: a few rounds leave little to growing.
@@ -159,7 +159,12 @@ class Coverer {
     return coarse;
   }
 
-  double AllowedBetween() const { return 0.8 * options_.max_gap_m; }
+  double AllowedAtVertices() const {
+    return options_.tolerance_m > kVertexDepth ? options_.tolerance_m - kVertexDepth
+                                               : -kVertexDepth;
+  }
+  double MaxGap() const { return options_.tolerance_m + options_.max_gap_m; }
+  double AllowedBetween() const { return options_.tolerance_m + 0.8 * options_.max_gap_m; }
 
   // Adds points between vertices where the surface sticks out; whether there were any.
   bool Collect() {
@@ -167,7 +172,7 @@ class Coverer {
     const UnionDistances distances =
         InCallersOrder(grid_, grid_.DistancesTo(shapes, -size_, pool_));
     const std::vector<Eigen::Vector3d> found =
-        FindPointsOutside(target_, distances, shapes, options_.max_gap_m, pool_);
+        FindPointsOutside(target_, distances, shapes, MaxGap(), pool_);
     between_.insert(between_.end(), found.begin(), found.end());
     return !found.empty();
   }
@@ -186,8 +191,8 @@ class Coverer {
         grid_.DistancesTo(ShapesOf(solids_, set_), -options_.max_gap_m, pool_);
     std::vector<Demand> demands;
     for (std::size_t i = 0; i < grid_.size(); ++i) {
-      if (distances.distance_m[i] > -2.0 * kVertexDepth) {
-        demands.push_back({grid_.point(i), -kVertexDepth});
+      if (distances.distance_m[i] > AllowedAtVertices() - kVertexDepth) {
+        demands.push_back({grid_.point(i), AllowedAtVertices()});
       }
     }
     for (const Eigen::Vector3d& point : between_) demands.push_back({point, AllowedBetween()});

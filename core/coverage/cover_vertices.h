@@ -24,7 +24,10 @@ struct CoverTarget {
 [[nodiscard]] CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts);
 
 struct CoverOptions {
-  // Between vertices: triangles are cut finer until no point of them is further out than this.
+  // How far a vertex may stick out; 0: none does. What is between vertices may as far, and
+  // max_gap_m more.
+  double tolerance_m = 0.0;
+  // Between vertices: triangles are cut finer until no point of them is further out than this (and tolerance_m).
   double max_gap_m = 1e-3;
   // Fit centres and radii together for the least volume before growing (see tighten.h). Without, it
   // is the paper's own step, furthest point first.
@@ -43,7 +46,7 @@ struct CoverReport {
 // ones, but for capsules that an end sphere has come to swallow: those go. Mirrored spheres stay
 // exact images of each other, whatever the small asymmetries of the points.
 //
-// Points only in: vertices end up 1 um deep or more, unless the observer cancels. Terminates: every
+// With no tolerance, vertices end up 1 um deep or more, unless the observer cancels. Terminates: every
 // growing step covers a point and uncovers none. Typically 40 ms for 12k vertices at n_p 64.
 [[nodiscard]] CoverReport CoverBody(const CoverTarget& target, const CoverOptions& options,
                                     const ThreadPool& pool, const FitObserver& observer,

@@ -10,6 +10,7 @@
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
 #include "core/pipeline/to_caller_frame.h"
+#include "core/refine/refine.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -42,7 +43,7 @@ class StageClock {
   // Shares of the whole as measured on a 64k-triangle body with 64 primitives, rounded.
   static double FractionBefore(Stage stage) {
     static constexpr std::array<double, kStageCount> kBefore = {0.0,  0.1,  0.3, 0.35, 0.5,
-                                                                0.55, 0.75, 0.8, 0.9};
+                                                                0.55, 0.5, 0.8, 0.9};
     return kBefore[static_cast<std::size_t>(stage)];
   }
 
@@ -71,7 +72,10 @@ class BodyFit {
 
   absl::Status Run(const mesh::BodyMesh& mesh) {
     CAPFIT_RETURN_IF_ERROR(Understand(mesh));
-    CAPFIT_RETURN_IF_ERROR(Approximate());
+    CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, options_.parts, TotalBudget(options_)));
+    if (NeedsPolygons()) CAPFIT_RETURN_IF_ERROR(Approximate());
+    if (options_.quality == Quality::kTight) CAPFIT_RETURN_IF_ERROR(Refine());
+    CAPFIT_RETURN_IF_ERROR(CheckFound());
     CAPFIT_RETURN_IF_ERROR(Cover());
     CAPFIT_RETURN_IF_ERROR(Measure());
     CAPFIT_RETURN_IF_ERROR(Bind());
@@ -93,10 +97,15 @@ class BodyFit {
     return CheckCancelled(observer_);
   }
 
+  // The tight fit needs them only to be shown, or to count what an error threshold asks for.
+  bool NeedsPolygons() const {
+    return options_.quality == Quality::kPaper || options_.want_polygons ||
+           options_.polygon_error.has_value();
+  }
+
   absl::Status Approximate() {
     clock_.Begin(Stage::kSection);
     const circle::Budget total = TotalBudget(options_);
-    CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, options_.parts, total));
     const circle::Budget chains = ChainBudget(total, OverheadOf(*body_, options_.parts, total));
     section::FeaturePolygons features =
         section::ExtractFeaturePolygons(*body_, PlanSections(options_, *body_, chains), pool_);
@@ -117,17 +126,44 @@ class BodyFit {
     if (options_.want_polygons) {
       result_.polygons = PolygonResults(features.polygons, stage.approximations, caller_from_body_);
     }
-    if (set_.spheres.empty()) {
-      return CannotFit("NOTHING_TO_FIT",
-                       "none of the parts asked for was found on this body; see the warnings");
-    }
     return CheckCancelled(observer_);
   }
 
+  absl::Status Refine() {
+    clock_.Begin(Stage::kRefine);
+    refine::RefineOptions refine_options;
+    refine_options.enclose = options_.fit == FitMode::kEnclose;
+    refine_options.budget = TotalBudget(options_);
+    if (options_.polygon_error.has_value()) {
+      refine_options.budget.max_primitives = set_.primitive_count();
+    }
+    refine_options.tolerance_m = options_.tolerance_m;
+    refine_options.parts = options_.parts;
+    refine_options.seed = options_.seed;
+    set_ = refine::RefineSet(*body_, refine_options, pool_, observer_);
+    return CheckCancelled(observer_);
+  }
+
+  absl::Status CheckFound() const {
+    if (!set_.spheres.empty()) return absl::OkStatus();
+    return CannotFit("NOTHING_TO_FIT",
+                     "none of the parts asked for was found on this body; see the warnings");
+  }
+
+  // Encloses what is not enclosed yet, and proves it; after refining, that is part of it. The best
+  // fit is only measured.
   absl::Status Cover() {
-    clock_.Begin(Stage::kCoverage);
+    if (options_.quality == Quality::kPaper) clock_.Begin(Stage::kCoverage);
     const coverage::CoverTarget target = coverage::TargetOf(*body_, options_.parts);
-    report_ = coverage::CoverBody(target, {}, pool_, observer_, set_);
+    if (options_.fit == FitMode::kBestFit) {
+      max_gap_m_ = coverage::CertifiedGap(target, set_, kGapAccuracyM, pool_);
+      return CheckCancelled(observer_);
+    }
+    coverage::CoverOptions cover_options;
+    cover_options.tolerance_m = options_.tolerance_m;
+    cover_options.tighten = options_.quality == Quality::kPaper;
+    max_gap_m_ =
+        coverage::CoverBody(target, cover_options, pool_, observer_, set_).certified_gap_m;
     return CheckCancelled(observer_);
   }
 
@@ -136,7 +172,7 @@ class BodyFit {
     metrics::MeasureOptions measure_options;
     measure_options.parts = options_.parts;
     result_.metrics = metrics::Measure(*body_, set_, measure_options, pool_, observer_);
-    result_.metrics.max_gap_m = report_.certified_gap_m;
+    result_.metrics.max_gap_m = max_gap_m_;
     return CheckCancelled(observer_);
   }
 
@@ -154,6 +190,7 @@ class BodyFit {
   static constexpr int kMaxCirclesPerPolygon = 8;
   // Most polygons end up with at most this many circles; the rest is fitted when asked for.
   static constexpr int kCirclesFittedAhead = 4;
+  static constexpr double kGapAccuracyM = 1e-3;  // of the best fit's certificate
 
   const FitOptions& options_;
   const ThreadPool& pool_;
@@ -163,7 +200,7 @@ class BodyFit {
   std::optional<body::Body> body_;  // set by Understand
   geometry::Similarity caller_from_body_;
   capsule::PrimitiveSet set_;
-  coverage::CoverReport report_;
+  double max_gap_m_ = 0.0;  // certified
 };
 
 }  // namespace

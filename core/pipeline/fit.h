@@ -34,8 +34,13 @@ inline constexpr CountRange kMaxCapsulesRange{5, 1000};
 inline constexpr double kMinPolygonError = 0.001;
 inline constexpr double kMaxPolygonError = 2.0;
 inline constexpr int kDefaultMaxPrimitives = 64;
+inline constexpr double kMaxToleranceM = 0.1;
 
+// kEnclose: nothing of the fitted parts is left outside (but for tolerance_m). kBestFit: the
+// smallest E_r.
 enum class FitMode { kEnclose, kBestFit };
+// kPaper: the published method, its coverage step replaced by a better one. kTight: centres, radii
+// and topology found together (core/refine), under the same budget.
 enum class Quality { kPaper, kTight };
 enum class SkinningMode { kNone, kDense };
 
@@ -48,6 +53,7 @@ struct FitOptions {
   std::optional<double> polygon_error;  // outside area / polygon area
   FitMode fit = FitMode::kEnclose;
   Quality quality = Quality::kPaper;
+  double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, kMaxToleranceM]
   SkinningMode skinning = SkinningMode::kNone;
   body::PartSelection parts;
   section::Sex sex = section::Sex::kAuto;

@@ -42,6 +42,17 @@ absl::Status CheckParts(const body::PartSelection& parts) {
                       "is empty, must name at least one of torso, arms, legs, head, hands, feet");
 }
 
+absl::Status CheckTolerance(const FitOptions& options) {
+  if (!(options.tolerance_m >= 0.0 && options.tolerance_m <= kMaxToleranceM)) {
+    return InvalidField("tolerance_m", absl::StrCat("is ", options.tolerance_m,
+                                                    ", must be 0 to ", kMaxToleranceM));
+  }
+  if (options.tolerance_m > 0.0 && options.fit == FitMode::kBestFit) {
+    return InvalidField("tolerance_m", "is for fit enclose; the best fit encloses nothing");
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckLandmarks(const FitOptions& options) {
   for (const auto& [id, position] : options.landmarks) {
     if (position.allFinite()) continue;
@@ -61,14 +72,7 @@ absl::Status ValidateOptions(const FitOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckPolygonError(options.polygon_error));
   CAPFIT_RETURN_IF_ERROR(CheckParts(options.parts));
   CAPFIT_RETURN_IF_ERROR(CheckLandmarks(options));
-  if (options.fit == FitMode::kBestFit) {
-    return absl::UnimplementedError("fit best is not offered by this version; use fit enclose");
-  }
-  if (options.quality == Quality::kTight) {
-    return absl::UnimplementedError(
-        "quality tight is not offered by this version; use quality paper");
-  }
-  return absl::OkStatus();
+  return CheckTolerance(options);
 }
 
 }  // namespace capfit::pipeline
