@@ -11,7 +11,7 @@ struct Spoke {
   HalfEdge half_edge;
 };
 
-bool IsBefore(const Spoke& a, const Spoke& b) {
+bool HasLowerEnd(const Spoke& a, const Spoke& b) {
   return a.other_vertex != b.other_vertex ? a.other_vertex < b.other_vertex
                                           : a.half_edge < b.half_edge;
 }
@@ -64,13 +64,13 @@ void RecordEdge(std::span<const Triangle> triangles, std::span<const Spoke> edge
 // The usual handful of spokes is sorted by insertion; a vertex with thousands needs better.
 void SortByOtherVertex(std::span<Spoke> spokes) {
   if (spokes.size() > 24) {
-    std::sort(spokes.begin(), spokes.end(), IsBefore);
+    std::sort(spokes.begin(), spokes.end(), HasLowerEnd);
     return;
   }
   for (std::size_t i = 1; i < spokes.size(); ++i) {
     const Spoke moving = spokes[i];
     std::size_t k = i;
-    for (; k > 0 && IsBefore(moving, spokes[k - 1]); --k) spokes[k] = spokes[k - 1];
+    for (; k > 0 && HasLowerEnd(moving, spokes[k - 1]); --k) spokes[k] = spokes[k - 1];
     spokes[k] = moving;
   }
 }
