@@ -7,6 +7,7 @@
 #include "client/option_words.h"
 #include "client/picture/file_bytes.h"
 #include "core/base/status.h"
+#include "core/pipeline/engines.h"
 
 namespace capfit::client {
 namespace {
@@ -30,6 +31,10 @@ void AddBudget(CLI::App& command, pipeline::FitOptions& options) {
       command.add_option("--max-spheres", options.max_spheres, "Spheres, at most");
   CLI::Option* const capsules =
       command.add_option("--max-capsules", options.max_capsules, "Capsules, at most");
+  command
+      .add_option("--engine", options.engine,
+                  "Cloth engine whose limits and capsules hold: " + pipeline::EngineNames())
+      ->type_name("NAME");
   primitives->excludes(error)->excludes(spheres)->excludes(capsules);
   error->excludes(spheres)->excludes(capsules);
 }
@@ -56,6 +61,10 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
   AddPartsFlag(command, flags.parts);
   AddWord(command, "--fit", flags.options.fit, FitModeWords(), "enclose (nothing outside) or best");
   AddWord(command, "--quality", flags.options.quality, QualityWords(), "paper or tight");
+  command
+      .add_option("--tolerance-mm", flags.tolerance_mm,
+                  "How far a vertex may stick out, in millimetres of the body")
+      ->capture_default_str();
   AddWord(command, "--skinning", flags.options.skinning, SkinningWords(),
           "none, or dense: mean value coordinates beside the result");
   command.add_option("--landmarks", flags.landmarks_file,
@@ -79,6 +88,7 @@ body::PartSelection PartsOf(const std::vector<std::string>& words) {
 absl::StatusOr<pipeline::FitOptions> OptionsOf(const FitFlags& flags) {
   pipeline::FitOptions options = flags.options;
   options.parts = PartsOf(flags.parts);
+  options.tolerance_m = 1e-3 * flags.tolerance_mm;
   if (!flags.landmarks_file.empty()) {
     const absl::StatusOr<std::string> text = ReadFileBytes(flags.landmarks_file);
     if (!text.ok()) return FileProblem(text.status());

@@ -14,6 +14,7 @@ namespace capfit::client {
 struct FitFlags {
   pipeline::FitOptions options;
   std::vector<std::string> parts;  // words; empty: torso, arms, legs
+  double tolerance_mm = 0.0;
   std::string landmarks_file;      // empty: none
 };
 

@@ -1,6 +1,9 @@
 #include "server/server_info.h"
 
 #include <functional>
+#include <string>
+
+#include "core/pipeline/engines.h"
 
 namespace capfit::server {
 namespace {
@@ -28,6 +31,8 @@ const std::vector<Feature>& Features() {
       {"budget.max_polygon_error", [](FitOptions& o) { o.polygon_error = 0.1; }},
       {"skinning.dense", [](FitOptions& o) { o.skinning = pipeline::SkinningMode::kDense; }},
       {"feature_polygons", [](FitOptions& o) { o.want_polygons = true; }},
+      {"tolerance", [](FitOptions& o) { o.tolerance_m = 0.001; }},
+      {"engine", [](FitOptions& o) { o.engine = "nvcloth"; }},
   };
   return features;
 }
@@ -40,12 +45,27 @@ void AddFeatures(const FitBackend& backend, v1::GetServerInfoResponse& info) {
   }
 }
 
-void AddEngine(const char* name, int max_spheres, int max_capsules,
-               v1::GetServerInfoResponse& info) {
-  v1::Engine& engine = *info.add_engines();
-  engine.set_name(name);
-  engine.set_max_spheres(max_spheres);
-  engine.set_max_capsules(max_capsules);
+v1::CapsuleProfile ToWire(capsule::CapsuleProfile profile) {
+  switch (profile) {
+    case capsule::CapsuleProfile::kTangentHull:
+      return v1::CAPSULE_PROFILE_TANGENT_HULL;
+    case capsule::CapsuleProfile::kLerpedRadius:
+      return v1::CAPSULE_PROFILE_LERPED_RADIUS;
+    case capsule::CapsuleProfile::kUniformRadius:
+      return v1::CAPSULE_PROFILE_UNIFORM_RADIUS;
+  }
+  return v1::CAPSULE_PROFILE_UNSPECIFIED;
+}
+
+void AddEngines(v1::GetServerInfoResponse& info) {
+  for (const pipeline::Engine& known : pipeline::Engines()) {
+    v1::Engine& engine = *info.add_engines();
+    engine.set_name(std::string(known.name));
+    engine.set_max_spheres(known.max_spheres);
+    engine.set_max_capsules(known.max_capsules);
+    engine.set_max_shapes(known.max_shapes);
+    engine.set_profile(ToWire(known.profile));
+  }
 }
 
 }  // namespace
@@ -68,9 +88,7 @@ v1::GetServerInfoResponse DescribeServer(const ServerConfig& config, int threads
         v1::MESH_FILE_FORMAT_OFF, v1::MESH_FILE_FORMAT_GLB}) {
     info.add_formats(format);
   }
-  // Both take at most 32 of each (32-bit masks inside).
-  AddEngine("nvcloth", 32, 32, info);
-  AddEngine("unity_cloth", 32, 32, info);
+  AddEngines(info);
   AddFeatures(backend, info);
   return info;
 }

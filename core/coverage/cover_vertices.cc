@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/capsule/capsule_profile.h"
 #include "core/coverage/grow.h"
 #include "core/coverage/point_grid.h"
 #include "core/coverage/set_variables.h"
@@ -141,8 +142,9 @@ class Coverer {
     }
   }
 
-  void RunPhase(const TightenPhase& phase, const PointGrid& points,
-                const std::vector<double>& allowed_m, std::uint64_t seed) {
+  void RunPhase(TightenPhase phase, const PointGrid& points, const std::vector<double>& allowed_m,
+                std::uint64_t seed) {
+    phase.uniform_radius = options_.uniform_radius;
     coverage::Tighten(points, allowed_m, size_, phase, seed, pool_, observer_, set_);
   }
 
@@ -172,7 +174,7 @@ class Coverer {
     const UnionDistances distances =
         InCallersOrder(grid_, grid_.DistancesTo(shapes, -size_, pool_));
     const std::vector<Eigen::Vector3d> found =
-        FindPointsOutside(target_, distances, shapes, MaxGap(), pool_);
+        FindPointsOutside(target_, distances, shapes, AllowedBetween(), MaxGap(), pool_);
     between_.insert(between_.end(), found.begin(), found.end());
     return !found.empty();
   }
@@ -184,6 +186,8 @@ class Coverer {
       const std::vector<Demand> demands = OpenDemands();
       report_.growth_steps += GrowToAll(demands, observer_, set_);
     } while (!observer_.IsCancelled() && Collect());
+    // Only contains more by that, and still all that it has to.
+    if (options_.uniform_radius) capsule::RaiseToUniformRadii(set_);
   }
 
   std::vector<Demand> OpenDemands() const {

@@ -27,11 +27,15 @@ struct CoverOptions {
   // How far a vertex may stick out; 0: none does. What is between vertices may as far, and
   // max_gap_m more.
   double tolerance_m = 0.0;
-  // Between vertices: triangles are cut finer until no point of them is further out than this (and tolerance_m).
+  // Between vertices: triangles are cut finer until no point of them is further out than this (and
+  // tolerance_m).
   double max_gap_m = 1e-3;
   // Fit centres and radii together for the least volume before growing (see tighten.h). Without, it
   // is the paper's own step, furthest point first.
   bool tighten = true;
+  // Both ends of a capsule end up with one radius. Capsules must not share spheres then (see
+  // capsule::WithUniformRadii).
+  bool uniform_radius = false;
 };
 
 struct CoverReport {
@@ -46,8 +50,8 @@ struct CoverReport {
 // ones, but for capsules that an end sphere has come to swallow: those go. Mirrored spheres stay
 // exact images of each other, whatever the small asymmetries of the points.
 //
-// With no tolerance, vertices end up 1 um deep or more, unless the observer cancels. Terminates: every
-// growing step covers a point and uncovers none. Typically 40 ms for 12k vertices at n_p 64.
+// With no tolerance, vertices end up 1 um deep or more, unless the observer cancels. Terminates:
+// every growing step covers a point and uncovers none. Typically 40 ms for 12k vertices at n_p 64.
 [[nodiscard]] CoverReport CoverBody(const CoverTarget& target, const CoverOptions& options,
                                     const ThreadPool& pool, const FitObserver& observer,
                                     capsule::PrimitiveSet& set);

@@ -11,7 +11,6 @@ namespace {
 using geometry::TaperedCapsule;
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-constexpr double kAskedFor = 0.8;
 constexpr std::size_t kChunk = 2048;
 // Distances by PointGrid are good to this.
 constexpr double kGridAccuracy = 1e-6;
@@ -107,7 +106,8 @@ bool HasCornerOutside(const mesh::Triangle& t, const UnionDistances& at, double 
   return std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]}) > limit_m;
 }
 
-void FindOutside(const TriangleProbe& probe, double max_gap_m, std::vector<Eigen::Vector3d>& out) {
+void FindOutside(const TriangleProbe& probe, double asked_m, double max_gap_m,
+                 std::vector<Eigen::Vector3d>& out) {
   std::vector<Corners> pieces = {probe.corners()};
   while (!pieces.empty()) {
     const Corners piece = pieces.back();
@@ -119,11 +119,11 @@ void FindOutside(const TriangleProbe& probe, double max_gap_m, std::vector<Eigen
                                                        quarters[3][2], MiddleOf(piece)};
     const std::size_t count_before = out.size();
     for (const Eigen::Vector3d& candidate : candidates) {
-      if (probe.Distance(candidate) > kAskedFor * max_gap_m) out.push_back(candidate);
+      if (probe.Distance(candidate) > asked_m) out.push_back(candidate);
     }
     if (out.size() > count_before) {
       continue;  // looked at again when they are covered
-    } else if (ReachOf(piece, candidates[3]) > 0.1 * max_gap_m) {
+    } else if (ReachOf(piece, candidates[3]) > 0.5 * (max_gap_m - asked_m)) {
       pieces.insert(pieces.end(), quarters.begin(), quarters.end());
     }
   }
@@ -169,14 +169,16 @@ UnionDistances InCallersOrder(const PointGrid& points, const UnionDistances& dis
 std::vector<Eigen::Vector3d> FindPointsOutside(const CoverTarget& target,
                                                const UnionDistances& at_vertices,
                                                const std::vector<TaperedCapsule>& solids,
-                                               double max_gap_m, const ThreadPool& pool) {
+                                               double asked_m, double max_gap_m,
+                                               const ThreadPool& pool) {
   const std::size_t count = target.triangles.size();
   std::vector<std::vector<Eigen::Vector3d>> found((count + kChunk - 1) / kChunk);
   pool.ForChunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (IsPlainlyNear(target, i, at_vertices, solids, max_gap_m)) continue;
       if (HasCornerOutside(target.triangles[i], at_vertices, max_gap_m)) continue;
-      FindOutside(TriangleProbe(CornersOf(target, i), solids), max_gap_m, found[begin / kChunk]);
+      FindOutside(TriangleProbe(CornersOf(target, i), solids), asked_m, max_gap_m,
+                  found[begin / kChunk]);
     }
   });
   std::vector<Eigen::Vector3d> all;

@@ -11,17 +11,18 @@
 
 namespace capfit::coverage {
 
-// Points inside triangles that are more than half of `max_gap_m` outside all solids, one or a few
-// for each triangle of which it cannot be proved that nothing of it is more than `max_gap_m`
-// outside. None: proved for all triangles. Triangles with a corner that far out are left alone: the
-// corner has to come in first.
+// Points inside triangles that are more than `asked_m` outside all solids, one or a few for each
+// triangle of which it cannot be proved that nothing of it is more than `max_gap_m` outside;
+// asked_m < max_gap_m. None: proved for all triangles. Triangles with a corner that far out are
+// left alone: the corner has to come in first.
 //
 // A triangle is proved when its corners are that near to one solid (which is convex), or when its
 // middle is near enough for its size; otherwise it is cut into four. `at_vertices` are the
 // distances of the target's points, by the target's index. O(triangles) and a little.
 [[nodiscard]] std::vector<Eigen::Vector3d> FindPointsOutside(
     const CoverTarget& target, const UnionDistances& at_vertices,
-    const std::vector<geometry::TaperedCapsule>& solids, double max_gap_m, const ThreadPool& pool);
+    const std::vector<geometry::TaperedCapsule>& solids, double asked_m, double max_gap_m,
+    const ThreadPool& pool);
 
 // Distances of the target's points by the target's index.
 [[nodiscard]] UnionDistances InCallersOrder(const PointGrid& points,

@@ -44,7 +44,8 @@ class Tightener {
         set_(set),
         variables_(set) {}
 
-  void Step(double trust_m, double penalty, double row_spacing_m, std::uint64_t seed) {
+  void Step(double trust_m, double penalty, double row_spacing_m, bool uniform_radius,
+            std::uint64_t seed) {
     shapes_ = ShapesOf(variables_.solids(), set_);
     distances_ = points_.DistancesTo(shapes_, -kDepthOfInterest * trust_m, pool_);
     PenaltyProgram program;
@@ -52,7 +53,11 @@ class Tightener {
     AddBounds(trust_m, program);
     AddPointRows(kDepthOfInterest * trust_m, row_spacing_m, program);
     SetPenalties(penalty, program);
-    AddSteepnessRows(program);
+    if (uniform_radius) {
+      AddUniformRows(program);
+    } else {
+      AddSteepnessRows(program);
+    }
     const Eigen::VectorXd change = Solve(program, kRelativeGap);
     if (change.allFinite()) variables_.Apply(change, set_);
   }
@@ -167,6 +172,18 @@ class Tightener {
     }
   }
 
+  // |r_a - r_b| <= 0, a row for each sign.
+  void AddUniformRows(PenaltyProgram& program) const {
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      const Solid& solid = variables_.solids()[k];
+      if (solid.ends[0] == solid.ends[1]) continue;
+      const double difference = shapes_[k].a().radius_m - shapes_[k].b().radius_m;
+      const Eigen::Vector4d radius(0.0, 0.0, 0.0, 1.0);
+      AddRow(solid, radius, -radius, difference, kSteepnessPenalty / size_, program);
+      AddRow(solid, -radius, radius, -difference, kSteepnessPenalty / size_, program);
+    }
+  }
+
   const PointGrid& points_;
   std::span<const double> allowed_;
   double size_;
@@ -189,7 +206,7 @@ void Tighten(const PointGrid& points, std::span<const double> allowed_m, double 
     const double trust = Between(phase.first_trust, phase.last_trust, i, phase.steps);
     const double penalty = Between(phase.first_penalty, phase.last_penalty, i, phase.steps);
     tightener.Step(trust * body_size_m, penalty, phase.row_spacing * body_size_m,
-                   seed + static_cast<std::uint64_t>(i));
+                   phase.uniform_radius, seed + static_cast<std::uint64_t>(i));
   }
 }
 

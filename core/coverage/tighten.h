@@ -28,6 +28,8 @@ struct TightenPhase {
   // Points closer together than this, on the same solid, stand for each other: the furthest out of
   // them counts. Others are heard in the next step, should they stick out then.
   double row_spacing = 0.015;
+  // Pulls the two radii of each capsule together, at a price: nearly equal, not exactly.
+  bool uniform_radius = false;
 };
 
 // Each step takes the least volume of the union, by its gradient, under one linear row for each

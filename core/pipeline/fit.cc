@@ -7,6 +7,7 @@
 #include "core/circle/error_curve.h"
 #include "core/coverage/cover_vertices.h"
 #include "core/mesh/prepare_mesh.h"
+#include "core/pipeline/engines.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
 #include "core/pipeline/to_caller_frame.h"
@@ -42,7 +43,7 @@ class StageClock {
  private:
   // Shares of the whole as measured on a 64k-triangle body with 64 primitives, rounded.
   static double FractionBefore(Stage stage) {
-    static constexpr std::array<double, kStageCount> kBefore = {0.0,  0.1,  0.3, 0.35, 0.5,
+    static constexpr std::array<double, kStageCount> kBefore = {0.0,  0.1, 0.3, 0.35, 0.5,
                                                                 0.55, 0.5, 0.8, 0.9};
     return kBefore[static_cast<std::size_t>(stage)];
   }
@@ -68,14 +69,16 @@ class BodyFit {
  public:
   BodyFit(const FitOptions& options, const ThreadPool& pool, FitObserver& observer,
           StageClock& clock, FitResult& result)
-      : options_(options), pool_(pool), observer_(observer), clock_(clock), result_(result) {}
+      : asked_(options),
+        options_(WithEngineLimits(options)),
+        pool_(pool),
+        observer_(observer),
+        clock_(clock),
+        result_(result) {}
 
   absl::Status Run(const mesh::BodyMesh& mesh) {
     CAPFIT_RETURN_IF_ERROR(Understand(mesh));
-    CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, options_.parts, TotalBudget(options_)));
-    if (NeedsPolygons()) CAPFIT_RETURN_IF_ERROR(Approximate());
-    if (options_.quality == Quality::kTight) CAPFIT_RETURN_IF_ERROR(Refine());
-    CAPFIT_RETURN_IF_ERROR(CheckFound());
+    CAPFIT_RETURN_IF_ERROR(BuildWithinLimits());
     CAPFIT_RETURN_IF_ERROR(Cover());
     CAPFIT_RETURN_IF_ERROR(Measure());
     CAPFIT_RETURN_IF_ERROR(Bind());
@@ -95,6 +98,30 @@ class BodyFit {
     caller_from_body_ = body_->body_from_caller.Inverse();
     result_.landmarks = LandmarkResults(*body_, caller_from_body_);
     return CheckCancelled(observer_);
+  }
+
+  // Capsules that share no spheres cost more than the budget of capsules tells, where there are
+  // spheres without a capsule beside them: then again with fewer.
+  absl::Status BuildWithinLimits() {
+    const std::size_t warnings = result_.warnings.size();
+    for (;;) {
+      result_.warnings.resize(warnings);
+      CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, options_.parts, TotalBudget(options_)));
+      if (NeedsPolygons()) CAPFIT_RETURN_IF_ERROR(Approximate());
+      if (options_.quality == Quality::kTight) CAPFIT_RETURN_IF_ERROR(Refine());
+      CAPFIT_RETURN_IF_ERROR(CheckFound());
+      if (Profile() == capsule::CapsuleProfile::kUniformRadius) {
+        set_ = capsule::WithUniformRadii(set_);
+      }
+      const int excess = ExcessCapsules(asked_, set_);
+      if (excess <= 0) return absl::OkStatus();
+      options_.max_capsules = static_cast<int>(set_.capsules.size()) - excess;
+    }
+  }
+
+  capsule::CapsuleProfile Profile() const {
+    const Engine* const engine = FindEngine(options_.engine);
+    return engine == nullptr ? capsule::CapsuleProfile::kTangentHull : engine->profile;
   }
 
   // The tight fit needs them only to be shown, or to count what an error threshold asks for.
@@ -137,6 +164,10 @@ class BodyFit {
     if (options_.polygon_error.has_value()) {
       refine_options.budget.max_primitives = set_.primitive_count();
     }
+    if (Profile() == capsule::CapsuleProfile::kUniformRadius) {
+      // A tree: spheres without a capsule would be shapes of their own.
+      refine_options.budget.max_spheres = refine_options.budget.max_capsules + 1;
+    }
     refine_options.tolerance_m = options_.tolerance_m;
     refine_options.parts = options_.parts;
     refine_options.seed = options_.seed;
@@ -161,9 +192,10 @@ class BodyFit {
     }
     coverage::CoverOptions cover_options;
     cover_options.tolerance_m = options_.tolerance_m;
-    cover_options.tighten = options_.quality == Quality::kPaper;
-    max_gap_m_ =
-        coverage::CoverBody(target, cover_options, pool_, observer_, set_).certified_gap_m;
+    cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
+    cover_options.tighten = options_.quality == Quality::kPaper || cover_options.uniform_radius;
+    max_gap_m_ = coverage::CoverBody(target, cover_options, pool_, observer_, set_).certified_gap_m;
+    if (Profile() == capsule::CapsuleProfile::kLerpedRadius) capsule::GrowForLerpedRadius(set_);
     return CheckCancelled(observer_);
   }
 
@@ -192,7 +224,8 @@ class BodyFit {
   static constexpr int kCirclesFittedAhead = 4;
   static constexpr double kGapAccuracyM = 1e-3;  // of the best fit's certificate
 
-  const FitOptions& options_;
+  const FitOptions& asked_;
+  FitOptions options_;  // with the limits of the engine
   const ThreadPool& pool_;
   FitObserver& observer_;
   StageClock& clock_;

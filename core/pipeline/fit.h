@@ -53,6 +53,9 @@ struct FitOptions {
   std::optional<double> polygon_error;  // outside area / polygon area
   FitMode fit = FitMode::kEnclose;
   Quality quality = Quality::kPaper;
+  // A name of Engines(), or empty. Its limits hold beside the budget (without one, they are the
+  // budget), and coverage holds for what the engine makes of a capsule.
+  std::string engine;
   double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, kMaxToleranceM]
   SkinningMode skinning = SkinningMode::kNone;
   body::PartSelection parts;

@@ -4,6 +4,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/pipeline/engines.h"
 #include "core/pipeline/fit.h"
 
 namespace capfit::pipeline {
@@ -34,6 +35,21 @@ absl::Status CheckOneBudget(const FitOptions& options) {
                       "max_spheres/max_capsules, polygon_error");
 }
 
+absl::Status CheckEngine(const FitOptions& options) {
+  if (options.engine.empty()) return absl::OkStatus();
+  const Engine* const engine = FindEngine(options.engine);
+  if (engine == nullptr) {
+    return InvalidField("engine", absl::StrCat("is \"", options.engine.substr(0, 40),
+                                               "\", must be one of ", EngineNames()));
+  }
+  if (options.polygon_error.has_value() &&
+      engine->max_spheres + engine->max_capsules + engine->max_shapes > 0) {
+    return InvalidField("polygon_error", absl::StrCat("cannot be promised within the limits of ",
+                                                      options.engine, "; leave one of them out"));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckParts(const body::PartSelection& parts) {
   if (parts.torso || parts.arms || parts.legs || parts.head || parts.hands || parts.feet) {
     return absl::OkStatus();
@@ -44,8 +60,8 @@ absl::Status CheckParts(const body::PartSelection& parts) {
 
 absl::Status CheckTolerance(const FitOptions& options) {
   if (!(options.tolerance_m >= 0.0 && options.tolerance_m <= kMaxToleranceM)) {
-    return InvalidField("tolerance_m", absl::StrCat("is ", options.tolerance_m,
-                                                    ", must be 0 to ", kMaxToleranceM));
+    return InvalidField(
+        "tolerance_m", absl::StrCat("is ", options.tolerance_m, ", must be 0 to ", kMaxToleranceM));
   }
   if (options.tolerance_m > 0.0 && options.fit == FitMode::kBestFit) {
     return InvalidField("tolerance_m", "is for fit enclose; the best fit encloses nothing");
@@ -70,6 +86,7 @@ absl::Status ValidateOptions(const FitOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckCount("max_spheres", options.max_spheres, kMaxSpheresRange));
   CAPFIT_RETURN_IF_ERROR(CheckCount("max_capsules", options.max_capsules, kMaxCapsulesRange));
   CAPFIT_RETURN_IF_ERROR(CheckPolygonError(options.polygon_error));
+  CAPFIT_RETURN_IF_ERROR(CheckEngine(options));
   CAPFIT_RETURN_IF_ERROR(CheckParts(options.parts));
   CAPFIT_RETURN_IF_ERROR(CheckLandmarks(options));
   return CheckTolerance(options);

@@ -96,6 +96,10 @@ circle::Budget TotalBudget(const FitOptions& options) {
   if (options.max_primitives.has_value()) budget.max_primitives = *options.max_primitives;
   if (options.max_spheres.has_value()) budget.max_spheres = *options.max_spheres;
   if (options.max_capsules.has_value()) budget.max_capsules = *options.max_capsules;
+  // Capsules alone: a sphere more than that on each part, and no more, can be of use.
+  if (options.max_capsules.has_value() && !options.max_spheres.has_value()) {
+    budget.max_spheres = *options.max_capsules + body::kPartCount;
+  }
   const bool is_limited = options.max_primitives.has_value() || options.max_spheres.has_value() ||
                           options.max_capsules.has_value() || options.polygon_error.has_value();
   if (!is_limited) budget.max_primitives = kDefaultMaxPrimitives;

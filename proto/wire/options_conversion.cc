@@ -67,20 +67,31 @@ bool* SwitchOf(v1::BodyPartGroup group, body::PartSelection& parts) {
   }
 }
 
-absl::Status ReadParts(const v1::FitOptions& wire, body::PartSelection& parts) {
-  if (wire.parts().empty()) return absl::OkStatus();
+// An empty list leaves `parts` as it is.
+absl::Status ReadParts(const google::protobuf::RepeatedField<int>& groups, const char* list,
+                       body::PartSelection& parts) {
+  if (groups.empty()) return absl::OkStatus();
   parts = {.torso = false, .arms = false, .legs = false};
-  for (int i = 0; i < wire.parts_size(); ++i) {
-    const std::string field = absl::StrCat("options.parts[", i, "]");
-    bool* const part = SwitchOf(wire.parts(i), parts);
+  for (int i = 0; i < groups.size(); ++i) {
+    const std::string field = absl::StrCat("options.", list, "[", i, "]");
+    bool* const part = SwitchOf(static_cast<v1::BodyPartGroup>(groups.Get(i)), parts);
     if (part == nullptr) {
-      return InvalidField(field, absl::StrCat("is ", static_cast<int>(wire.parts(i)),
-                                              ", must be one of BodyPartGroup, 1 to 6"));
+      return InvalidField(
+          field, absl::StrCat("is ", groups.Get(i), ", must be one of BodyPartGroup, 1 to 6"));
     }
     if (*part) return InvalidField(field, "is there twice");
     *part = true;
   }
   return absl::OkStatus();
+}
+
+void WriteParts(const body::PartSelection& parts, google::protobuf::RepeatedField<int>& groups) {
+  if (parts.torso) groups.Add(v1::BODY_PART_GROUP_TORSO);
+  if (parts.arms) groups.Add(v1::BODY_PART_GROUP_ARMS);
+  if (parts.legs) groups.Add(v1::BODY_PART_GROUP_LEGS);
+  if (parts.head) groups.Add(v1::BODY_PART_GROUP_HEAD);
+  if (parts.hands) groups.Add(v1::BODY_PART_GROUP_HANDS);
+  if (parts.feet) groups.Add(v1::BODY_PART_GROUP_FEET);
 }
 
 absl::Status ReadLandmark(const v1::Landmark& wire, const std::string& field,
@@ -128,7 +139,7 @@ absl::StatusOr<pipeline::FitOptions> OptionsFromWire(const v1::ApproximateBodyHe
   CAPFIT_RETURN_IF_ERROR(ReadBudget(wire.budget(), options));
   CAPFIT_RETURN_IF_ERROR(Read("options.fit_mode", wire.fit_mode(), options.fit));
   CAPFIT_RETURN_IF_ERROR(Read("options.quality", wire.quality(), options.quality));
-  CAPFIT_RETURN_IF_ERROR(ReadParts(wire, options.parts));
+  CAPFIT_RETURN_IF_ERROR(ReadParts(wire.parts(), "parts", options.parts));
   CAPFIT_RETURN_IF_ERROR(Read("options.sex", wire.sex(), options.sex));
   CAPFIT_RETURN_IF_ERROR(ReadSkinning(wire.skinning(), options.skinning));
   for (int i = 0; i < wire.landmarks_size(); ++i) {
@@ -137,6 +148,8 @@ absl::StatusOr<pipeline::FitOptions> OptionsFromWire(const v1::ApproximateBodyHe
   }
   options.seed = wire.seed();
   options.want_polygons = wire.want_feature_polygons();
+  options.tolerance_m = wire.tolerance_m();
+  options.engine = wire.engine();
   return options;
 }
 
@@ -147,12 +160,7 @@ void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeade
   WriteBudget(options, wire);
   wire.set_fit_mode(ToWire(options.fit));
   wire.set_quality(ToWire(options.quality));
-  if (options.parts.torso) wire.add_parts(v1::BODY_PART_GROUP_TORSO);
-  if (options.parts.arms) wire.add_parts(v1::BODY_PART_GROUP_ARMS);
-  if (options.parts.legs) wire.add_parts(v1::BODY_PART_GROUP_LEGS);
-  if (options.parts.head) wire.add_parts(v1::BODY_PART_GROUP_HEAD);
-  if (options.parts.hands) wire.add_parts(v1::BODY_PART_GROUP_HANDS);
-  if (options.parts.feet) wire.add_parts(v1::BODY_PART_GROUP_FEET);
+  WriteParts(options.parts, *wire.mutable_parts());
   wire.set_sex(ToWire(options.sex));
   wire.set_skinning(ToWire(options.skinning));
   for (const auto& [id, position] : options.landmarks) {
@@ -164,6 +172,8 @@ void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeade
   }
   wire.set_seed(options.seed);
   wire.set_want_feature_polygons(options.want_polygons);
+  wire.set_tolerance_m(options.tolerance_m);
+  wire.set_engine(options.engine);
 }
 
 }  // namespace capfit::wire
