@@ -36,7 +36,8 @@ TEST(ApproximateFlags, NoneGiveTheDefaults) {
 TEST(ApproximateFlags, AreTaken) {
   const auto flags = Parse(
       "--max-spheres 32 --max-capsules 31 --parts head,arms body.obj --fit best --quality tight "
-      "--skinning dense --sex male --unit cm --up z --seed 18446744073709551615");
+      "--skinning dense --sex male --unit cm --up z --seed 18446744073709551615 "
+      "--engine jolt --tolerance-mm 2.5");
   ASSERT_TRUE(flags);
   const auto options = OptionsOf(*flags);
   ASSERT_TRUE(options.ok());
@@ -51,6 +52,8 @@ TEST(ApproximateFlags, AreTaken) {
   EXPECT_EQ(options->unit, body::Unit::kCentimetre);
   EXPECT_EQ(options->up, body::UpAxis::kZ);
   EXPECT_EQ(options->seed, 18446744073709551615U);
+  EXPECT_EQ(options->engine, "jolt");
+  EXPECT_DOUBLE_EQ(options->tolerance_m, 0.0025);
 }
 
 TEST(ApproximateFlags, AllMeansAllSix) {

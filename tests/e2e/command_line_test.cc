@@ -132,9 +132,9 @@ TEST_F(CommandLine, AnimateMovesTheCentresWithTheBody) {
   }
 }
 
-TEST_F(CommandLine, OptionsThatComeLaterAreRefusedNotIgnored) {
-  for (const auto& option :
-       std::vector<std::vector<std::string>>{{"--fit", "best"}, {"--quality", "tight"}}) {
+TEST_F(CommandLine, OptionsThatMakeNoSenseAreRefusedNotIgnored) {
+  for (const auto& option : std::vector<std::vector<std::string>>{
+           {"--engine", "quake"}, {"--fit", "best", "--tolerance-mm", "1"}}) {
     for (const auto& place :
          std::vector<std::vector<std::string>>{{"--local"}, {"--server", server_->address()}}) {
       std::vector<std::string> arguments = {"approximate", Body(), "-o", Path("refused.json")};
@@ -142,7 +142,8 @@ TEST_F(CommandLine, OptionsThatComeLaterAreRefusedNotIgnored) {
       arguments.insert(arguments.end(), place.begin(), place.end());
       const Outcome outcome = RunCapfit(arguments);
       EXPECT_EQ(outcome.exit_code, 2);
-      EXPECT_THAT(outcome.err, HasSubstr("UNIMPLEMENTED"));
+      EXPECT_THAT(outcome.err,
+                  HasSubstr("INVALID_ARGUMENT: " + option[option.size() - 2].substr(2, 6)));
       EXPECT_EQ(ReadText(Path("refused.json")), "");
     }
   }

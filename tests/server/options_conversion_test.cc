@@ -33,6 +33,8 @@ void ExpectSame(const FitOptions& a, const FitOptions& b) {
   EXPECT_EQ(a.landmarks, b.landmarks);
   EXPECT_EQ(a.seed, b.seed);
   EXPECT_EQ(a.want_polygons, b.want_polygons);
+  EXPECT_EQ(a.tolerance_m, b.tolerance_m);
+  EXPECT_EQ(a.engine, b.engine);
 }
 
 absl::StatusOr<FitOptions> RoundTrip(const FitOptions& options) {
@@ -67,6 +69,8 @@ TEST(OptionsConversion, EveryOptionComesBack) {
                        {body::LandmarkId::kCrotch, {1, 2, 3}}};
   options.seed = std::numeric_limits<std::uint64_t>::max();
   options.want_polygons = true;
+  options.tolerance_m = 0.0025;
+  options.engine = "unity_cloth";
   const auto back = RoundTrip(options);
   ASSERT_TRUE(back.ok()) << back.status();
   ExpectSame(*back, options);

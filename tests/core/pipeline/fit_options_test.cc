@@ -62,6 +62,27 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"ErrorNotANumber",
              [](FitOptions& o) { o.polygon_error = std::numeric_limits<double>::quiet_NaN(); },
              kInvalid, "polygon_error is nan"},
+        Case{"Tolerance", [](FitOptions& o) { o.tolerance_m = 0.1; }, kOk, ""},
+        Case{"ToleranceTooLarge", [](FitOptions& o) { o.tolerance_m = 0.2; }, kInvalid,
+             "tolerance_m is 0.2, must be 0 to 0.1"},
+        Case{"ToleranceNotANumber",
+             [](FitOptions& o) { o.tolerance_m = std::numeric_limits<double>::quiet_NaN(); },
+             kInvalid, "tolerance_m is nan"},
+        Case{"ToleranceOfTheBestFit",
+             [](FitOptions& o) {
+               o.tolerance_m = 0.001;
+               o.fit = FitMode::kBestFit;
+             },
+             kInvalid, "tolerance_m is for fit enclose"},
+        Case{"Engine", [](FitOptions& o) { o.engine = "iclone"; }, kOk, ""},
+        Case{"UnknownEngine", [](FitOptions& o) { o.engine = "quake"; }, kInvalid,
+             "engine is \"quake\", must be one of nvcloth, unity_cloth, "},
+        Case{"ErrorWithinAnEnginesLimits",
+             [](FitOptions& o) {
+               o.engine = "nvcloth";
+               o.polygon_error = 0.1;
+             },
+             kInvalid, "polygon_error cannot be promised within the limits of nvcloth"},
         Case{"NoParts", [](FitOptions& o) { o.parts = {false, false, false, false, false, false}; },
              kInvalid, "parts is empty"},
         Case{"LandmarkNotFinite",

@@ -1,0 +1,176 @@
+// Quality tight, best fit, tolerance and engines, through the whole fit.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/geometry/tapered_capsule.h"
+#include "core/mannequin/mannequin.h"
+#include "core/pipeline/engines.h"
+#include "core/pipeline/fit.h"
+
+namespace capfit::pipeline {
+namespace {
+
+mesh::PolygonSoup Person() {
+  absl::StatusOr<mesh::PolygonSoup> soup = mannequin::MakeMannequin({});
+  EXPECT_TRUE(soup.ok()) << soup.status();
+  return *std::move(soup);
+}
+
+FitResult MustFit(const mesh::PolygonSoup& soup, FitOptions options, int threads = 2) {
+  options.parts = {true, true, true, true, true, true};
+  const ThreadPool pool(threads);
+  NullObserver observer;
+  absl::StatusOr<FitResult> result = Fit(soup, options, pool, observer);
+  EXPECT_TRUE(result.ok()) << result.status();
+  return result.ok() ? *std::move(result) : FitResult();
+}
+
+FitOptions Of(Quality quality, FitMode fit, int max_primitives) {
+  FitOptions options;
+  options.quality = quality;
+  options.fit = fit;
+  options.max_primitives = max_primitives;
+  return options;
+}
+
+// The furthest vertex outside, asked of the solids themselves.
+double FurthestVertexOut(const mesh::PolygonSoup& soup, const FitResult& result) {
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(result.primitives);
+  double furthest = -1e300;
+  for (const Eigen::Vector3d& vertex : soup.positions) {
+    double nearest = 1e300;
+    for (const auto& solid : solids) nearest = std::min(nearest, solid.SignedDistance(vertex));
+    furthest = std::max(furthest, nearest);
+  }
+  return furthest;
+}
+
+TEST(TightQuality, EnclosesWithLessThanPaper) {
+  const mesh::PolygonSoup soup = Person();
+  const FitResult paper = MustFit(soup, Of(Quality::kPaper, FitMode::kEnclose, 64));
+  const FitResult tight = MustFit(soup, Of(Quality::kTight, FitMode::kEnclose, 64));
+  EXPECT_LE(FurthestVertexOut(soup, tight), 0.0);
+  EXPECT_LE(tight.metrics.max_gap_m, 1e-3);
+  EXPECT_LT(tight.metrics.E_r, 0.9 * paper.metrics.E_r);
+  EXPECT_LE(tight.metrics.n_p, 64);
+  EXPECT_GE(tight.metrics.n_p, 62);
+}
+
+TEST(TightQuality, BestFitIsTighterStillAndSaysHowFarThingsStickOut) {
+  const mesh::PolygonSoup soup = Person();
+  const FitResult enclosing = MustFit(soup, Of(Quality::kTight, FitMode::kEnclose, 64));
+  const FitResult best = MustFit(soup, Of(Quality::kTight, FitMode::kBestFit, 64));
+  EXPECT_LT(best.metrics.E_r, 0.5 * enclosing.metrics.E_r);
+  const double out = FurthestVertexOut(soup, best);
+  EXPECT_GT(out, 0.0);
+  EXPECT_GE(best.metrics.max_gap_m, out - 1e-6);
+  EXPECT_LE(best.metrics.max_gap_m, out + 5e-3);
+}
+
+TEST(PaperQuality, BestFitIsTheSetBeforeItsGrowing) {
+  const mesh::PolygonSoup soup = Person();
+  const FitResult enclosing = MustFit(soup, Of(Quality::kPaper, FitMode::kEnclose, 64));
+  const FitResult best = MustFit(soup, Of(Quality::kPaper, FitMode::kBestFit, 64));
+  EXPECT_GT(FurthestVertexOut(soup, best), 0.0);
+  EXPECT_EQ(best.primitives.spheres.size(), enclosing.primitives.spheres.size());
+}
+
+TEST(TightQuality, SameBitsForAnyNumberOfThreads) {
+  const mesh::PolygonSoup soup = Person();
+  for (const FitMode fit : {FitMode::kEnclose, FitMode::kBestFit}) {
+    const FitResult one = MustFit(soup, Of(Quality::kTight, fit, 48), 1);
+    const FitResult seven = MustFit(soup, Of(Quality::kTight, fit, 48), 7);
+    ASSERT_EQ(one.primitives.spheres.size(), seven.primitives.spheres.size());
+    EXPECT_EQ(one.primitives.capsules, seven.primitives.capsules);
+    for (std::size_t i = 0; i < one.primitives.spheres.size(); ++i) {
+      EXPECT_EQ(one.primitives.spheres[i].center_m, seven.primitives.spheres[i].center_m);
+      EXPECT_EQ(one.primitives.spheres[i].radius_m, seven.primitives.spheres[i].radius_m);
+    }
+  }
+}
+
+TEST(TightQuality, ASymmetricBodyGetsAnExactlySymmetricSet) {
+  const FitResult result = MustFit(Person(), Of(Quality::kTight, FitMode::kEnclose, 64));
+  const auto& set = result.primitives;
+  const auto to_body = [&](int i) {
+    return result.body_from_caller.Apply(set.spheres[static_cast<std::size_t>(i)].center_m);
+  };
+  for (int i = 0; i < static_cast<int>(set.spheres.size()); ++i) {
+    const int image = set.origins[static_cast<std::size_t>(i)].mirror;
+    ASSERT_GE(image, 0) << i;
+    EXPECT_LE((to_body(i).cwiseProduct(Eigen::Vector3d(-1, 1, 1)) - to_body(image)).norm(), 1e-9);
+  }
+}
+
+TEST(Tolerance, IsUsedAndKept) {
+  const mesh::PolygonSoup soup = Person();
+  for (const Quality quality : {Quality::kPaper, Quality::kTight}) {
+    FitOptions options = Of(quality, FitMode::kEnclose, 64);
+    const FitResult strict = MustFit(soup, options);
+    options.tolerance_m = 0.004;
+    const FitResult loose = MustFit(soup, options);
+    const double out = FurthestVertexOut(soup, loose);
+    EXPECT_GT(out, 0.0005);
+    EXPECT_LE(out, 0.004);
+    EXPECT_LE(loose.metrics.max_gap_m, 0.005);
+    EXPECT_LT(loose.metrics.E_r, strict.metrics.E_r);
+  }
+}
+
+TEST(Engines, LimitsHoldAndTheBodyIsCoveredInTheEnginesOwnProfile) {
+  const mesh::PolygonSoup soup = Person();
+  for (const Engine& engine : Engines()) {
+    FitOptions options;
+    options.engine = std::string(engine.name);
+    const FitResult result = MustFit(soup, options);
+    const capsule::PrimitiveSet& set = result.primitives;
+    SCOPED_TRACE(engine.name);
+    EXPECT_LE(FurthestVertexOut(soup, result), 0.0);
+    if (engine.max_spheres > 0) {
+      EXPECT_LE(static_cast<int>(set.spheres.size()), engine.max_spheres);
+    }
+    if (engine.max_capsules > 0) {
+      EXPECT_LE(static_cast<int>(set.capsules.size()), engine.max_capsules);
+    }
+    if (engine.max_shapes > 0) {
+      EXPECT_LE(capsule::ShapeCount(set), engine.max_shapes);
+    }
+    if (engine.max_spheres + engine.max_capsules + engine.max_shapes == 0) {
+      EXPECT_LE(set.primitive_count(), kDefaultMaxPrimitives);
+    }
+    if (engine.profile != capsule::CapsuleProfile::kUniformRadius) continue;
+    std::vector<int> uses(set.spheres.size(), 0);
+    for (std::size_t k = 0; k < set.capsules.size(); ++k) {
+      EXPECT_EQ(set.Capsule(k).a().radius_m, set.Capsule(k).b().radius_m);
+      for (const int end : set.capsules[k]) ++uses[static_cast<std::size_t>(end)];
+    }
+    EXPECT_LE(*std::max_element(uses.begin(), uses.end()), 1);
+  }
+}
+
+TEST(Engines, TheLowerOfBudgetAndEngineHolds) {
+  FitOptions options;
+  options.engine = "nvcloth";
+  options.max_primitives = 48;
+  FitOptions limited = WithEngineLimits(options);
+  EXPECT_EQ(limited.max_primitives, 48);
+  EXPECT_EQ(limited.max_spheres, 32);
+  EXPECT_EQ(limited.max_capsules, 32);
+  options.max_primitives.reset();
+  options.max_spheres = 20;
+  limited = WithEngineLimits(options);
+  EXPECT_EQ(limited.max_spheres, 20);
+  options = {};
+  options.engine = "vrm";
+  options.max_primitives = 100;  // three for each capsule
+  EXPECT_EQ(WithEngineLimits(options).max_capsules, 33);
+  EXPECT_EQ(FindEngine("NvCloth"), nullptr);
+}
+
+}  // namespace
+}  // namespace capfit::pipeline
