@@ -126,20 +126,28 @@ TEST(RemoveCoveredCapsulesTest, TwoThatCoverEachOtherDoNotBothGo) {
 
 TEST(RemoveCoveredCapsulesTest, ACapsuleWhoseInsideNobodyElseFillsStays) {
   // A thick one whose slant is hidden by a ring of thin ones that leave its core empty. Its ends
-  // are small, so that the end spheres do not fill it either.
-  std::vector<Sphere> spheres = {{{0, -0.8, 0}, 0.5}, {{0, 0.8, 0}, 0.5}};
+  // are apart, so that the end spheres do not fill it either.
+  std::vector<Sphere> spheres = {{{0, -0.45, 0}, 0.5}, {{0, 0.45, 0}, 0.5}};
   std::vector<CapsuleEnds> capsules = {{0, 1}};
   for (int i = 0; i < 24; ++i) {
     const double angle = 2 * EIGEN_PI * i / 24;
     const Eigen::Vector3d side(0.45 * std::cos(angle), 0, 0.45 * std::sin(angle));
     const int first = static_cast<int>(spheres.size());
-    spheres.push_back({side - Eigen::Vector3d(0, 1.2, 0), 0.12});
-    spheres.push_back({side + Eigen::Vector3d(0, 1.2, 0), 0.12});
+    spheres.push_back({side - Eigen::Vector3d(0, 0.9, 0), 0.12});
+    spheres.push_back({side + Eigen::Vector3d(0, 0.9, 0), 0.12});
     capsules.push_back({first, first + 1});
   }
   PrimitiveSet set = SetOf(spheres, capsules);
   RemoveCoveredCapsules(set);
   EXPECT_THAT(set.capsules, Contains(CapsuleEnds{0, 1}));
+  // With a core that is larger than it (the smaller of two is asked first), it is not needed.
+  const int first = static_cast<int>(spheres.size());
+  spheres.push_back({{0, -3.0, 0}, 0.4});
+  spheres.push_back({{0, 3.0, 0}, 0.4});
+  capsules.push_back({first, first + 1});
+  set = SetOf(spheres, capsules);
+  RemoveCoveredCapsules(set);
+  EXPECT_THAT(set.capsules, Not(Contains(CapsuleEnds{0, 1})));
 }
 
 TEST(RemoveCoveredCapsulesProperty, WhatIsGoneWasCoveredToTheTolerance) {
