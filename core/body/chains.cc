@@ -56,11 +56,11 @@ std::optional<MedialCurve> LimbCurve(const LimbProfile& profile, const Eigen::Ve
 }
 
 // Centroids of level sections up to the armpits, then a smooth way to the neck.
-std::optional<MedialCurve> TrunkCurve(const Shape& shape, const Eigen::Vector3d& crotch,
+std::optional<MedialCurve> TrunkCurve(const Shape& shape, const Eigen::Vector3d& base,
                                       const Eigen::Vector3d& neck, double armpit_y) {
   const double stature = shape.stature_m;
-  std::vector<Eigen::Vector3d> line = {crotch};
-  for (double y = crotch.y() + 0.02 * stature; y < armpit_y - 0.01 * stature; y += 0.01 * stature) {
+  std::vector<Eigen::Vector3d> line = {base};
+  for (double y = base.y() + 0.02 * stature; y < armpit_y - 0.01 * stature; y += 0.01 * stature) {
     const CutPlane plane = {Eigen::Vector3d(0, y, 0), Eigen::Vector3d::UnitY()};
     for (const SectionLoop& loop : shape.surface->Cut(plane)) {
       if (!loop.is_closed) continue;
@@ -99,14 +99,13 @@ std::array<std::optional<MedialCurve>, kChainCount> BuildChains(const Shape& sha
           LimbCurve(*shape.leg_profiles[side], hip->position_m, ankle->position_m, margin);
     }
   }
-  const auto& crotch = landmarks[Index(LandmarkId::kCrotch)];
-  if (crotch && shape.neck_middle_m) {
+  if (shape.neck_middle_m) {
     double armpit_y = shape.neck_middle_m->y() - kArmpitBelowNeck * shape.stature_m;
     for (const int side : {kLeft, kRight}) {
       const auto& armpit = at(LandmarkId::kLeftArmpit, side);
       if (armpit) armpit_y = std::min(armpit_y, armpit->position_m.y());
     }
-    chains[0] = TrunkCurve(shape, crotch->position_m, *shape.neck_middle_m, armpit_y);
+    chains[0] = TrunkCurve(shape, shape.trunk_base_m, *shape.neck_middle_m, armpit_y);
   }
   return chains;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,8 +18,10 @@
 #include "core/body/mirror.h"
 #include "core/body/segments.h"
 #include "core/body/shape.h"
+#include "core/body/skeleton_names.h"
 #include "core/body/snap.h"
 #include "core/body/surface_graph.h"
+#include "core/body/told_landmarks.h"
 #include "core/body/working_copy.h"
 
 namespace capfit::body {
@@ -27,6 +30,9 @@ namespace {
 constexpr int kMinExtremities = 3;
 // Below this the evidence for front and back is thin.
 constexpr double kFacingTrust = 0.35;
+// Length of an arm along the surface, from where it leaves the trunk: 0.21 of the height without
+// hand, 0.26 to 0.33 with.
+constexpr double kArmShare = 0.26;
 
 std::optional<Eigen::Vector3d> UpDirection(UpAxis up) {
   switch (up) {
@@ -42,11 +48,12 @@ std::optional<Eigen::Vector3d> UpDirection(UpAxis up) {
   return std::nullopt;
 }
 
-// Landmarks on the wrong sides mean that front and back are mistaken: the caller knows better.
-void TurnToCallersSides(const BodyOptions& options, const WorkingCopy& copy,
-                        IntrinsicFrame& frame) {
+// Landmarks on the wrong sides mean that front and back are mistaken: the caller knows better, and
+// so does a skeleton.
+void TurnToToldSides(const BodyOptions& options, const WorkingCopy& copy, IntrinsicFrame& frame) {
   double agreement = 0.0;
-  for (const auto& [id, position] : options.landmarks) {
+  for (const auto& [id, position] :
+       options.landmarks.empty() ? LandmarksFromSkeleton(options.skeleton) : options.landmarks) {
     if (MirrorLandmark(id) == id) continue;
     const bool is_left = id < MirrorLandmark(id);
     agreement +=
@@ -55,15 +62,29 @@ void TurnToCallersSides(const BodyOptions& options, const WorkingCopy& copy,
   if (agreement < 0.0) frame = TurnedAbout(frame);
 }
 
+// Height of a body that ends above its legs, from what reaches out of the trunk; rough.
+double StatureWithoutLegs(const Extremities& extremities) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Tip tip : {Tip::kHandA, Tip::kHandB}) {
+    if (!extremities.limb(tip)) continue;
+    sum += extremities.limb(tip)->tip_distance - extremities.limb(tip)->junction;
+    ++count;
+  }
+  return count > 0 ? sum / count / kArmShare : 0.0;
+}
+
 // The way to the body's frame (upright, in metres, standing at y = 0) from the caller's and from
 // the working copy's. The latter is the same for every copy of a body, bit by bit.
 struct WaysToBody {
   geometry::Similarity from_caller;
   geometry::Similarity from_copy;
+  double stature_m = 0.0;  // a first guess; of the whole body, where there are no legs
 };
 
 absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const WorkingCopy& copy,
                                           const IntrinsicFrame& frame,
+                                          const Extremities& extremities,
                                           std::vector<Warning>& warnings) {
   double low = 0.0;
   double high = 0.0;
@@ -71,16 +92,19 @@ absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const Work
     low = std::min(low, frame.up.dot(p));
     high = std::max(high, frame.up.dot(p));
   }
-  const double height = (high - low) * copy.unit;
-  CAPFIT_ASSIGN_OR_RETURN(const LengthUnit unit, ChooseUnit(options.unit, height));
+  const bool has_legs = extremities.limb(Tip::kFootA) || extremities.limb(Tip::kFootB);
+  const double stature =
+      std::max(has_legs ? 0.0 : StatureWithoutLegs(extremities), high - low) * copy.unit;
+  CAPFIT_ASSIGN_OR_RETURN(const LengthUnit unit, ChooseUnit(options.unit, stature));
   if (unit.unit != Unit::kMetre && options.unit == Unit::kAuto) {
     warnings.push_back(
         {"UNIT_ASSUMED",
          absl::StrCat("taken to be in ", std::string(unit.name), ", which makes the body ",
-                      height * unit.metres, " m tall; name the unit if that is wrong"),
+                      stature * unit.metres, " m tall; name the unit if that is wrong"),
          0});
   }
   WaysToBody ways;
+  ways.stature_m = Snap(stature * unit.metres, kFineGrid);
   ways.from_copy.rotation.row(0) = frame.left;
   ways.from_copy.rotation.row(1) = frame.up;
   ways.from_copy.rotation.row(2) = frame.forward;
@@ -116,13 +140,6 @@ void AssignSides(const Extremities& extremities, const IntrinsicFrame& frame, Sh
   shape.legs[1 - first_foot] = extremities.limb(Tip::kFootB);
 }
 
-void EnterCallersLandmarks(const BodyOptions& options, Body& body) {
-  for (const auto& [id, position] : options.landmarks) {
-    body.landmarks[Index(id)] = Landmark{Snap(body.body_from_caller.Apply(position), kFineGrid),
-                                         LandmarkMethod::kCaller, 1.0};
-  }
-}
-
 absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const WorkingCopy& copy,
                                          const Extremities& extremities) {
   if (extremities.found() < kMinExtremities) {
@@ -135,9 +152,94 @@ absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Worki
   if (up && frame.up_agreement < 0.0) {
     return InvalidField("up", "points from the head to the feet of this body");
   }
-  TurnToCallersSides(options, copy, frame);
+  TurnToToldSides(options, copy, frame);
   return frame;
 }
+
+bool HasSegment(const Body& body, Segment segment) {
+  return std::find(body.vertex_segments.begin(), body.vertex_segments.end(), segment) !=
+         body.vertex_segments.end();
+}
+
+bool HasPart(const Body& body, Part part) {
+  switch (part) {
+    case Part::kHead:
+      return HasSegment(body, Segment::kHead);
+    case Part::kLeftHand:
+      return HasSegment(body, Segment::kLeftHand);
+    case Part::kRightHand:
+      return HasSegment(body, Segment::kRightHand);
+    case Part::kLeftFoot:
+      return HasSegment(body, Segment::kLeftFoot);
+    case Part::kRightFoot:
+      return HasSegment(body, Segment::kRightFoot);
+    default:
+      return body.chain(part).has_value();
+  }
+}
+
+absl::Status CheckRequired(const Body& body, const PartSelection& required) {
+  std::string missing;
+  for (int i = 0; i < kPartCount; ++i) {
+    const Part part = static_cast<Part>(i);
+    if (!required.Includes(part) || HasPart(body, part)) continue;
+    absl::StrAppend(&missing, missing.empty() ? "" : ", ", std::string(PartName(part)));
+  }
+  if (missing.empty()) return absl::OkStatus();
+  return CannotFit("PART_MISSING", absl::StrCat("required but not found on this body: ", missing));
+}
+
+// Landmarks, segments and curves, once the frame is known.
+class Anatomist {
+ public:
+  Anatomist(const BodyOptions& options, const WorkingCopy& copy, const SurfaceGraph& graph,
+            const Extremities& extremities, Body& body)
+      : options_(options), copy_(copy), extremities_(extremities), body_(body) {
+    points_.reserve(copy.points.size());
+    for (const std::uint32_t v : copy.mesh_vertex) points_.push_back(body.mesh.vertices()[v]);
+    surface_.emplace(points_, copy.triangles);
+    shape_.points = points_;
+    shape_.triangles = copy.triangles;
+    shape_.graph = &graph;
+    shape_.surface = &*surface_;
+    shape_.top_m = body.height_m;
+  }
+
+  absl::Status Run(const IntrinsicFrame& frame, double stature_m, const FitObserver& observer) {
+    shape_.stature_m = stature_m;
+    AssignSides(extremities_, frame, shape_);
+    CAPFIT_ASSIGN_OR_RETURN(body_.landmarks, ToldLandmarks(options_, body_.body_from_caller,
+                                                           extremities_, shape_, body_.warnings));
+    CAPFIT_RETURN_IF_ERROR(FindLandmarks(extremities_, shape_, body_.landmarks, body_.warnings));
+    if (observer.IsCancelled()) return absl::CancelledError("cancelled while finding landmarks");
+    body_.is_symmetric = IsSymmetric(shape_, body_.landmarks);
+    if (body_.is_symmetric) {
+      Symmetrise(body_.landmarks);
+      Symmetrise(shape_);
+    }
+    Label();
+    body_.chains = BuildChains(shape_, body_.landmarks);
+    if (body_.is_symmetric) Symmetrise(body_.chains);
+    return CheckRequired(body_, options_.required);
+  }
+
+ private:
+  void Label() {
+    const std::vector<Segment> segments = LabelVertices(shape_, body_.landmarks);
+    body_.vertex_segments.resize(segments.size());
+    for (std::size_t v = 0; v < segments.size(); ++v) {
+      body_.vertex_segments[copy_.mesh_vertex[v]] = segments[v];
+    }
+  }
+
+  const BodyOptions& options_;
+  const WorkingCopy& copy_;
+  const Extremities& extremities_;
+  Body& body_;
+  std::vector<Eigen::Vector3d> points_;  // of the copy, in the body frame
+  std::optional<CutSurface> surface_;
+  Shape shape_;
+};
 
 }  // namespace
 
@@ -149,42 +251,23 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   const Extremities extremities = FindExtremities(copy.points, copy.vertex_areas, graph);
   CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame, FindFrame(options, copy, extremities));
   std::vector<Warning> warnings;
-  CAPFIT_ASSIGN_OR_RETURN(const WaysToBody ways, FindWaysToBody(options, copy, frame, warnings));
+  CAPFIT_ASSIGN_OR_RETURN(const WaysToBody ways,
+                          FindWaysToBody(options, copy, frame, extremities, warnings));
   if (frame.facing_trust < kFacingTrust) {
     warnings.push_back({"FACING_UNSURE",
                         "front and back look alike; a left or right landmark would tell them", 0});
   }
-  Body body = {
-      MeshInBodyFrame(mesh, copy, ways.from_copy), ways.from_caller, 0.0, false, {}, {}, {}, {}};
+  Body body = {MeshInBodyFrame(mesh, copy, ways.from_copy),
+               ways.from_caller,
+               0.0,
+               false,
+               {},
+               {},
+               {},
+               std::move(warnings)};
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
-  EnterCallersLandmarks(options, body);
-
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(copy.points.size());
-  for (const std::uint32_t v : copy.mesh_vertex) points.push_back(body.mesh.vertices()[v]);
-  const CutSurface surface(points, copy.triangles);
-  Shape shape;
-  shape.points = points;
-  shape.triangles = copy.triangles;
-  shape.graph = &graph;
-  shape.surface = &surface;
-  shape.top_m = body.height_m;
-  AssignSides(extremities, frame, shape);
-  CAPFIT_RETURN_IF_ERROR(FindLandmarks(extremities, shape, body.landmarks, warnings));
-  if (observer.IsCancelled()) return absl::CancelledError("cancelled while finding landmarks");
-  body.is_symmetric = IsSymmetric(shape, body.landmarks);
-  if (body.is_symmetric) {
-    Symmetrise(body.landmarks);
-    Symmetrise(shape);
-  }
-  const std::vector<Segment> segments = LabelVertices(shape, body.landmarks);
-  body.vertex_segments.resize(segments.size());
-  for (std::size_t v = 0; v < segments.size(); ++v) {
-    body.vertex_segments[copy.mesh_vertex[v]] = segments[v];
-  }
-  body.chains = BuildChains(shape, body.landmarks);
-  if (body.is_symmetric) Symmetrise(body.chains);
-  body.warnings = std::move(warnings);
+  Anatomist anatomist(options, copy, graph, extremities, body);
+  CAPFIT_RETURN_IF_ERROR(anatomist.Run(frame, ways.stature_m, observer));
   return body;
 }
 

@@ -5,12 +5,14 @@
 #include <Eigen/Core>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/mesh/body_mesh.h"
+#include "core/mesh/polygon_soup.h"
 
 namespace capfit::body {
 
@@ -20,13 +22,23 @@ enum class UpAxis { kAuto, kX, kY, kZ };
 struct BodyOptions {
   Unit unit = Unit::kAuto;    // kAuto: found from the height
   UpAxis up = UpAxis::kAuto;  // kAuto: found from the body
-  // Landmarks that the caller knows better, in the caller's frame. They replace the found ones.
+  // Landmarks that the caller knows better, in the caller's frame. They replace the found ones. One
+  // that lies off the body or far from where the body shows it is refused: INVALID_ARGUMENT with
+  // the field "landmarks.NAME".
   std::map<LandmarkId, Eigen::Vector3d> landmarks;
+  // Joints of a skeleton that came with the mesh, in the caller's frame (see skeleton_names.h).
+  // They replace the found ones that the caller does not give, but for those that contradict the
+  // surface: warning SKELETON_IGNORED.
+  std::vector<mesh::NamedJoint> skeleton;
+  // Parts that must be there, none unless asked for: else FAILED_PRECONDITION with reason
+  // PART_MISSING. Both sides of a pair are meant.
+  PartSelection required = {false, false, false, false, false, false};
 };
 
 // Finds frame, landmarks, segments and medial curves of the body. Any usual pose; head, hands and
-// feet may be missing. Errors: FAILED_PRECONDITION with reason NOT_A_BODY and the evidence
-// ("found 0 of 5 extremities"). O(n log n).
+// feet, an arm or both, and the legs may be missing (a warning PART_MISSING each), as long as three
+// of head, arms and legs are there. Errors: FAILED_PRECONDITION with reason NOT_A_BODY and the
+// evidence ("found 0 of 5 extremities"), PART_MISSING. O(n log n).
 [[nodiscard]] absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& options,
                                             const ThreadPool& pool, const FitObserver& observer);
 

@@ -34,8 +34,12 @@ constexpr double kClearCalf = 0.010;
 constexpr double kCalfWeight = 0.5;
 constexpr double kClearElbow = 0.005;
 constexpr double kElbowWeight = 0.1;
+constexpr double kClearReach = 0.10;
+constexpr double kReachWeight = 0.3;
 constexpr double kClearHead = 0.2;  // slope
 constexpr double kHeadWeight = 0.5;
+constexpr double kClearFace = 0.02;
+constexpr double kFaceWeight = 0.3;
 
 // Sums of vertices by level, each vertex shared between the two nearest levels.
 class LevelSums {
@@ -355,16 +359,21 @@ double LegFacing(const LevelCentroids& leg, const Eigen::Vector3d& tip,
   return kToeWeight * Clear(toe, kClearToe) - kCalfWeight * Clear(calf, kClearCalf);
 }
 
-// The same for arms (the elbow stands out to the back) and the head (it leans to the front).
+// The same for arms (the elbow stands out to the back, and hands reach to the front rather than to
+// the back) and the head (it leans to the front, and stands out over the neck there).
 double ArmFacing(const LevelCentroids& arm, const Eigen::Vector3d& forward) {
   const double elbow = Bulge(arm[kLevels / 8], arm[kLevels / 2], arm[kLevels * 5 / 6], forward);
-  return -kElbowWeight * Clear(elbow, kClearElbow);
+  const double reach = (arm[kLevels * 5 / 6] - arm[kLevels / 8]).dot(forward);
+  return kReachWeight * Clear(reach, kClearReach) - kElbowWeight * Clear(elbow, kClearElbow);
 }
 
 double HeadFacing(const LevelCentroids& head, const Eigen::Vector3d& tip, const Eigen::Vector3d& up,
                   const Eigen::Vector3d& forward) {
   const Eigen::Vector3d reach = tip - head.front();
-  return kHeadWeight * Clear(reach.dot(forward) / std::max(reach.dot(up), 1e-3), kClearHead);
+  const Eigen::Vector3d& neck = head[kLevels / 4];
+  const double face = (head[kLevels * 5 / 8] - neck).dot(forward);
+  return kHeadWeight * Clear(reach.dot(forward) / std::max(reach.dot(up), 1e-3), kClearHead) +
+         kFaceWeight * Clear(face, kClearFace);
 }
 
 double Facing(const Rings& rings, std::span<const Eigen::Vector3d> points,

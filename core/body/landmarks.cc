@@ -1,5 +1,6 @@
 #include "core/body/landmarks.h"
 
+#include <algorithm>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -15,6 +16,9 @@ constexpr std::size_t kMinStations = 20;
 // Length along the surface, in units of the square root of the area, from the place where the arms
 // join to the top of the head (0.19 to 0.28) or to a cut through the neck (0.08).
 constexpr double kHeadLength = 0.135;
+// The section that stands for the lower end of a trunk without legs is taken this far above it, as
+// a share of the stature.
+constexpr double kAboveTrunkEnd = 0.02;
 // Shares of the stature that are gone where head or feet are cut off at mid-neck and ankle.
 constexpr double kHeadShare = 0.122;
 constexpr double kFootShare = 0.055;
@@ -45,34 +49,89 @@ void FindEnds(Shape& shape, Landmarks& landmarks) {
   }
 }
 
-// What head and feet would add to the extent.
+// What head and feet would add to the extent. Without legs the arms tell the height, or the head.
 double Stature(const Shape& shape) {
+  if (!shape.legs[kLeft] && !shape.legs[kRight]) return shape.stature_m;
   double share = 1.0;
   if (!shape.has_head) share -= kHeadShare;
   if (!shape.has_foot[kLeft] && !shape.has_foot[kRight]) share -= kFootShare;
   return shape.top_m / share;
 }
 
-absl::Status MissingParts(const Shape& shape, std::vector<Warning>& warnings) {
+void WarnOfMissing(const std::string& what, const std::string& consequence,
+                   std::vector<Warning>& warnings) {
+  warnings.push_back({"PART_MISSING", what + "; " + consequence, 1});
+}
+
+void WarnOfMissingLimbs(const Shape& shape, std::vector<Warning>& warnings) {
   for (const int side : {kLeft, kRight}) {
+    const std::string the_side = absl::StrCat("the ", SideName(side));
     if (!shape.legs[side]) {
-      return CannotFit("PART_MISSING", absl::StrCat("the ", SideName(side),
-                                                    " leg was not found: it is missing, melted to "
-                                                    "the other or folded up"));
+      WarnOfMissing(the_side + " leg was not found (missing, melted to the other or folded up)",
+                    "what there is of it counts as trunk", warnings);
     }
-    if (shape.arms[side]) continue;
-    warnings.push_back({"PART_MISSING",
-                        absl::StrCat("the ", SideName(side),
-                                     " arm was not found (missing, or melted to the trunk); what "
-                                     "there is of it counts as trunk"),
-                        1});
+    if (!shape.arms[side]) {
+      WarnOfMissing(the_side + " arm was not found (missing, or melted to the trunk)",
+                    "what there is of it counts as trunk", warnings);
+    }
   }
   if (!shape.head) {
-    warnings.push_back({"PART_MISSING",
-                        "neither head nor neck was found; the trunk ends at its highest section",
-                        1});
+    WarnOfMissing("neither head nor neck was found", "the trunk ends at its highest section",
+                  warnings);
   }
-  return absl::OkStatus();
+}
+
+// Heads, hands and feet that are cut off limbs which are there.
+void WarnOfMissingEnds(const Shape& shape, std::vector<Warning>& warnings) {
+  if (shape.head && !shape.has_head) {
+    WarnOfMissing("the head is missing", "the neck ends in a cut", warnings);
+  }
+  for (const int side : {kLeft, kRight}) {
+    const std::string the_side = absl::StrCat("the ", SideName(side));
+    if (shape.arms[side] && !shape.has_hand[side]) {
+      WarnOfMissing(the_side + " hand is missing", "the arm ends in a cut", warnings);
+    }
+    if (shape.legs[side] && !shape.has_foot[side]) {
+      WarnOfMissing(the_side + " foot is missing", "the leg ends in a cut", warnings);
+    }
+  }
+}
+
+// The trunk, where there are not two legs that part: its lowest point that belongs to no limb.
+double LowestOfTrunk(const Shape& shape) {
+  std::vector<char> in_limb(shape.points.size(), 0);
+  const auto mark = [&](const std::optional<Limb>& limb) {
+    if (!limb) return;
+    for (const std::uint32_t v : limb->vertices) in_limb[v] = 1;
+  };
+  for (const int side : {kLeft, kRight}) {
+    mark(shape.arms[side]);
+    mark(shape.legs[side]);
+  }
+  mark(shape.head);
+  double lowest = shape.top_m;
+  for (std::size_t v = 0; v < shape.points.size(); ++v) {
+    if (!in_limb[v]) lowest = std::min(lowest, shape.points[v].y());
+  }
+  return lowest;
+}
+
+// Without both legs there is no crotch; the middle of the trunk's lower end stands in for it.
+void FindTrunkBase(Shape& shape, Landmarks& landmarks) {
+  const auto& crotch = landmarks[Index(LandmarkId::kCrotch)];
+  if (crotch) {
+    shape.trunk_base_m = crotch->position_m;
+    return;
+  }
+  const double lowest = LowestOfTrunk(shape);
+  const CutPlane plane = {Eigen::Vector3d(0, lowest + kAboveTrunkEnd * shape.stature_m, 0),
+                          Eigen::Vector3d::UnitY()};
+  const auto loop = shape.surface->CutNearest(plane, 0.0);
+  shape.trunk_base_m = loop ? loop->centroid : Eigen::Vector3d(0, lowest, 0);
+  shape.trunk_base_m.y() = lowest;
+  if (shape.legs[kLeft] || shape.legs[kRight]) {
+    Put(landmarks, Index(LandmarkId::kCrotch), shape.trunk_base_m, 0.2, LandmarkMethod::kRatio);
+  }
 }
 
 }  // namespace
@@ -83,20 +142,27 @@ absl::Status FindLandmarks(const Extremities& extremities, Shape& shape, Landmar
   shape.has_foot = {true, true};
   shape.stature_m = Stature(shape);
   MakeProfiles(extremities, shape);
-  if (absl::Status status = MissingParts(shape, warnings); !status.ok()) return status;
+  if (!shape.legs[kLeft] && !shape.legs[kRight] && !shape.arms[kLeft] && !shape.arms[kRight]) {
+    return CannotFit("NOT_A_BODY", "not a human body: no arm and no leg was found on it");
+  }
+  WarnOfMissingLimbs(shape, warnings);
   Landmarks draft = landmarks;  // with a stature that still counts on feet
   FindEnds(shape, draft);
   shape.stature_m = Stature(shape);
   FindEnds(shape, landmarks);
-  FindCrotch(shape, landmarks);
-  if (!landmarks[Index(LandmarkId::kCrotch)]) {
-    return CannotFit(
-        "PART_MISSING",
-        "the legs do not part where the thighs meet (closed, fused, or folded up as in "
-        "sitting); a crotch landmark would help");
+  WarnOfMissingEnds(shape, warnings);
+  if (shape.legs[kLeft] && shape.legs[kRight]) {
+    FindCrotch(shape, landmarks);
+    if (!landmarks[Index(LandmarkId::kCrotch)]) {
+      return CannotFit(
+          "PART_MISSING",
+          "the legs do not part where the thighs meet (closed, fused, or folded up as in "
+          "sitting); a crotch landmark would help");
+    }
   }
+  FindTrunkBase(shape, landmarks);
   for (const int side : {kLeft, kRight}) {
-    FindThigh(shape, side, landmarks);
+    if (shape.legs[side]) FindThigh(shape, side, landmarks);
     if (shape.arms[side]) FindUpperArm(shape, side, landmarks);
   }
   FindNeck(shape, landmarks);

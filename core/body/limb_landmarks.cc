@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/body/cleft.h"
 
@@ -62,12 +63,14 @@ constexpr double kBendReach = 0.06;
 constexpr int kBendSteps = 15;
 constexpr double kBendTolerance = 0.02;
 
-std::uint32_t NearestVertex(const Shape& shape, const Eigen::Vector3d& point) {
+// Of the vertices that are in the limb or, if not `wanted`, of those that are not.
+std::uint32_t NearestVertex(const Shape& shape, const std::vector<char>& in_limb, bool wanted,
+                            const Eigen::Vector3d& point) {
   std::uint32_t best = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::uint32_t v = 0; v < shape.points.size(); ++v) {
     const double distance = (shape.points[v] - point).squaredNorm();
-    if (distance >= nearest) continue;
+    if (distance >= nearest || (in_limb[v] != 0) != wanted) continue;
     nearest = distance;
     best = v;
   }
@@ -194,9 +197,11 @@ std::optional<Armpit> FindArmpit(const Shape& shape, int side, const Landmarks& 
   const Eigen::Vector3d root = profile.stations.back().center;
   const Eigen::Vector3d flank =
       root + Eigen::Vector3d(-kFlankInside * SideSign(side), -kFlankBelow, 0.0) * stature;
-  const auto cleft =
-      FindCleft(shape.points, *shape.graph, NearestVertex(shape, lower.center),
-                NearestVertex(shape, flank), outward, {root, kArmpitRegion * stature});
+  std::vector<char> in_arm(shape.points.size(), 0);
+  for (const std::uint32_t v : shape.arms[side]->vertices) in_arm[v] = 1;
+  const auto cleft = FindCleft(
+      shape.points, *shape.graph, NearestVertex(shape, in_arm, true, lower.center),
+      NearestVertex(shape, in_arm, false, flank), outward, {root, kArmpitRegion * stature});
   if (!cleft) return std::nullopt;
   armpit.position_m = shape.points[*cleft];
   return armpit;

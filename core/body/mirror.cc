@@ -39,6 +39,11 @@ bool LandmarksMirror(const Shape& shape, const Landmarks& landmarks) {
   return true;
 }
 
+// 1 for a landmark that the caller told, 0 for one that was found.
+double WordOf(const Landmark& landmark) {
+  return landmark.method == LandmarkMethod::kCaller ? 1.0 : 0.0;
+}
+
 double DistanceToOutline(const SectionLoop& loop, const Eigen::Vector3d& p) {
   double best = std::numeric_limits<double>::infinity();
   const std::size_t count = loop.outline.size();
@@ -81,9 +86,8 @@ bool SurfaceMirrors(const Shape& shape) {
 }  // namespace
 
 bool IsSymmetric(const Shape& shape, const Landmarks& landmarks) {
-  for (const int side : {kLeft, kRight}) {
-    if (!shape.arms[side] || !shape.legs[side]) return false;
-  }
+  if (shape.arms[kLeft].has_value() != shape.arms[kRight].has_value()) return false;
+  if (shape.legs[kLeft].has_value() != shape.legs[kRight].has_value()) return false;
   return LandmarksMirror(shape, landmarks) && SurfaceMirrors(shape);
 }
 
@@ -91,8 +95,10 @@ void Symmetrise(Landmarks& landmarks) {
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const std::size_t other = Index(MirrorLandmark(static_cast<LandmarkId>(i)));
     if (other < i || !landmarks[i] || !landmarks[other]) continue;
-    const Eigen::Vector3d mean =
-        0.5 * (landmarks[i]->position_m + Mirrored(landmarks[other]->position_m));
+    // What was told on one side only is right for both.
+    const double share = WordOf(*landmarks[i]) - WordOf(*landmarks[other]);
+    const Eigen::Vector3d mean = (0.5 + 0.5 * share) * landmarks[i]->position_m +
+                                 (0.5 - 0.5 * share) * Mirrored(landmarks[other]->position_m);
     landmarks[i]->position_m = mean;
     landmarks[other]->position_m = Mirrored(mean);
     if (other == i) landmarks[i]->position_m.x() = 0.0;
@@ -100,6 +106,7 @@ void Symmetrise(Landmarks& landmarks) {
 }
 
 void Symmetrise(Shape& shape) {
+  shape.trunk_base_m.x() = 0.0;
   if (shape.neck_base_m) shape.neck_base_m->x() = 0.0;
   if (shape.neck_middle_m) shape.neck_middle_m->x() = 0.0;
 }

@@ -25,8 +25,10 @@ struct Shape {
   std::span<const mesh::Triangle> triangles;
   const SurfaceGraph* graph = nullptr;
   const CutSurface* surface = nullptr;
-  double top_m = 0.0;      // extent along Y; the lowest point is at 0
-  double stature_m = 0.0;  // height of the whole body: what is cut off is added, by proportion
+  double top_m = 0.0;  // extent along Y; the lowest point is at 0
+  // Height of the whole body: what is cut off is added, by proportion. Without legs it must be set
+  // before landmarks are looked for; with them it follows from the extent.
+  double stature_m = 0.0;
   // By side; nothing where the limb is missing. Profiles run from the tip to the trunk.
   std::array<std::optional<Limb>, 2> arms;
   std::array<std::optional<Limb>, 2> legs;
@@ -36,6 +38,8 @@ struct Shape {
   // The neck: where it leaves the trunk, and its middle (the cut, where there is no head).
   std::optional<Eigen::Vector3d> neck_base_m;
   std::optional<Eigen::Vector3d> neck_middle_m;
+  // Lower end of the trunk: the crotch, where there are two legs.
+  Eigen::Vector3d trunk_base_m = Eigen::Vector3d::Zero();
   // Whether the limb ends as nature made it, not in a flat cut.
   bool has_head = false;
   std::array<bool, 2> has_hand = {false, false};
@@ -51,11 +55,14 @@ using Landmarks = std::array<std::optional<Landmark>, kLandmarkCount>;
 }
 [[nodiscard]] inline std::size_t Index(LandmarkId id) { return static_cast<std::size_t>(id); }
 
-// Enters a landmark that was found, unless the caller has given his own.
+// Enters a landmark that was found, unless the caller or a skeleton has told it.
 inline void Put(Landmarks& landmarks, std::size_t index, const Eigen::Vector3d& position_m,
                 double confidence, LandmarkMethod method = LandmarkMethod::kMeasured) {
   std::optional<Landmark>& landmark = landmarks[index];
-  if (landmark && landmark->method == LandmarkMethod::kCaller) return;
+  if (landmark && (landmark->method == LandmarkMethod::kCaller ||
+                   landmark->method == LandmarkMethod::kSkeleton)) {
+    return;
+  }
   landmark = Landmark{position_m, method, confidence};
 }
 

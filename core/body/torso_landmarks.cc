@@ -24,8 +24,13 @@ constexpr double kNeckAboveArmpit = 0.05;
 constexpr double kNeckBelowTop = 0.08;
 // The base of the neck lies this far below its narrowest place.
 constexpr double kNeckBaseBelowNarrowest = 0.025;
+// A cut through the neck is ragged: sections at it that have lost this share of the area below are
+// pieces.
+constexpr double kWholeNeckShare = 0.8;
 // Height of the armpits where there are no arms.
 constexpr double kArmpitAboveCrotch = 0.270;
+// A section that reaches further out than the armpit by this has caught an arm.
+constexpr double kBesideArmpit = 0.03;
 
 constexpr double kHipFrom = 0.010;
 constexpr double kHipTo = 0.110;
@@ -127,18 +132,21 @@ double MeanArmpitHeight(const Shape& shape, const Landmarks& landmarks) {
     ++count;
   }
   if (count > 0) return sum / count;
-  return landmarks[Index(LandmarkId::kCrotch)]->position_m.y() +
-         kArmpitAboveCrotch * shape.stature_m;
+  return shape.trunk_base_m.y() + kArmpitAboveCrotch * shape.stature_m;
 }
 
 }  // namespace
 
 void FindNeck(Shape& shape, Landmarks& landmarks) {
   const double stature = shape.stature_m;
-  const std::vector<NeckLevel> levels =
+  std::vector<NeckLevel> levels =
       NeckLevels(shape, MeanArmpitHeight(shape, landmarks) + kNeckAboveArmpit * stature);
   if (levels.empty()) return;
   if (!shape.has_head) {
+    while (levels.size() > 1 &&
+           levels.back().loop.area < kWholeNeckShare * levels[levels.size() - 2].loop.area) {
+      levels.pop_back();
+    }
     shape.neck_middle_m = levels.back().loop.centroid;
     shape.neck_base_m =
         *shape.neck_middle_m - kNeckBaseBelowNarrowest * stature * NeckPlane(0).normal;
@@ -159,9 +167,26 @@ void FindNeck(Shape& shape, Landmarks& landmarks) {
   Put(landmarks, Index(LandmarkId::kHeadTop), top, 0.95);
 }
 
+namespace {
+
+// Whether a level section of the trunk runs out into an arm.
+bool HasCaughtAnArm(const SectionLoop& loop, const Shape& shape, const Landmarks& landmarks) {
+  for (const int side : {kLeft, kRight}) {
+    const auto& armpit = landmarks[Sided(LandmarkId::kLeftArmpit, side)];
+    if (!armpit) continue;
+    const double reach = loop.Max(SideSign(side) * Eigen::Vector3d::UnitX());
+    if (reach > SideSign(side) * armpit->position_m.x() + kBesideArmpit * shape.stature_m) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 void FindTrunkSections(const Shape& shape, Landmarks& landmarks) {
   const double stature = shape.stature_m;
-  const double crotch = landmarks[Index(LandmarkId::kCrotch)]->position_m.y();
+  const double crotch = shape.trunk_base_m.y();
   const double armpit = MeanArmpitHeight(shape, landmarks);
   struct Extreme {
     double value = -std::numeric_limits<double>::infinity();
@@ -183,13 +208,19 @@ void FindTrunkSections(const Shape& shape, Landmarks& landmarks) {
       waist.Offer(-loop->girth, loop->centroid);
     }
     const double depth = loop->Max(Eigen::Vector3d::UnitZ()) - loop->Min(Eigen::Vector3d::UnitZ());
-    if (below < kBustBelowArmpit) bust.Offer(depth, loop->centroid);
+    if (below < kBustBelowArmpit && !HasCaughtAnArm(*loop, shape, landmarks)) {
+      bust.Offer(depth, loop->centroid);
+    }
   }
   const auto set = [&](LandmarkId id, const Extreme& extreme) {
     if (std::isfinite(extreme.value)) Put(landmarks, Index(id), extreme.centroid, 0.8);
   };
-  set(LandmarkId::kHip, hip);
-  set(LandmarkId::kWaist, waist);
+  // On a trunk that is cut off, the widest place above the cut is no hip, nor the narrowest a
+  // waist.
+  if (landmarks[Index(LandmarkId::kCrotch)]) {
+    set(LandmarkId::kHip, hip);
+    set(LandmarkId::kWaist, waist);
+  }
   set(LandmarkId::kBust, bust);
 }
 
