@@ -76,8 +76,8 @@ class BodyFit {
         clock_(clock),
         result_(result) {}
 
-  absl::Status Run(const mesh::BodyMesh& mesh) {
-    CAPFIT_RETURN_IF_ERROR(Understand(mesh));
+  absl::Status Run(const mesh::BodyMesh& mesh, const std::vector<mesh::NamedJoint>& skeleton) {
+    CAPFIT_RETURN_IF_ERROR(Understand(mesh, skeleton));
     CAPFIT_RETURN_IF_ERROR(BuildWithinLimits());
     CAPFIT_RETURN_IF_ERROR(Cover());
     CAPFIT_RETURN_IF_ERROR(Measure());
@@ -86,12 +86,15 @@ class BodyFit {
   }
 
  private:
-  absl::Status Understand(const mesh::BodyMesh& mesh) {
+  absl::Status Understand(const mesh::BodyMesh& mesh,
+                          const std::vector<mesh::NamedJoint>& skeleton) {
     clock_.Begin(Stage::kBody);
     body::BodyOptions body_options;
     body_options.unit = options_.unit;
     body_options.up = options_.up;
     body_options.landmarks = options_.landmarks;
+    body_options.skeleton = skeleton;
+    body_options.required = options_.require_parts;
     CAPFIT_ASSIGN_OR_RETURN(body_, body::FindBody(mesh, body_options, pool_, observer_));
     Append(body_->warnings, result_.warnings);
     result_.body_from_caller = body_->body_from_caller;
@@ -205,6 +208,11 @@ class BodyFit {
     measure_options.parts = options_.parts;
     result_.metrics = metrics::Measure(*body_, set_, measure_options, pool_, observer_);
     result_.metrics.max_gap_m = max_gap_m_;
+    if (options_.want_vertex_gaps) {
+      result_.vertex_gaps =
+          VertexGaps(body_->mesh, metrics::SignedGaps(*body_, set_, options_.parts, pool_),
+                     caller_from_body_);
+    }
     return CheckCancelled(observer_);
   }
 
@@ -247,7 +255,8 @@ absl::StatusOr<FitResult> Fit(const mesh::PolygonSoup& soup, const FitOptions& o
   CAPFIT_ASSIGN_OR_RETURN(mesh::PreparedMesh prepared, mesh::PrepareMesh(soup));
   Append(std::move(prepared.warnings), result.warnings);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  CAPFIT_RETURN_IF_ERROR(BodyFit(options, pool, observer, clock, result).Run(prepared.mesh));
+  CAPFIT_RETURN_IF_ERROR(
+      BodyFit(options, pool, observer, clock, result).Run(prepared.mesh, soup.joints));
   clock.End();
   return result;
 }

@@ -59,12 +59,16 @@ struct FitOptions {
   double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, kMaxToleranceM]
   SkinningMode skinning = SkinningMode::kNone;
   body::PartSelection parts;
+  // Parts that must be on the body, none unless asked for; else FAILED_PRECONDITION naming those
+  // that are not. (Without it a missing part is a warning and what is there is fitted.)
+  body::PartSelection require_parts = {false, false, false, false, false, false};
   section::Sex sex = section::Sex::kAuto;
   body::Unit unit = body::Unit::kAuto;
   body::UpAxis up = body::UpAxis::kAuto;
   std::map<body::LandmarkId, Eigen::Vector3d> landmarks;  // the caller's, in the caller's frame
   std::uint64_t seed = 0;
-  bool want_polygons = false;  // return the feature polygons with their circles
+  bool want_polygons = false;     // return the feature polygons with their circles
+  bool want_vertex_gaps = false;  // return each vertex's signed distance to the set
 };
 
 // OK, or INVALID_ARGUMENT naming the option, its value and its range; UNIMPLEMENTED for what this
@@ -94,6 +98,11 @@ struct FitResult {
   std::vector<PolygonResult> polygons;  // where asked for
   metrics::Metrics metrics;
   std::optional<skinning::DenseWeights> weights;
+  // Where asked for: for each of the caller's vertices the signed distance to the boundary of the
+  // set's union, in the caller's unit: > 0 outside of the set, < 0 where the set covers it. NaN for
+  // vertices of parts that were not selected, and for those of which mending left nothing (no face
+  // uses them). Welded copies have the same value.
+  std::vector<float> vertex_gaps;
   std::vector<Warning> warnings;
   geometry::Similarity body_from_caller;  // scale: metres per caller's unit
   std::array<double, kStageCount> stage_seconds{};
