@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that capfit needs; does nothing where they are there already.
 #
-#   deploy/install_packages.sh [build] [test] [check] [run]
+#   deploy/install_packages.sh [build] [test] [bench] [check] [run]
 #
 #   build  compiler and libraries                     (default)
 #   test   what the tests call besides: Python client, buf
+#   bench  what draws the plots of the evaluation
 #   check  formatter, linter, fuzzer and sanitizer runtimes
 #   run    the shared libraries of the finished programs only
 set -euo pipefail
@@ -17,6 +18,7 @@ build=(
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 test=(python3 python3-grpcio python3-protobuf npm git)
+bench=(python3 python3-matplotlib)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3)
 run=(libgrpc++1.51 libtbb12 libspdlog1.10 libcairo2)
 
@@ -25,9 +27,10 @@ for group in "${@:-build}"; do
   case "$group" in
     build) wanted+=("${build[@]}") ;;
     test) wanted+=("${test[@]}") ;;
+    bench) wanted+=("${bench[@]}") ;;
     check) wanted+=("${check[@]}") ;;
     run) wanted+=("${run[@]}") ;;
-    *) echo "install_packages.sh: no group '$group' (build, test, check, run)" >&2; exit 2 ;;
+    *) echo "install_packages.sh: no group '$group' (build, test, bench, check, run)" >&2; exit 2 ;;
   esac
 done
 
