@@ -68,7 +68,7 @@ BoundaryDistance::BoundaryDistance(const UnionDistance& set, int grid_points,
 }
 
 bool BoundaryDistance::IsExposed(const Eigen::Vector3d& point_m) const {
-  return set_.At(point_m).distance_m >= -tolerance_m_;
+  return set_.At(point_m, -tolerance_m_).distance_m >= -tolerance_m_;
 }
 
 void BoundaryDistance::FindCreases(std::size_t solid, double spacing_m,
@@ -121,17 +121,17 @@ BoundaryDistance::CreasePoint BoundaryDistance::Bisect(std::size_t solid, Eigen:
   return result;
 }
 
-double BoundaryDistance::At(const Eigen::Vector3d& point_m) const {
+double BoundaryDistance::SignedAt(const Eigen::Vector3d& point_m) const {
   const UnionDistance::Nearest nearest = set_.At(point_m);
   if (nearest.distance_m >= 0.0) return nearest.distance_m;
   const geometry::CapsuleDistance deepest = set_.solids()[nearest.solid].Locate(point_m);
   const double depth = -nearest.distance_m;
   const Eigen::Vector3d foot = point_m + depth * deepest.normal;
-  if (creases_.empty() || IsExposed(foot)) return depth;
+  if (creases_.empty() || IsExposed(foot)) return -depth;
   double squared_best = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
   Search(point_m, 0, creases_.size(), squared_best, best);
-  return std::max(depth, Slide(point_m, creases_[best]));
+  return -std::max(depth, Slide(point_m, creases_[best]));
 }
 
 double BoundaryDistance::Slide(const Eigen::Vector3d& point_m, const CreasePoint& start) const {

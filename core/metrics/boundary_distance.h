@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_METRICS_BOUNDARY_DISTANCE_H_
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -23,8 +24,12 @@ class BoundaryDistance {
   // Keeps a reference to `set`.
   BoundaryDistance(const UnionDistance& set, int grid_points, const ThreadPool& pool);
 
-  // Distance to the union's boundary, >= 0, from inside or outside.
-  [[nodiscard]] double At(const Eigen::Vector3d& point_m) const;
+  // Signed distance to the union's boundary: > 0 outside, < 0 inside.
+  [[nodiscard]] double SignedAt(const Eigen::Vector3d& point_m) const;
+  // The same without the sign.
+  [[nodiscard]] double At(const Eigen::Vector3d& point_m) const {
+    return std::abs(SignedAt(point_m));
+  }
 
   // A point of the boundary on the surfaces of two solids.
   struct CreasePoint {

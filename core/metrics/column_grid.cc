@@ -50,11 +50,21 @@ EdgeCrossing CrossRow(std::span<const Eigen::Vector3d> points, std::uint32_t fro
 struct SurfaceCrossing {
   std::uint32_t column = 0;
   double z = 0.0;
-  int turn = 0;  // what it adds to the winding number: +1 into the body, -1 out of it
+  std::int8_t turn = 0;  // what it adds to the winding number: +1 into the body, -1 out of it
+  std::uint8_t label = 0;
+  bool is_body = true;
+  bool is_fitted = true;
 };
 
+bool IsBelow(const SurfaceCrossing& a, const SurfaceCrossing& b) {
+  if (a.column != b.column) return a.column < b.column;
+  if (a.z != b.z) return a.z < b.z;
+  return a.turn != b.turn ? a.turn > b.turn : a.label < b.label;
+}
+
+// Appends the crossings of one row with the triangle; `crossing` tells its label and surfaces.
 void CrossTriangle(std::span<const Eigen::Vector3d> points, const mesh::Triangle& triangle,
-                   const ColumnGrid& grid, std::size_t row,
+                   const ColumnGrid& grid, std::size_t row, SurfaceCrossing crossing,
                    std::vector<SurfaceCrossing>& crossings) {
   const double y = grid.y[row];
   std::optional<EdgeCrossing> up;
@@ -74,24 +84,58 @@ void CrossTriangle(std::span<const Eigen::Vector3d> points, const mesh::Triangle
   const EdgeCrossing& left = faces_up ? *down : *up;
   const EdgeCrossing& right = faces_up ? *up : *down;
   const double slope = right.x > left.x ? (right.z - left.z) / (right.x - left.x) : 0.0;
+  crossing.turn = faces_up ? -1 : 1;
   for (std::size_t i = grid.FirstColumn(left.x); i < grid.x.size() && grid.x[i] < right.x; ++i) {
-    crossings.push_back(
-        {static_cast<std::uint32_t>(i), left.z + slope * (grid.x[i] - left.x), faces_up ? -1 : 1});
+    crossing.column = static_cast<std::uint32_t>(i);
+    crossing.z = left.z + slope * (grid.x[i] - left.x);
+    crossings.push_back(crossing);
   }
 }
 
-// Sorted and overlapping pieces become disjoint ones.
-std::vector<RowIntervals::Piece> Merge(const std::vector<RowIntervals::Piece>& sorted) {
-  std::vector<RowIntervals::Piece> merged;
-  for (const RowIntervals::Piece& piece : sorted) {
-    if (!merged.empty() && merged.back().column == piece.column &&
-        piece.interval.begin <= merged.back().interval.end) {
-      merged.back().interval.end = std::max(merged.back().interval.end, piece.interval.end);
-    } else {
-      merged.push_back(piece);
+// Adds an interval; two halves where its ends have different labels.
+void AddPiece(std::uint32_t column, const Interval& interval, std::int32_t begin_label,
+              std::int32_t end_label, std::vector<RowIntervals::Piece>& pieces) {
+  if (begin_label == end_label) {
+    pieces.push_back({column, interval, begin_label});
+    return;
+  }
+  const double middle = 0.5 * (interval.begin + interval.end);
+  pieces.push_back({column, {interval.begin, middle}, begin_label});
+  pieces.push_back({column, {middle, interval.end}, end_label});
+}
+
+// The intervals between sorted crossings of one of the two surfaces.
+RowIntervals Inside(const std::vector<SurfaceCrossing>& crossings, bool SurfaceCrossing::*is_on,
+                    std::size_t columns) {
+  std::vector<RowIntervals::Piece> pieces;
+  pieces.reserve(crossings.size());
+  int winding = 0;
+  const SurfaceCrossing* begin = nullptr;
+  for (const SurfaceCrossing& crossing : crossings) {
+    if (!(crossing.*is_on)) continue;
+    const int before = winding;
+    winding += crossing.turn;  // back at 0 after the last crossing of each column: closed surface
+    if (before == 0) begin = &crossing;
+    if (winding == 0) {
+      AddPiece(crossing.column, {begin->z, crossing.z}, begin->label, crossing.label, pieces);
     }
   }
-  return merged;
+  return {pieces, columns};
+}
+
+// Sorted and overlapping pieces become disjoint ones: each keeps what no piece before it holds.
+std::vector<RowIntervals::Piece> MakeDisjoint(const std::vector<RowIntervals::Piece>& sorted) {
+  std::vector<RowIntervals::Piece> disjoint;
+  disjoint.reserve(sorted.size());
+  for (RowIntervals::Piece piece : sorted) {
+    if (!disjoint.empty() && disjoint.back().column == piece.column) {
+      const double end = disjoint.back().interval.end;
+      if (piece.interval.end <= end) continue;
+      piece.interval.begin = std::max(piece.interval.begin, end);
+    }
+    disjoint.push_back(piece);
+  }
+  return disjoint;
 }
 
 }  // namespace
@@ -125,8 +169,10 @@ ColumnGrid MakeColumnGrid(const Eigen::AlignedBox3d& box, int columns) {
 RowIntervals::RowIntervals(const std::vector<Piece>& pieces, std::size_t columns)
     : begin_(columns + 1, 0) {
   intervals_.reserve(pieces.size());
+  labels_.reserve(pieces.size());
   for (const Piece& piece : pieces) {
     intervals_.push_back(piece.interval);
+    labels_.push_back(piece.label);
     ++begin_[piece.column + 1];
   }
   for (std::size_t i = 0; i < columns; ++i) begin_[i + 1] += begin_[i];
@@ -153,9 +199,10 @@ double CommonLength(std::span<const Interval> a, std::span<const Interval> b) {
   return length;
 }
 
-TriangleRows::TriangleRows(std::span<const Eigen::Vector3d> points_m,
-                           std::span<const mesh::Triangle> triangles, const ColumnGrid& grid)
-    : points_(points_m), triangles_(triangles), grid_(grid), begin_(grid.y.size() + 1, 0) {
+TriangleRows::TriangleRows(std::span<const Eigen::Vector3d> points_m, const BodyTriangles& body,
+                           const ColumnGrid& grid)
+    : points_(points_m), body_(body), grid_(grid), begin_(grid.y.size() + 1, 0) {
+  const std::vector<mesh::Triangle>& triangles = body.triangles;
   std::vector<std::uint32_t> first(triangles.size());
   std::vector<std::uint32_t> last(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -176,32 +223,28 @@ TriangleRows::TriangleRows(std::span<const Eigen::Vector3d> points_m,
   }
 }
 
-RowIntervals TriangleRows::Cut(std::size_t row) const {
+TriangleRows::Cuts TriangleRows::Cut(std::size_t row) const {
   std::vector<SurfaceCrossing> crossings;
+  crossings.reserve(2 * (begin_[row + 1] - begin_[row]));
   for (std::uint32_t k = begin_[row]; k < begin_[row + 1]; ++k) {
-    CrossTriangle(points_, triangles_[met_[k]], grid_, row, crossings);
+    const std::uint32_t t = met_[k];
+    SurfaceCrossing crossing;
+    crossing.label = body_.labels[t];
+    crossing.is_body = t < body_.body_end;
+    crossing.is_fitted = t >= body_.fitted_begin;
+    CrossTriangle(points_, body_.triangles[t], grid_, row, crossing, crossings);
   }
-  std::sort(crossings.begin(), crossings.end(),
-            [](const SurfaceCrossing& a, const SurfaceCrossing& b) {
-              return std::tie(a.column, a.z, b.turn) < std::tie(b.column, b.z, a.turn);
-            });
-  std::vector<RowIntervals::Piece> pieces;
-  int winding = 0;
-  double begin = 0.0;
-  for (const SurfaceCrossing& crossing : crossings) {
-    const int before = winding;
-    winding += crossing.turn;  // back at 0 after the last crossing of each column: closed surface
-    if (before == 0) begin = crossing.z;
-    if (winding == 0) pieces.push_back({crossing.column, {begin, crossing.z}});
-  }
-  return {pieces, grid_.x.size()};
+  std::sort(crossings.begin(), crossings.end(), IsBelow);
+  return {Inside(crossings, &SurfaceCrossing::is_body, grid_.x.size()),
+          Inside(crossings, &SurfaceCrossing::is_fitted, grid_.x.size())};
 }
 
 RowIntervals CutSolids(std::span<const TaperedCapsule> solids, const ColumnGrid& grid,
                        std::size_t row) {
   const double y = grid.y[row];
   std::vector<RowIntervals::Piece> pieces;
-  for (const TaperedCapsule& solid : solids) {
+  for (std::size_t index = 0; index < solids.size(); ++index) {
+    const TaperedCapsule& solid = solids[index];
     const double low = std::min(solid.a().center_m.y() - solid.a().radius_m,
                                 solid.b().center_m.y() - solid.b().radius_m);
     const double high = std::max(solid.a().center_m.y() + solid.a().radius_m,
@@ -217,15 +260,16 @@ RowIntervals CutSolids(std::span<const TaperedCapsule> solids, const ColumnGrid&
     for (std::size_t i = grid.FirstColumn(shadow->begin);
          i < grid.x.size() && grid.x[i] < shadow->end; ++i) {
       const auto inside = solid.Intersect({grid.x[i], y, 0.0}, Eigen::Vector3d::UnitZ());
-      if (inside) pieces.push_back({static_cast<std::uint32_t>(i), *inside});
+      if (!inside) continue;
+      pieces.push_back({static_cast<std::uint32_t>(i), *inside, static_cast<std::int32_t>(index)});
     }
   }
   std::sort(pieces.begin(), pieces.end(),
             [](const RowIntervals::Piece& a, const RowIntervals::Piece& b) {
-              return std::tie(a.column, a.interval.begin, a.interval.end) <
-                     std::tie(b.column, b.interval.begin, b.interval.end);
+              return std::tie(a.column, a.interval.begin, a.interval.end, a.label) <
+                     std::tie(b.column, b.interval.begin, b.interval.end, b.label);
             });
-  return {Merge(pieces), grid.x.size()};
+  return {MakeDisjoint(pieces), grid.x.size()};
 }
 
 }  // namespace capfit::metrics

@@ -8,6 +8,14 @@
 namespace capfit::metrics {
 namespace {
 
+using body::Part;
+
+Part PartOfTriangle(const body::Body& body, const mesh::Triangle& t) {
+  const auto part = [&](std::size_t k) { return body::PartOf(body.vertex_segments[t[k]]); };
+  if (part(1) == part(2)) return part(1);
+  return part(0) == part(1) || part(0) == part(2) ? part(0) : std::min({part(0), part(1), part(2)});
+}
+
 // From one mesh vertex to another.
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -58,7 +66,7 @@ class JoinedVertices {
 };
 
 // Any fan over all edges of a cut closes it, for as many of them enter each vertex as leave it.
-void CloseCuts(const std::vector<Edge>& edges, FittedSurface& surface) {
+void CloseCuts(const body::Body& body, const std::vector<Edge>& edges, FittedSurface& surface) {
   JoinedVertices cuts(edges);
   struct Middle {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -77,6 +85,8 @@ void CloseCuts(const std::vector<Edge>& edges, FittedSurface& surface) {
   }
   for (const Edge& edge : edges) {
     surface.triangles.push_back({edge.first, edge.second, middles[cuts.Root(edge.first)].index});
+    surface.parts.push_back(std::min(body::PartOf(body.vertex_segments[edge.first]),
+                                     body::PartOf(body.vertex_segments[edge.second])));
   }
 }
 
@@ -90,13 +100,20 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
     if (selected[v]) surface.vertices.push_back(v);
   }
   for (const mesh::Triangle& t : body.mesh.triangles()) {
-    if (!selected[t[0]] || !selected[t[1]] || !selected[t[2]]) continue;
+    const Part part = PartOfTriangle(body, t);
+    if (!selected[t[0]] || !selected[t[1]] || !selected[t[2]]) {
+      surface.left_out.push_back(t);
+      surface.left_out_parts.push_back(part);
+      continue;
+    }
     surface.triangles.push_back(t);
+    surface.parts.push_back(part);
+    surface.has_part[static_cast<std::size_t>(part)] = true;
     for (const std::uint32_t v : t) surface.box.extend(surface.points_m[v]);
   }
   surface.skin_count = surface.triangles.size();
-  surface.is_whole = surface.skin_count == body.mesh.triangles().size();
-  if (!surface.is_whole) CloseCuts(CutEdges(body.mesh, selected), surface);
+  surface.is_whole = surface.left_out.empty();
+  if (!surface.is_whole) CloseCuts(body, CutEdges(body.mesh, selected), surface);
   return surface;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,13 +17,19 @@
 namespace capfit::metrics {
 
 // The triangles whose three corners belong to selected parts, closed by a flat fan over each cut.
+// The part of a triangle is that of most of its corners (all different: the first in the list of
+// parts); that of a fan's triangle is the first part of its edge's two ends.
 struct FittedSurface {
-  std::vector<Eigen::Vector3d> points_m;  // the mesh's vertices, then the fans' middles
-  std::vector<mesh::Triangle> triangles;  // indices into points_m: the skin, then the caps
-  std::size_t skin_count = 0;             // how many of them are skin
-  std::vector<std::uint32_t> vertices;    // mesh vertices of the selected parts
-  bool is_whole = false;                  // nothing is left out: the body's own surface
-  Eigen::AlignedBox3d box;                // of the skin; empty when there is none
+  std::vector<Eigen::Vector3d> points_m;          // the mesh's vertices, then the fans' middles
+  std::vector<mesh::Triangle> triangles;          // indices into points_m: the skin, then the caps
+  std::size_t skin_count = 0;                     // how many of them are skin
+  std::vector<body::Part> parts;                  // of each of `triangles`
+  std::vector<mesh::Triangle> left_out;           // the body's other triangles ...
+  std::vector<body::Part> left_out_parts;         // ... and their parts
+  std::array<bool, body::kPartCount> has_part{};  // there is skin of this part
+  std::vector<std::uint32_t> vertices;            // mesh vertices of the selected parts
+  bool is_whole = false;                          // nothing is left out: the body's own surface
+  Eigen::AlignedBox3d box;                        // of the skin; empty when there is none
 
   [[nodiscard]] std::span<const mesh::Triangle> skin() const {
     return std::span(triangles).first(skin_count);

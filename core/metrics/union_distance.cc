@@ -47,7 +47,9 @@ UnionDistance::Candidates UnionDistance::Near(const Candidates& from, const Eige
   }
   Candidates result;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    if (distances[i] <= nearest + 2.0 * reach) result.push_back(from[i]);
+    if (distances[i] > nearest + 2.0 * reach) continue;
+    result.push_back(from[i]);
+    if (distances[i] == nearest) std::swap(result.front(), result.back());
   }
   return result;
 }
@@ -86,7 +88,7 @@ void UnionDistance::FillBlock(std::size_t block, std::vector<Candidates>& cells)
   }
 }
 
-UnionDistance::Nearest UnionDistance::At(const Eigen::Vector3d& point_m) const {
+UnionDistance::Nearest UnionDistance::At(const Eigen::Vector3d& point_m, double enough_m) const {
   std::span<const std::int32_t> candidates = all_;
   std::array<std::size_t, 3> cell{};
   bool is_inside = true;
@@ -102,7 +104,9 @@ UnionDistance::Nearest UnionDistance::At(const Eigen::Vector3d& point_m) const {
   Nearest nearest{std::numeric_limits<double>::infinity(), -1};
   for (const std::int32_t solid : candidates) {
     const double distance = solids_[solid].SignedDistance(point_m);
-    if (distance < nearest.distance_m) nearest = {distance, solid};
+    if (distance < enough_m) return {distance, solid};
+    const bool is_tie = distance == nearest.distance_m && solid < nearest.solid;
+    if (distance < nearest.distance_m || is_tie) nearest = {distance, solid};
   }
   return nearest;
 }

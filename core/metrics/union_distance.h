@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -35,12 +36,18 @@ class UnionDistance {
   std::span<const geometry::TaperedCapsule> solids() && = delete;
 
   // Exact for any point; fast for points in the box. On a tie the solid with the lowest index.
-  [[nodiscard]] Nearest At(const Eigen::Vector3d& point_m) const;
+  [[nodiscard]] Nearest At(const Eigen::Vector3d& point_m) const {
+    return At(point_m, -std::numeric_limits<double>::infinity());
+  }
+  // The same where the least distance is not below `enough_m`; where it is, any solid that is that
+  // near, which is found sooner.
+  [[nodiscard]] Nearest At(const Eigen::Vector3d& point_m, double enough_m) const;
 
  private:
   using Candidates = std::vector<std::int32_t>;
 
-  // Those of `from` that can be nearest somewhere within `reach` of `middle`.
+  // Those of `from` that can be nearest somewhere within `reach` of `middle`, with the nearest to
+  // `middle` in front.
   [[nodiscard]] Candidates Near(const Candidates& from, const Eigen::Vector3d& middle,
                                 double reach) const;
   void FillBlock(std::size_t block, std::vector<Candidates>& cells) const;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <optional>
-#include <vector>
 
 #include "core/metrics/column_grid.h"
+#include "core/metrics/part_lengths.h"
 
 namespace capfit::metrics {
 namespace {
@@ -22,57 +22,68 @@ Eigen::AlignedBox3d BoxOf(const geometry::TaperedCapsule& solid) {
   return box;
 }
 
-// Lengths summed over the columns of a row.
-Volumes RowLengths(const RowIntervals& body, const RowIntervals& fitted, const RowIntervals& set,
-                   std::size_t columns) {
-  Volumes sum;
-  sum.fitted = fitted.Length();
-  sum.set = set.Length();
-  double in_body = 0.0;
-  double in_fitted = 0.0;
-  double in_image = 0.0;
-  for (std::size_t i = 0; i < columns; ++i) {
-    if (set.Column(i).empty()) continue;
-    in_body += CommonLength(body.Column(i), set.Column(i));
-    in_fitted += CommonLength(fitted.Column(i), set.Column(i));
-    in_image += CommonLength(set.Column(i), set.Column(columns - 1 - i));
+// What is left out, then the skin, then the caps over the cuts.
+BodyTriangles AllTriangles(const FittedSurface& fitted) {
+  BodyTriangles all;
+  all.triangles = fitted.left_out;
+  all.triangles.insert(all.triangles.end(), fitted.triangles.begin(), fitted.triangles.end());
+  for (const auto* parts : {&fitted.left_out_parts, &fitted.parts}) {
+    for (const body::Part part : *parts) all.labels.push_back(static_cast<std::uint8_t>(part));
   }
-  // Rounding must not leave a share of -1e-17.
-  sum.outside = std::max(0.0, sum.set - in_body);
-  sum.uncovered = std::max(0.0, sum.fitted - in_fitted);
-  sum.mirror_xor = 2.0 * std::max(0.0, sum.set - in_image);
-  return sum;
+  all.fitted_begin = fitted.left_out.size();
+  all.body_end = all.fitted_begin + fitted.skin_count;
+  return all;
+}
+
+void Add(const PartVolumes& more, double area, PartVolumes& sum) {
+  sum.fitted += area * more.fitted;
+  sum.set += area * more.set;
+  sum.outside += area * more.outside;
+  sum.uncovered += area * more.uncovered;
 }
 
 }  // namespace
 
+std::vector<SolidParts> PartsOfSolids(const capsule::PrimitiveSet& set) {
+  std::vector<SolidParts> parts;
+  std::vector<bool> is_used(set.spheres.size(), false);
+  const auto part = [&](int sphere) { return set.origins[static_cast<std::size_t>(sphere)].part; };
+  for (const capsule::CapsuleEnds& ends : set.capsules) {
+    parts.push_back({part(ends[0]), part(ends[1])});
+    for (const int end : ends) is_used[static_cast<std::size_t>(end)] = true;
+  }
+  for (std::size_t i = 0; i < is_used.size(); ++i) {
+    if (!is_used[i]) parts.push_back({set.origins[i].part, set.origins[i].part});
+  }
+  return parts;
+}
+
 Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
-                       std::span<const geometry::TaperedCapsule> solids, int columns,
+                       std::span<const geometry::TaperedCapsule> solids,
+                       std::span<const SolidParts> solid_parts, int columns,
                        const ThreadPool& pool) {
   Eigen::AlignedBox3d box(mesh.box_min(), mesh.box_max());
   for (const geometry::TaperedCapsule& solid : solids) box.extend(BoxOf(solid));
   const ColumnGrid grid = MakeColumnGrid(box, columns);
-  const TriangleRows body_rows(mesh.vertices(), mesh.triangles(), grid);
-  std::optional<TriangleRows> fitted_rows;
-  if (!fitted.is_whole) fitted_rows.emplace(fitted.points_m, fitted.triangles, grid);
+  const BodyTriangles triangles = AllTriangles(fitted);
+  const TriangleRows rows(fitted.points_m, triangles, grid);
+  const PartLengths lengths(fitted.has_part, solids, solid_parts, grid);
 
   std::vector<Volumes> by_row(grid.y.size());
   pool.ForChunks(grid.y.size(), kRowsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
-      const RowIntervals body = body_rows.Cut(row);
-      const RowIntervals set = CutSolids(solids, grid, row);
-      by_row[row] = fitted_rows ? RowLengths(body, fitted_rows->Cut(row), set, grid.x.size())
-                                : RowLengths(body, body, set, grid.x.size());
+      const TriangleRows::Cuts cuts = rows.Cut(row);
+      by_row[row] = lengths.OfRow(row, cuts, CutSolids(solids, grid, row));
     }
   });
   Volumes total;
   for (const Volumes& row : by_row) {
-    total.fitted += grid.cell_area() * row.fitted;
-    total.set += grid.cell_area() * row.set;
-    total.outside += grid.cell_area() * row.outside;
-    total.uncovered += grid.cell_area() * row.uncovered;
+    for (std::size_t p = 0; p < total.parts.size(); ++p) {
+      Add(row.parts[p], grid.cell_area(), total.parts[p]);
+    }
     total.mirror_xor += grid.cell_area() * row.mirror_xor;
   }
+  for (const PartVolumes& part : total.parts) Add(part, 1.0, total.all);
   return total;
 }
 

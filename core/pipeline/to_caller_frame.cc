@@ -1,5 +1,7 @@
 #include "core/pipeline/to_caller_frame.h"
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -57,6 +59,18 @@ std::vector<PolygonResult> PolygonResults(
     results.push_back(ToResult(polygons[i], approximations[i], caller_from_body));
   }
   return results;
+}
+
+std::vector<float> VertexGaps(const mesh::BodyMesh& mesh, std::span<const double> gaps_m,
+                              const geometry::Similarity& caller_from_body) {
+  std::vector<float> gaps;
+  gaps.reserve(mesh.vertex_of_source().size());
+  for (const std::int32_t vertex : mesh.vertex_of_source()) {
+    gaps.push_back(vertex < 0 ? std::numeric_limits<float>::quiet_NaN()
+                              : static_cast<float>(caller_from_body.scale *
+                                                   gaps_m[static_cast<std::size_t>(vertex)]));
+  }
+  return gaps;
 }
 
 }  // namespace capfit::pipeline

@@ -27,6 +27,12 @@ namespace capfit::pipeline {
     std::span<const circle::PolygonApproximation> approximations,
     const geometry::Similarity& caller_from_body);
 
+// Values of the mesh's vertices in metres as FitResult::vertex_gaps: by the caller's vertices, in
+// the caller's unit, NaN where nothing is left of a vertex.
+[[nodiscard]] std::vector<float> VertexGaps(const mesh::BodyMesh& mesh,
+                                            std::span<const double> gaps_m,
+                                            const geometry::Similarity& caller_from_body);
+
 }  // namespace capfit::pipeline
 
 #endif  // CAPFIT_CORE_PIPELINE_TO_CALLER_FRAME_H_

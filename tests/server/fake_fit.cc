@@ -1,6 +1,7 @@
 #include "tests/server/fake_fit.h"
 
 #include <chrono>
+#include <limits>
 #include <thread>
 
 namespace capfit::server {
@@ -16,6 +17,31 @@ skinning::DenseWeights NumberedWeights(std::size_t spheres, std::size_t vertices
   return weights;
 }
 
+metrics::Metrics HandMadeMetrics() {
+  metrics::Metrics metrics;
+  metrics.n_p = 5;
+  metrics.spheres = 3;
+  metrics.capsules = 2;
+  metrics.E_r = 0.5;
+  metrics.outside = 0.4;
+  metrics.uncovered = 0.1;
+  metrics.E_M = 1.5;
+  metrics.hausdorff = 6.5;
+  metrics.max_gap_m = 0.002;
+  metrics.volume_ratio = 1.3;
+  metrics.iou = 0.643;
+  metrics.mirror_error = 0.01;
+  metrics.gap = {0.03, 0.07, 0.13};
+  metrics.surface_out = 0.021;
+  metrics.vertices_out = 3;
+  metrics.max_out_m = 0.0004;
+  metrics.parts[static_cast<std::size_t>(body::Part::kTorso)] = {
+      1, 0, 0.0375, 0.46, 0.37, 0.09, 1.1, 1.28, {0.022, 0.05, 0.11}, 0.014, 1, 0.0003};
+  metrics.parts[static_cast<std::size_t>(body::Part::kLeftArm)] = {
+      1, 1, 0.0043, 0.61, 0.48, 0.13, 1.9, 1.35, {0.038, 0.09, 0.13}, 0.053, 2, 0.0004};
+  return metrics;
+}
+
 }  // namespace
 
 pipeline::FitResult HandMadeResult(std::size_t vertex_count) {
@@ -28,8 +54,14 @@ pipeline::FitResult HandMadeResult(std::size_t vertex_count) {
                       {"left_wrist", {0.5, 1.0, 0.2}, body::LandmarkMethod::kCaller, 1.0}};
   result.polygons = {
       {"hip", body::Part::kTorso, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{{0.2, 0, 0.2}, 0.3}}, 0.17}};
-  result.metrics = {5, 0.5, 0.4, 0.1, 1.5, 6.5, 0.002, 1.3, 0.01, 3, 0.0004};
-  if (vertex_count > 0) result.weights = NumberedWeights(3, vertex_count);
+  result.metrics = HandMadeMetrics();
+  if (vertex_count > 0) {
+    result.weights = NumberedWeights(3, vertex_count);
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+      result.vertex_gaps.push_back(static_cast<float>(v) * 0.125F - 0.5F);
+    }
+    result.vertex_gaps[vertex_count / 2] = std::numeric_limits<float>::quiet_NaN();
+  }
   result.warnings = {{"HOLES_CLOSED", "2 holes were closed", 2}};
   result.body_from_caller.scale = 0.01;
   result.body_from_caller.translation = {1, 2, 3};

@@ -11,7 +11,8 @@
 namespace capfit::server {
 
 // A result with every field set to something of its own: three spheres, two capsules, a warning,
-// landmarks, a polygon, and dense weights for `vertex_count` vertices where that is not 0.
+// landmarks, a polygon, metrics of two parts, and dense weights and gaps (the middle one NaN) for
+// `vertex_count` vertices where that is not 0.
 [[nodiscard]] pipeline::FitResult HandMadeResult(std::size_t vertex_count = 0);
 
 // Accepts every option and gives HandMadeResult at once, after progress for each stage.

@@ -54,6 +54,10 @@ TEST(UnionDistanceTest, IsTheLeastOfAllSolidsEverywhere) {
     const UnionDistance::Nearest nearest = distance.At(point);
     EXPECT_EQ(nearest.distance_m, LeastDistance(solids, point));
     EXPECT_EQ(solids[nearest.solid].SignedDistance(point), nearest.distance_m);
+    const UnionDistance::Nearest enough = distance.At(point, -0.1);
+    EXPECT_EQ(enough.distance_m < -0.1, nearest.distance_m < -0.1);
+    EXPECT_EQ(solids[enough.solid].SignedDistance(point), enough.distance_m);
+    EXPECT_EQ(std::max(enough.distance_m, -0.1), std::max(nearest.distance_m, -0.1));
   }
 }
 

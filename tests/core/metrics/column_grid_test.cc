@@ -20,11 +20,21 @@ ColumnGrid GridOver(const mesh::BodyMesh& mesh, int columns) {
   return MakeColumnGrid({mesh.box_min(), mesh.box_max()}, columns);
 }
 
+// The mesh as the body and the fitted part alike, with `label` on all triangles.
+BodyTriangles TrianglesOf(const mesh::BodyMesh& mesh, std::uint8_t label = 0) {
+  BodyTriangles all;
+  all.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
+  all.labels.assign(all.triangles.size(), label);
+  all.body_end = all.triangles.size();
+  return all;
+}
+
 double VolumeByColumns(const mesh::BodyMesh& mesh, int columns) {
   const ColumnGrid grid = GridOver(mesh, columns);
-  const TriangleRows rows(mesh.vertices(), mesh.triangles(), grid);
+  const BodyTriangles triangles = TrianglesOf(mesh);
+  const TriangleRows rows(mesh.vertices(), triangles, grid);
   double volume = 0.0;
-  for (std::size_t row = 0; row < grid.y.size(); ++row) volume += rows.Cut(row).Length();
+  for (std::size_t row = 0; row < grid.y.size(); ++row) volume += rows.Cut(row).body.Length();
   return volume * grid.cell_area();
 }
 
@@ -80,9 +90,10 @@ TEST(TriangleRowsTest, ColumnsThroughVerticesAndEdgesCloseExactly) {
   ColumnGrid grid = GridOver(box, 4);
   grid.x = {-0.5, 0.0, 0.5, 0.9};
   grid.y = {-0.5, 0.0, 0.5, 0.9};
-  const TriangleRows rows(box.vertices(), box.triangles(), grid);
+  const BodyTriangles triangles = TrianglesOf(box);
+  const TriangleRows rows(box.vertices(), triangles, grid);
   for (std::size_t row = 0; row < 4; ++row) {
-    const RowIntervals cut = rows.Cut(row);
+    const RowIntervals cut = rows.Cut(row).body;
     for (std::size_t column = 0; column < 4; ++column) {
       ASSERT_EQ(cut.Column(column).size(), 1u) << row << ' ' << column;
       EXPECT_EQ(cut.Column(column)[0].begin, -1.0);
@@ -96,14 +107,15 @@ TEST(TriangleRowsTest, InsideIsWhereTheWindingNumberIsOne) {
        {test_shapes::Bracket(), test_shapes::Ball({{0.2, 0, 0}, 1}, 1),
         test_shapes::Capsule({{-1, 0, 0}, 0.3}, {{1, 1, 1}, 0.6}, 12, 3)}) {
     const ColumnGrid grid = GridOver(mesh, 24);
-    const TriangleRows rows(mesh.vertices(), mesh.triangles(), grid);
+    const BodyTriangles triangles = TrianglesOf(mesh);
+    const TriangleRows rows(mesh.vertices(), triangles, grid);
     Random random(2);
     for (int k = 0; k < 300; ++k) {
       const auto row = static_cast<std::size_t>(random.NextBelow(24));
       const auto column = static_cast<std::size_t>(random.NextBelow(24));
       const double z = random.NextIn(mesh.box_min().z() - 0.1, mesh.box_max().z() + 0.1);
       const double winding = test_shapes::WindingNumber(mesh, {grid.x[column], grid.y[row], z});
-      EXPECT_EQ(IsInside(rows.Cut(row).Column(column), z), winding > 0.5);
+      EXPECT_EQ(IsInside(rows.Cut(row).body.Column(column), z), winding > 0.5);
     }
   }
 }
@@ -120,6 +132,75 @@ TEST(TriangleRowsTest, WhereASurfaceOverlapsItselfCountsOnce) {
   const mesh::BodyMesh both = test_shapes::MeshOf(vertices, triangles);
   EXPECT_NEAR(both.volume(), 4.0, 1e-12);  // by signs: the overlap twice
   EXPECT_NEAR(VolumeByColumns(both, 40), 3.0, 1e-12);
+}
+
+// A box whose lower half (in z) has label 1 and upper half label 2: each column through it is cut
+// in the middle. A lid on top of the fitted part alone leaves out what is above it.
+TEST(TriangleRowsTest, HalvesHaveTheLabelOfTheirEndAndSurfacesShareTriangles) {
+  const mesh::BodyMesh box = test_shapes::Box({-1, -1, 0}, {1, 1, 4}, 2);
+  BodyTriangles triangles;
+  std::vector<mesh::Triangle> above;
+  for (const mesh::Triangle& t : box.triangles()) {
+    double z = 0.0;
+    for (const std::uint32_t v : t) z += box.vertices()[v].z() / 3.0;
+    if (z > 2.0) {
+      triangles.triangles.push_back(t);
+      triangles.labels.push_back(2);
+    } else {
+      above.push_back(t);
+    }
+  }
+  triangles.fitted_begin = triangles.triangles.size();
+  for (const mesh::Triangle& t : above) {
+    triangles.triangles.push_back(t);
+    triangles.labels.push_back(1);
+  }
+  triangles.body_end = triangles.triangles.size();
+  std::vector<Vector3d> points(box.vertices().begin(), box.vertices().end());
+  const auto first = static_cast<std::uint32_t>(points.size());
+  points.insert(points.end(), {{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}});
+  for (const mesh::Triangle& lid : {mesh::Triangle{0, 1, 2}, mesh::Triangle{0, 2, 3}}) {
+    triangles.triangles.push_back({first + lid[0], first + lid[1], first + lid[2]});
+    triangles.labels.push_back(1);
+  }
+  const ColumnGrid grid = GridOver(box, 10);
+  const TriangleRows rows(points, triangles, grid);
+  for (std::size_t row = 0; row < 10; ++row) {
+    const TriangleRows::Cuts cuts = rows.Cut(row);
+    for (std::size_t column = 0; column < 10; ++column) {
+      const auto body = cuts.body.Column(column);
+      ASSERT_EQ(body.size(), 2u);
+      EXPECT_EQ(body[0].end, body[1].begin);
+      EXPECT_DOUBLE_EQ(body[0].end, 2.0);
+      EXPECT_EQ(cuts.body.Labels(column)[0], 1);
+      EXPECT_EQ(cuts.body.Labels(column)[1], 2);
+      const auto fitted = cuts.fitted.Column(column);
+      ASSERT_EQ(fitted.size(), 1u);
+      EXPECT_EQ(fitted[0].end, 2.0);
+      EXPECT_EQ(cuts.fitted.Labels(column)[0], 1);
+    }
+  }
+}
+
+TEST(CutSolidsTest, LabelsNameASolidThatHoldsTheInterval) {
+  const std::vector<TaperedCapsule> solids = {{{{0, 0, 0}, 0.5}, {{0, 0, 0}, 0.5}},
+                                              {{{0, 0, 0.4}, 0.5}, {{0, 0, 0.4}, 0.5}},
+                                              {{{0, 0, 0.1}, 0.2}, {{0, 0, 0.1}, 0.2}}};
+  const ColumnGrid grid = MakeColumnGrid({Vector3d(-0.5, -0.5, -1), Vector3d(0.5, 0.5, 1)}, 20);
+  for (std::size_t row = 0; row < 20; ++row) {
+    const RowIntervals cut = CutSolids(solids, grid, row);
+    for (std::size_t column = 0; column < 20; ++column) {
+      const auto intervals = cut.Column(column);
+      for (std::size_t k = 0; k < intervals.size(); ++k) {
+        const Vector3d middle(grid.x[column], grid.y[row],
+                              0.5 * (intervals[k].begin + intervals[k].end));
+        EXPECT_LT(solids[cut.Labels(column)[k]].SignedDistance(middle), 0.0);
+        EXPECT_NE(cut.Labels(column)[k], 2) << "always entered after another";
+        if (k == 0) continue;
+        EXPECT_LE(intervals[k - 1].end, intervals[k].begin);
+      }
+    }
+  }
 }
 
 TEST(CutSolidsTest, AgreesWithTheDistanceToTheUnion) {

@@ -72,6 +72,12 @@ TEST(MeasureTest, BallInsideACube) {
   }
   EXPECT_NEAR(m.E_M, 100 * (mean - 0.4) / std::sqrt(3.0), 0.02);
   EXPECT_NEAR(m.hausdorff, 100 * m.max_out_m / std::sqrt(3.0), 0.3);
+  EXPECT_NEAR(m.gap.mean_m, mean - 0.4, 4e-4);
+  EXPECT_NEAR(m.gap.max_m, m.max_out_m, 6e-3);
+  EXPECT_GT(m.gap.p95_m, m.gap.mean_m);
+  EXPECT_LT(m.gap.p95_m, m.gap.max_m);
+  EXPECT_EQ(m.surface_out, 1.0);
+  EXPECT_NEAR(m.iou, BallVolume(0.4), 2e-4);
 }
 
 TEST(MeasureTest, BallAroundACube) {
@@ -83,6 +89,8 @@ TEST(MeasureTest, BallAroundACube) {
   EXPECT_NEAR(m.uncovered, 0.0, 1e-12);
   EXPECT_EQ(m.vertices_out, 0);
   EXPECT_EQ(m.max_out_m, 0.0);
+  EXPECT_EQ(m.surface_out, 0.0);
+  EXPECT_NEAR(m.iou, 1 / BallVolume(0.9), 1e-3);
 }
 
 TEST(MeasureTest, CapsuleAroundACapsule) {
@@ -99,6 +107,7 @@ TEST(MeasureTest, CapsuleAroundACapsule) {
   // Both radii grew by the same, so the surfaces are parallel.
   EXPECT_NEAR(m.E_M, 100 * 0.05 / mesh.diagonal(), 0.02);
   EXPECT_NEAR(m.hausdorff, 100 * 0.05 / mesh.diagonal(), 0.02);
+  EXPECT_NEAR(m.gap.p95_m, 0.05, 3e-4);
 }
 
 TEST(MeasureTest, ConcentricBallsAreTheDifferenceOfTheirRadiiApart) {
@@ -267,14 +276,38 @@ TEST(MeasureTest, AnEmptySetCoversNothing) {
   EXPECT_EQ(m.E_M, 0.0);
 }
 
-TEST(SignedGapsTest, AreTheSignedDistancesOfTheVertices) {
+TEST(SignedGapsTest, AreDistancesToTheBoundaryOfTheUnion) {
   const body::Body body = BodyOf(UnitCube());
   const capsule::PrimitiveSet set = SetOf({{{0, 0, 0}, 0.6}, {{0.4, 0.4, 0.4}, 0.2}});
-  const std::vector<double> gaps = SignedGaps(body, set, SingleThread());
+  const std::vector<double> gaps = SignedGaps(body, set, kAllParts, SingleThread());
   ASSERT_EQ(gaps.size(), body.mesh.vertices().size());
+  int inside = 0;
   for (std::size_t v = 0; v < gaps.size(); ++v) {
     const Vector3d& p = body.mesh.vertices()[v];
-    EXPECT_EQ(gaps[v], std::min(p.norm() - 0.6, (p - Vector3d(0.4, 0.4, 0.4)).norm() - 0.2));
+    // None of the cube's vertices that are inside has the hidden surface next to it.
+    EXPECT_NEAR(gaps[v], std::min(p.norm() - 0.6, (p - Vector3d(0.4, 0.4, 0.4)).norm() - 0.2),
+                1e-12);
+    inside += gaps[v] < 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(inside, 5);
+}
+
+TEST(SignedGapsTest, InsideAnOverlapTheyReachToTheCrease) {
+  // Unit balls at x = -0.5 and 0.5; a small cube in their middle.
+  const body::Body body = BodyOf(test_shapes::Box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}, 2));
+  const capsule::PrimitiveSet set = SetOf({{{-0.5, 0, 0}, 1}, {{0.5, 0, 0}, 1}});
+  const std::vector<double> gaps = SignedGaps(body, set, kAllParts, SingleThread());
+  for (std::size_t v = 0; v < gaps.size(); ++v) {
+    const Vector3d& p = body.mesh.vertices()[v];
+    EXPECT_NEAR(-gaps[v], std::hypot(p.x(), std::sqrt(0.75) - p.tail<2>().norm()), 1e-4);
+  }
+}
+
+TEST(SignedGapsTest, PartsThatAreNotSelectedHaveNone) {
+  const body::Body tower = Tower();
+  const std::vector<double> gaps = SignedGaps(tower, SetOf({{{0, 1, 0}, 1.0}}), {}, SingleThread());
+  for (std::size_t v = 0; v < gaps.size(); ++v) {
+    EXPECT_EQ(std::isnan(gaps[v]), tower.vertex_segments[v] == Segment::kHead);
   }
 }
 
