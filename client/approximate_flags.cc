@@ -39,6 +39,25 @@ void AddBudget(CLI::App& command, pipeline::FitOptions& options) {
   error->excludes(spheres)->excludes(capsules);
 }
 
+void AddPartWords(CLI::App& command, const char* flag, std::vector<std::string>& parts,
+                  const char* help) {
+  std::set<std::string> words = {"all"};
+  for (const auto& [word, member] : PartWords()) words.insert(word);
+  command.add_option(flag, parts, help)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(words).description(""))
+      ->type_name("WORD,...");
+}
+
+body::PartSelection Selection(const std::vector<std::string>& words) {
+  body::PartSelection parts{.torso = false, .arms = false, .legs = false};
+  for (const auto& [name, member] : PartWords()) {
+    for (const std::string& word : words) parts.*member |= word == name || word == "all";
+  }
+  return parts;
+}
+
 }  // namespace
 
 void AddFrameFlags(CLI::App& command, body::Unit& unit, body::UpAxis& up) {
@@ -47,18 +66,14 @@ void AddFrameFlags(CLI::App& command, body::Unit& unit, body::UpAxis& up) {
 }
 
 void AddPartsFlag(CLI::App& command, std::vector<std::string>& parts) {
-  std::set<std::string> words = {"all"};
-  for (const auto& [word, member] : PartWords()) words.insert(word);
-  command.add_option("--parts", parts, "all, or a list of torso,arms,legs,head,hands,feet")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(words).description(""))
-      ->type_name("WORD,...");
+  AddPartWords(command, "--parts", parts, "all, or a list of torso,arms,legs,head,hands,feet");
 }
 
 void AddFitFlags(CLI::App& command, FitFlags& flags) {
   AddBudget(command, flags.options);
   AddPartsFlag(command, flags.parts);
+  AddPartWords(command, "--require-parts", flags.require_parts,
+               "Refuse a body without these, instead of a warning");
   AddWord(command, "--fit", flags.options.fit, FitModeWords(), "enclose (nothing outside) or best");
   AddWord(command, "--quality", flags.options.quality, QualityWords(), "paper or tight");
   command
@@ -71,23 +86,21 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
                      "JSON file of known landmarks: {\"left_wrist\": [x, y, z], ...}");
   AddWord(command, "--sex", flags.options.sex, SexWords(),
           "auto, female (split the bust), male or none (do not)");
+  command.add_flag("--heat-map", flags.options.want_vertex_gaps,
+                   "Each vertex's signed distance to the set beside the result");
   AddFrameFlags(command, flags.options.unit, flags.options.up);
   command.add_option("--seed", flags.options.seed, "Seed of the random restarts")
       ->capture_default_str();
 }
 
 body::PartSelection PartsOf(const std::vector<std::string>& words) {
-  if (words.empty()) return {};
-  body::PartSelection parts{.torso = false, .arms = false, .legs = false};
-  for (const auto& [name, member] : PartWords()) {
-    for (const std::string& word : words) parts.*member |= word == name || word == "all";
-  }
-  return parts;
+  return words.empty() ? body::PartSelection() : Selection(words);
 }
 
 absl::StatusOr<pipeline::FitOptions> OptionsOf(const FitFlags& flags) {
   pipeline::FitOptions options = flags.options;
   options.parts = PartsOf(flags.parts);
+  options.require_parts = Selection(flags.require_parts);
   options.tolerance_m = 1e-3 * flags.tolerance_mm;
   if (!flags.landmarks_file.empty()) {
     const absl::StatusOr<std::string> text = ReadFileBytes(flags.landmarks_file);

@@ -13,9 +13,10 @@ namespace capfit::client {
 
 struct FitFlags {
   pipeline::FitOptions options;
-  std::vector<std::string> parts;  // words; empty: torso, arms, legs
+  std::vector<std::string> parts;          // words; empty: torso, arms, legs
+  std::vector<std::string> require_parts;  // words; empty: none
   double tolerance_mm = 0.0;
-  std::string landmarks_file;      // empty: none
+  std::string landmarks_file;  // empty: none
 };
 
 // Adds the flags to `command`; CLI11 checks words and that there is one budget at most. Ranges of

@@ -31,6 +31,8 @@ const std::vector<Feature>& Features() {
       {"budget.max_polygon_error", [](FitOptions& o) { o.polygon_error = 0.1; }},
       {"skinning.dense", [](FitOptions& o) { o.skinning = pipeline::SkinningMode::kDense; }},
       {"feature_polygons", [](FitOptions& o) { o.want_polygons = true; }},
+      {"vertex_gaps", [](FitOptions& o) { o.want_vertex_gaps = true; }},
+      {"require_parts", [](FitOptions& o) { o.require_parts.torso = true; }},
       {"tolerance", [](FitOptions& o) { o.tolerance_m = 0.001; }},
       {"engine", [](FitOptions& o) { o.engine = "nvcloth"; }},
   };

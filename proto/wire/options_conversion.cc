@@ -148,6 +148,8 @@ absl::StatusOr<pipeline::FitOptions> OptionsFromWire(const v1::ApproximateBodyHe
   }
   options.seed = wire.seed();
   options.want_polygons = wire.want_feature_polygons();
+  CAPFIT_RETURN_IF_ERROR(ReadParts(wire.require_parts(), "require_parts", options.require_parts));
+  options.want_vertex_gaps = wire.want_vertex_gaps();
   options.tolerance_m = wire.tolerance_m();
   options.engine = wire.engine();
   return options;
@@ -172,6 +174,8 @@ void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeade
   }
   wire.set_seed(options.seed);
   wire.set_want_feature_polygons(options.want_polygons);
+  WriteParts(options.require_parts, *wire.mutable_require_parts());
+  wire.set_want_vertex_gaps(options.want_vertex_gaps);
   wire.set_tolerance_m(options.tolerance_m);
   wire.set_engine(options.engine);
 }

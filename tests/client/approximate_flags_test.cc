@@ -37,7 +37,7 @@ TEST(ApproximateFlags, AreTaken) {
   const auto flags = Parse(
       "--max-spheres 32 --max-capsules 31 --parts head,arms body.obj --fit best --quality tight "
       "--skinning dense --sex male --unit cm --up z --seed 18446744073709551615 "
-      "--engine jolt --tolerance-mm 2.5");
+      "--engine jolt --tolerance-mm 2.5 --require-parts head,legs --heat-map");
   ASSERT_TRUE(flags);
   const auto options = OptionsOf(*flags);
   ASSERT_TRUE(options.ok());
@@ -53,6 +53,9 @@ TEST(ApproximateFlags, AreTaken) {
   EXPECT_EQ(options->up, body::UpAxis::kZ);
   EXPECT_EQ(options->seed, 18446744073709551615U);
   EXPECT_EQ(options->engine, "jolt");
+  EXPECT_TRUE(options->require_parts.head && options->require_parts.legs);
+  EXPECT_FALSE(options->require_parts.torso || options->require_parts.arms);
+  EXPECT_TRUE(options->want_vertex_gaps);
   EXPECT_DOUBLE_EQ(options->tolerance_m, 0.0025);
 }
 

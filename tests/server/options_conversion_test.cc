@@ -34,6 +34,13 @@ void ExpectSame(const FitOptions& a, const FitOptions& b) {
   EXPECT_EQ(a.seed, b.seed);
   EXPECT_EQ(a.want_polygons, b.want_polygons);
   EXPECT_EQ(a.tolerance_m, b.tolerance_m);
+  EXPECT_EQ(a.want_vertex_gaps, b.want_vertex_gaps);
+  EXPECT_EQ(a.require_parts.torso, b.require_parts.torso);
+  EXPECT_EQ(a.require_parts.arms, b.require_parts.arms);
+  EXPECT_EQ(a.require_parts.legs, b.require_parts.legs);
+  EXPECT_EQ(a.require_parts.head, b.require_parts.head);
+  EXPECT_EQ(a.require_parts.hands, b.require_parts.hands);
+  EXPECT_EQ(a.require_parts.feet, b.require_parts.feet);
   EXPECT_EQ(a.engine, b.engine);
 }
 
@@ -70,6 +77,9 @@ TEST(OptionsConversion, EveryOptionComesBack) {
   options.seed = std::numeric_limits<std::uint64_t>::max();
   options.want_polygons = true;
   options.tolerance_m = 0.0025;
+  options.want_vertex_gaps = true;
+  options.require_parts.arms = true;
+  options.require_parts.head = true;
   options.engine = "unity_cloth";
   const auto back = RoundTrip(options);
   ASSERT_TRUE(back.ok()) << back.status();
