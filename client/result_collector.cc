@@ -1,5 +1,6 @@
 #include "client/result_collector.h"
 
+#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -19,7 +20,13 @@ absl::Status Broken(const std::string& problem) {
 // Parts that come more than once.
 bool MayRepeat(int part) {
   return part == Response::kProgress || part == Response::kWarning ||
-         part == Response::kFeaturePolygon || part == Response::kSkinning;
+         part == Response::kFeaturePolygon || part == Response::kSkinning ||
+         part == Response::kVertexGaps;
+}
+
+// Where a part stands in the answer: by number, but for the summary, which is the last.
+int PlaceOf(int part) {
+  return part == Response::kSummary ? std::numeric_limits<int>::max() : part;
 }
 
 }  // namespace
@@ -27,7 +34,7 @@ bool MayRepeat(int part) {
 absl::Status ResultCollector::Add(const v1::ApproximateBodyResponse& response) {
   const int part = response.part_case();
   if (part == Response::PART_NOT_SET) return absl::OkStatus();
-  if (part < last_part_ || (part == last_part_ && !MayRepeat(part))) {
+  if (PlaceOf(part) < PlaceOf(last_part_) || (part == last_part_ && !MayRepeat(part))) {
     return Broken(absl::StrCat("part ", part, " after part ", last_part_));
   }
   last_part_ = part;
@@ -61,6 +68,9 @@ absl::Status ResultCollector::AddPart(const v1::ApproximateBodyResponse& respons
     case Response::kSkinning:
       if (!result_.weights) result_.weights.emplace();
       return wire::AppendWeights(response.skinning(), *result_.weights);
+    case Response::kVertexGaps:
+      vertex_count_ = response.vertex_gaps().total_vertex_count();
+      return wire::AppendGaps(response.vertex_gaps(), result_.vertex_gaps);
     case Response::kSummary:
       return wire::SummaryFromWire(response.summary(), result_);
     case Response::PART_NOT_SET:
@@ -77,6 +87,10 @@ absl::StatusOr<pipeline::FitResult> ResultCollector::Finish() && {
       return Broken(absl::StrCat("it brings ", weights.weights.size(), " weights of ",
                                  weights.sphere_count * weights.vertex_count));
     }
+  }
+  if (static_cast<std::int64_t>(result_.vertex_gaps.size()) != vertex_count_) {
+    return Broken(
+        absl::StrCat("it brings ", result_.vertex_gaps.size(), " vertex gaps of ", vertex_count_));
   }
   return std::move(result_);
 }

@@ -2,6 +2,7 @@
 #ifndef CAPFIT_CLIENT_RESULT_COLLECTOR_H_
 #define CAPFIT_CLIENT_RESULT_COLLECTOR_H_
 
+#include <cstdint>
 #include <functional>
 
 #include "absl/status/statusor.h"
@@ -26,6 +27,7 @@ class ResultCollector {
   std::function<void(Stage, double)> on_progress_;
   pipeline::FitResult result_;
   int last_part_ = 0;
+  std::int64_t vertex_count_ = 0;  // that the vertex gaps announce
 };
 
 }  // namespace capfit::client

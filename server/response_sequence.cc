@@ -34,6 +34,8 @@ bool ResponseSequence::Fill(v1::ApproximateBodyResponse& response) {
       return true;
     case Section::kWeights:
       return FillWeights(response);
+    case Section::kVertexGaps:
+      return FillGaps(response);
     case Section::kSummary:
       if (index_++ > 0) return false;
       *response.mutable_summary() = wire::SummaryToWire(result_, request_id_);
@@ -55,6 +57,14 @@ bool ResponseSequence::FillWeights(v1::ApproximateBodyResponse& response) {
     index_ += block.sphere_count;
     first_vertex_ = 0;
   }
+  return true;
+}
+
+bool ResponseSequence::FillGaps(v1::ApproximateBodyResponse& response) {
+  if (index_ >= result_.vertex_gaps.size()) return false;
+  v1::VertexGapsChunk& chunk = *response.mutable_vertex_gaps();
+  chunk = wire::GapsToWire(result_.vertex_gaps, index_, max_weights_);
+  index_ += static_cast<std::size_t>(chunk.gaps_size());
   return true;
 }
 

@@ -10,10 +10,11 @@
 
 namespace capfit::server {
 
-// Weights in one message: 192 Ki floats are 768 KiB, well below the 1 MiB that is promised.
+// Weights or gaps in one message: 192 Ki floats are 768 KiB, well below the 1 MiB that is promised.
 inline constexpr std::size_t kMaxWeightsPerMessage = 192 * 1024;
 
-// Yields warnings, landmarks, feature polygons, primitives, weights and the summary, in this order.
+// Yields warnings, landmarks, feature polygons, primitives, weights, vertex gaps and the summary,
+// in this order.
 // Holds the result and one message at most, so a slow reader costs no more than that.
 class ResponseSequence {
  public:
@@ -27,17 +28,28 @@ class ResponseSequence {
   [[nodiscard]] bool Next(v1::ApproximateBodyResponse& response);
 
  private:
-  enum class Section { kWarnings, kLandmarks, kPolygons, kPrimitives, kWeights, kSummary, kEnd };
+  enum class Section {
+    kWarnings,
+    kLandmarks,
+    kPolygons,
+    kPrimitives,
+    kWeights,
+    kVertexGaps,
+    kSummary,
+    kEnd
+  };
 
   // Fills `response` from the section that is on; false when that section has no more.
   [[nodiscard]] bool Fill(v1::ApproximateBodyResponse& response);
   [[nodiscard]] bool FillWeights(v1::ApproximateBodyResponse& response);
+  [[nodiscard]] bool FillGaps(v1::ApproximateBodyResponse& response);
 
   pipeline::FitResult result_;
   std::string request_id_;
   std::size_t max_weights_;
   Section section_ = Section::kWarnings;
-  std::size_t index_ = 0;         // within the section; of the sphere for weights
+  // Within the section; of the sphere for weights, of the vertex for gaps.
+  std::size_t index_ = 0;
   std::size_t first_vertex_ = 0;  // weights only
 };
 

@@ -27,35 +27,73 @@ absl::Status UnknownPart(const std::string& field, v1::BodyPart part) {
       field, absl::StrCat("is ", static_cast<int>(part), ", which this version does not know"));
 }
 
-v1::Metrics MetricsToWire(const metrics::Metrics& metrics) {
-  v1::Metrics wire;
-  wire.set_primitive_count(metrics.n_p);
+// What the metrics of the whole and those of a part have in common.
+template <typename AnyMetrics, typename AnyWire>
+void CommonToWire(const AnyMetrics& metrics, AnyWire& wire) {
+  wire.set_sphere_count(metrics.spheres);
+  wire.set_capsule_count(metrics.capsules);
   wire.set_volume_error(metrics.E_r);
   wire.set_outside(metrics.outside);
   wire.set_uncovered(metrics.uncovered);
   wire.set_mean_distance_percent(metrics.E_M);
-  wire.set_max_distance_percent(metrics.hausdorff);
-  wire.set_max_gap_m(metrics.max_gap_m);
   wire.set_volume_ratio(metrics.volume_ratio);
-  wire.set_mirror_error(metrics.mirror_error);
+  wire.mutable_gap()->set_mean_m(metrics.gap.mean_m);
+  wire.mutable_gap()->set_p95_m(metrics.gap.p95_m);
+  wire.mutable_gap()->set_max_m(metrics.gap.max_m);
+  wire.set_surface_out(metrics.surface_out);
   wire.set_vertices_out(metrics.vertices_out);
   wire.set_max_out_m(metrics.max_out_m);
-  return wire;
 }
 
-metrics::Metrics MetricsFromWire(const v1::Metrics& wire) {
-  metrics::Metrics metrics;
-  metrics.n_p = wire.primitive_count();
+template <typename AnyMetrics, typename AnyWire>
+void CommonFromWire(const AnyWire& wire, AnyMetrics& metrics) {
+  metrics.spheres = wire.sphere_count();
+  metrics.capsules = wire.capsule_count();
   metrics.E_r = wire.volume_error();
   metrics.outside = wire.outside();
   metrics.uncovered = wire.uncovered();
   metrics.E_M = wire.mean_distance_percent();
-  metrics.hausdorff = wire.max_distance_percent();
-  metrics.max_gap_m = wire.max_gap_m();
   metrics.volume_ratio = wire.volume_ratio();
-  metrics.mirror_error = wire.mirror_error();
+  metrics.gap = {wire.gap().mean_m(), wire.gap().p95_m(), wire.gap().max_m()};
+  metrics.surface_out = wire.surface_out();
   metrics.vertices_out = wire.vertices_out();
   metrics.max_out_m = wire.max_out_m();
+}
+
+v1::Metrics MetricsToWire(const metrics::Metrics& metrics) {
+  v1::Metrics wire;
+  wire.set_primitive_count(metrics.n_p);
+  CommonToWire(metrics, wire);
+  wire.set_max_distance_percent(metrics.hausdorff);
+  wire.set_max_gap_m(metrics.max_gap_m);
+  wire.set_mirror_error(metrics.mirror_error);
+  wire.set_intersection_over_union(metrics.iou);
+  for (std::size_t p = 0; p < metrics.parts.size(); ++p) {
+    if (!metrics.parts[p]) continue;
+    v1::PartMetrics& part = *wire.add_parts();
+    part.set_part(ToWire(static_cast<body::Part>(p)));
+    part.set_volume_m3(metrics.parts[p]->volume_m3);
+    CommonToWire(*metrics.parts[p], part);
+  }
+  return wire;
+}
+
+// Parts that this version does not know are left out.
+metrics::Metrics MetricsFromWire(const v1::Metrics& wire) {
+  metrics::Metrics metrics;
+  metrics.n_p = wire.primitive_count();
+  CommonFromWire(wire, metrics);
+  metrics.hausdorff = wire.max_distance_percent();
+  metrics.max_gap_m = wire.max_gap_m();
+  metrics.mirror_error = wire.mirror_error();
+  metrics.iou = wire.intersection_over_union();
+  for (const v1::PartMetrics& one : wire.parts()) {
+    const std::optional<body::Part> known = FromWire(one.part());
+    if (!known) continue;
+    metrics::PartMetrics& part = metrics.parts[static_cast<std::size_t>(*known)].emplace();
+    part.volume_m3 = one.volume_m3();
+    CommonFromWire(one, part);
+  }
   return metrics;
 }
 
@@ -198,6 +236,17 @@ v1::SkinningChunk WeightsToWire(const skinning::DenseWeights& weights, const Wei
   return wire;
 }
 
+v1::VertexGapsChunk GapsToWire(std::span<const float> gaps, std::size_t first_vertex,
+                               std::size_t max_gaps) {
+  v1::VertexGapsChunk wire;
+  wire.set_total_vertex_count(static_cast<std::int64_t>(gaps.size()));
+  wire.set_first_vertex(static_cast<std::int64_t>(first_vertex));
+  const std::span<const float> piece =
+      gaps.subspan(first_vertex, std::min(max_gaps, gaps.size() - first_vertex));
+  wire.mutable_gaps()->Add(piece.begin(), piece.end());
+  return wire;
+}
+
 Warning WarningFromWire(const v1::Warning& wire) {
   return {wire.code(), wire.message(), wire.count()};
 }
@@ -276,6 +325,23 @@ absl::Status AppendWeights(const v1::SkinningChunk& wire, skinning::DenseWeights
   }
   weights.weights.insert(weights.weights.end(), wire.dense().weights().begin(),
                          wire.dense().weights().end());
+  return absl::OkStatus();
+}
+
+absl::Status AppendGaps(const v1::VertexGapsChunk& wire, std::vector<float>& gaps) {
+  const std::int64_t count = wire.total_vertex_count();
+  if (count < 1 || static_cast<std::uint64_t>(count) > kMaxMatrixColumns) {
+    return InvalidField("vertex_gaps.total_vertex_count",
+                        absl::StrCat("is ", count, ", must be in [1, ", kMaxMatrixColumns, "]"));
+  }
+  const auto added = static_cast<std::size_t>(wire.gaps_size());
+  if (wire.first_vertex() != static_cast<std::int64_t>(gaps.size()) || added == 0 ||
+      gaps.size() + added > static_cast<std::size_t>(count)) {
+    return InvalidField("vertex_gaps",
+                        absl::StrCat("piece of ", added, " at vertex ", wire.first_vertex(), " of ",
+                                     count, " does not follow ", gaps.size()));
+  }
+  gaps.insert(gaps.end(), wire.gaps().begin(), wire.gaps().end());
   return absl::OkStatus();
 }
 

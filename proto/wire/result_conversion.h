@@ -3,7 +3,9 @@
 #define CAPFIT_PROTO_WIRE_RESULT_CONVERSION_H_
 
 #include <cstddef>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -37,6 +39,10 @@ struct WeightBlock {
 [[nodiscard]] v1::SkinningChunk WeightsToWire(const skinning::DenseWeights& weights,
                                               const WeightBlock& block);
 
+// The vertices from `first_vertex` (below the size) on, at most `max_gaps` of them.
+[[nodiscard]] v1::VertexGapsChunk GapsToWire(std::span<const float> gaps, std::size_t first_vertex,
+                                             std::size_t max_gaps);
+
 // The way back. What comes from a server is not trusted: INVALID_ARGUMENT for an unknown part, an
 // index out of range, a block outside the matrix.
 [[nodiscard]] Warning WarningFromWire(const v1::Warning& wire);
@@ -49,6 +55,8 @@ void LandmarksFromWire(const v1::Landmarks& wire, pipeline::FitResult& result);
 // Appends the block, which must be the one that follows what `weights` holds already.
 [[nodiscard]] absl::Status AppendWeights(const v1::SkinningChunk& wire,
                                          skinning::DenseWeights& weights);
+// The same for a piece of the vertices' gaps.
+[[nodiscard]] absl::Status AppendGaps(const v1::VertexGapsChunk& wire, std::vector<float>& gaps);
 
 }  // namespace capfit::wire
 

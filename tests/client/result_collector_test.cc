@@ -36,6 +36,8 @@ TEST(ResultCollector, GivesBackWhatTheServerHad) {
     EXPECT_EQ(result->primitives.capsules, sent.primitives.capsules);
     EXPECT_EQ(result->primitives.spheres[0].center_m, sent.primitives.spheres[0].center_m);
     EXPECT_EQ(result->weights->weights, sent.weights->weights);
+    ASSERT_EQ(result->vertex_gaps.size(), 7U);
+    EXPECT_EQ(result->vertex_gaps[6], sent.vertex_gaps[6]);
     EXPECT_EQ(result->warnings.size(), 1U);
     EXPECT_EQ(result->landmarks.size(), 2U);
     EXPECT_EQ(result->polygons.size(), 1U);
@@ -56,9 +58,10 @@ TEST(ResultCollector, PassesProgressOn) {
 }
 
 TEST(ResultCollector, EveryLostDoubledOrSwappedMessageIsNoticedOrHarmless) {
-  const std::vector<Response> answer = Answer(7, 7);
+  const std::vector<Response> answer = Answer(7, 4);
   for (std::size_t i = 0; i < answer.size(); ++i) {
-    const bool is_essential = answer[i].has_summary() || answer[i].has_skinning();
+    const bool is_essential =
+        answer[i].has_summary() || answer[i].has_skinning() || answer[i].has_vertex_gaps();
     std::vector<Response> lost = answer;
     lost.erase(lost.begin() + static_cast<std::ptrdiff_t>(i));
     // The weights' first block tells the size, so only a wholly missing matrix goes unnoticed.

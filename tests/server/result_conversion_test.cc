@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/base/status.h"
 #include "tests/server/fake_fit.h"
 
@@ -10,6 +12,12 @@ namespace capfit::wire {
 namespace {
 
 using server::HandMadeResult;
+
+void ExpectSameGap(const metrics::GapStatistics& got, const metrics::GapStatistics& sent) {
+  EXPECT_EQ(got.mean_m, sent.mean_m);
+  EXPECT_EQ(got.p95_m, sent.p95_m);
+  EXPECT_EQ(got.max_m, sent.max_m);
+}
 
 TEST(ResultConversion, PrimitivesComeBackBitForBit) {
   const capsule::PrimitiveSet set = HandMadeResult().primitives;
@@ -44,11 +52,81 @@ TEST(ResultConversion, SummaryComesBack) {
   EXPECT_EQ(back.metrics.mirror_error, result.metrics.mirror_error);
   EXPECT_EQ(back.metrics.vertices_out, result.metrics.vertices_out);
   EXPECT_EQ(back.metrics.max_out_m, result.metrics.max_out_m);
+  EXPECT_EQ(back.metrics.spheres, result.metrics.spheres);
+  EXPECT_EQ(back.metrics.capsules, result.metrics.capsules);
+  EXPECT_EQ(back.metrics.iou, result.metrics.iou);
+  EXPECT_EQ(back.metrics.surface_out, result.metrics.surface_out);
+  ExpectSameGap(back.metrics.gap, result.metrics.gap);
   EXPECT_EQ(back.stage_seconds, result.stage_seconds);
   EXPECT_EQ(back.seconds, result.seconds);
   EXPECT_EQ(back.body_from_caller.rotation, result.body_from_caller.rotation);
   EXPECT_EQ(back.body_from_caller.scale, result.body_from_caller.scale);
   EXPECT_EQ(back.body_from_caller.translation, result.body_from_caller.translation);
+}
+
+TEST(ResultConversion, MetricsOfPartsComeBack) {
+  const pipeline::FitResult result = HandMadeResult();
+  v1::Summary wire = SummaryToWire(result, "");
+  EXPECT_EQ(wire.metrics().parts_size(), 2);
+  wire.mutable_metrics()->add_parts()->set_part(v1::BODY_PART_UNSPECIFIED);  // of a later version
+  pipeline::FitResult back;
+  ASSERT_TRUE(SummaryFromWire(wire, back).ok());
+  for (std::size_t p = 0; p < result.metrics.parts.size(); ++p) {
+    const auto& sent = result.metrics.parts[p];
+    const auto& got = back.metrics.parts[p];
+    ASSERT_EQ(got.has_value(), sent.has_value());
+    if (!sent) continue;
+    EXPECT_EQ(got->spheres, sent->spheres);
+    EXPECT_EQ(got->capsules, sent->capsules);
+    EXPECT_EQ(got->volume_m3, sent->volume_m3);
+    EXPECT_EQ(got->E_r, sent->E_r);
+    EXPECT_EQ(got->outside, sent->outside);
+    EXPECT_EQ(got->uncovered, sent->uncovered);
+    EXPECT_EQ(got->E_M, sent->E_M);
+    EXPECT_EQ(got->volume_ratio, sent->volume_ratio);
+    EXPECT_EQ(got->surface_out, sent->surface_out);
+    EXPECT_EQ(got->vertices_out, sent->vertices_out);
+    EXPECT_EQ(got->max_out_m, sent->max_out_m);
+    ExpectSameGap(got->gap, sent->gap);
+  }
+}
+
+TEST(ResultConversion, VertexGapsComeBackInPiecesOfAnySize) {
+  const std::vector<float> gaps = HandMadeResult(10).vertex_gaps;
+  for (const std::size_t max_gaps : {1U, 3U, 9U, 10U, 11U}) {
+    std::vector<float> back;
+    while (back.size() < gaps.size()) {
+      const v1::VertexGapsChunk chunk = GapsToWire(gaps, back.size(), max_gaps);
+      EXPECT_LE(static_cast<std::size_t>(chunk.gaps_size()), max_gaps);
+      ASSERT_TRUE(AppendGaps(chunk, back).ok());
+    }
+    ASSERT_EQ(back.size(), gaps.size());
+    for (std::size_t v = 0; v < gaps.size(); ++v) {
+      if (v == 5) {
+        EXPECT_TRUE(std::isnan(back[v]));
+      } else {
+        EXPECT_EQ(back[v], gaps[v]);
+      }
+    }
+    EXPECT_FALSE(AppendGaps(GapsToWire(gaps, 0, max_gaps), back).ok()) << "one piece too many";
+  }
+}
+
+TEST(ResultConversion, PiecesOfGapsThatDoNotFollowAreRefused) {
+  const std::vector<float> gaps = HandMadeResult(10).vertex_gaps;
+  std::vector<float> back;
+  EXPECT_FALSE(AppendGaps(GapsToWire(gaps, 4, 3), back).ok());
+  v1::VertexGapsChunk chunk = GapsToWire(gaps, 0, 3);
+  chunk.set_total_vertex_count(2);
+  EXPECT_EQ(FieldOf(AppendGaps(chunk, back)), "vertex_gaps");
+  chunk.set_total_vertex_count(-1);
+  EXPECT_EQ(FieldOf(AppendGaps(chunk, back)), "vertex_gaps.total_vertex_count");
+  chunk.set_total_vertex_count(std::int64_t{1} << 60);
+  EXPECT_EQ(FieldOf(AppendGaps(chunk, back)), "vertex_gaps.total_vertex_count");
+  chunk = GapsToWire(gaps, 0, 3);
+  chunk.clear_gaps();
+  EXPECT_EQ(FieldOf(AppendGaps(chunk, back)), "vertex_gaps");
+  EXPECT_TRUE(back.empty());
 }
 
 TEST(ResultConversion, PolygonsLandmarksAndWarningsComeBack) {
