@@ -1,0 +1,179 @@
+"""One cell of the evaluation: a body, a method and a budget. Fitted, measured, and kept."""
+
+import hashlib
+import json
+import os
+import statistics
+import subprocess
+import time
+
+# Name, arguments of `capfit approximate`, words for a legend.
+METHODS = {
+    "paper enclose": ["--quality", "paper", "--fit", "enclose"],
+    "paper best": ["--quality", "paper", "--fit", "best"],
+    "tight enclose": ["--quality", "tight", "--fit", "enclose"],
+    "tight best": ["--quality", "tight", "--fit", "best"],
+}
+SPHERE_MESHES = "Sphere-Meshes"
+THREADS = "2"
+LIMIT_S = 180
+# A furrow of at most this between the capsules that stand for a triangle of a sphere mesh.
+SAG_MM = "0.1"
+
+
+def digest(path):
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest()[:12]
+
+
+def run(command):
+    """Its standard output; RuntimeError with the last line of the complaint."""
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S)
+    except subprocess.TimeoutExpired:
+        raise RuntimeError(f"took more than {LIMIT_S} s") from None
+    if done.returncode != 0:
+        raise RuntimeError((done.stderr.strip().splitlines() or ["failed"])[-1])
+    return done.stdout
+
+
+class Store:
+    """Finished cells, one JSON line each, by a key that names programs and body by their bytes."""
+
+    def __init__(self, folder, capfit, sphere_mesh, judge):
+        self.capfit, self.sphere_mesh, self.judge = capfit, sphere_mesh, judge
+        measure = digest(judge or capfit)
+        self.programs = {"capfit": f"{digest(capfit)}/{measure}",
+                         SPHERE_MESHES: f"{digest(sphere_mesh)}/{measure}"}
+        self.folder = folder
+        self.body_digests = {}
+        os.makedirs(os.path.join(folder, "results"), exist_ok=True)
+        self.path = os.path.join(folder, "cells.jsonl")
+        self.cells = {}
+        if os.path.exists(self.path):
+            with open(self.path) as file:
+                for line in file:
+                    try:
+                        entry = json.loads(line)
+                    except json.JSONDecodeError:  # the end of an interrupted run
+                        continue
+                    self.cells[entry["key"]] = entry["cell"]
+
+    def key(self, kind, body, method, budget):
+        if body not in self.body_digests:
+            self.body_digests[body] = digest(body)
+        program = self.programs[SPHERE_MESHES if method == SPHERE_MESHES else "capfit"]
+        return "|".join([kind, program, self.body_digests[body], method, str(budget)])
+
+    def get(self, key):
+        return self.cells.get(key)
+
+    def put(self, key, cell):
+        self.cells[key] = cell
+        with open(self.path, "a") as file:
+            file.write(json.dumps({"key": key, "cell": cell}) + "\n")
+
+    def result_path(self, body, method, budget):
+        """Where the fitted set is: kept for as long as the same programs are evaluated."""
+        stem = self.key("set", body, method, budget).replace("/", "-").replace("|", ".")
+        return os.path.join(self.folder, "results", stem.replace(" ", "_") + ".json")
+
+    def sphere_mesh_prefix(self, body):
+        return self.result_path(body, SPHERE_MESHES, 0)[: -len(".0.json")]
+
+    # -- work --
+
+    def fit(self, body, method, budget):
+        """Writes the result; its seconds, without reading the file."""
+        path = self.result_path(body, method, budget)
+        run([self.capfit, "approximate", body, "-o", path, "--local", "--threads", THREADS,
+             "--parts", "all", "--max-primitives", str(budget), "--quiet"] + METHODS[method])
+        with open(path) as file:
+            return json.load(file)["seconds"]
+
+    def fit_sphere_meshes(self, body, budgets):
+        """All budgets in one run down; the seconds to each."""
+        prefix = self.sphere_mesh_prefix(body)
+        run([self.sphere_mesh, body, prefix, "--budgets", ",".join(map(str, budgets)),
+             "--sag-mm", SAG_MM])
+        seconds = {}
+        for budget in budgets:
+            with open(f"{prefix}.{budget}.json") as file:
+                seconds[budget] = json.load(file)["seconds"]
+        return seconds
+
+    def measure(self, body, path, plain_path=None):
+        """Figures of the set in `path`; `plain_path` is the same without triangles."""
+        with open(path) as file:
+            result = json.load(file)
+        if self.judge:
+            m = json.loads(run([self.judge, body, path, "--json", "--columns", "320",
+                                "--samples", "20000"]))
+            m["max_out_m"] = m["max_out_mm"] / 1e3
+            m["mirror_error"] = m["asym"]
+        else:
+            m = json.loads(run([self.capfit, "evaluate", body, plain_path or path, "--json",
+                                "--parts", "all", "--threads", THREADS]))
+        cell = {name: m[name] for name in ("E_r", "outside", "uncovered", "E_M", "hausdorff",
+                                           "vertices_out", "max_out_m", "mirror_error")}
+        cell["max_gap_m"] = m.get("max_gap_m")
+        cell["n_p"] = result["n_p"] if "n_p" in result else result["metrics"]["n_p"]
+        cell["seconds"] = result["seconds"]
+        return cell
+
+    def error_cell(self, body, method, budget):
+        key = self.key("error", body, method, budget)
+        if self.get(key) is None:
+            try:
+                self.fit(body, method, budget)
+                cell = self.measure(body, self.result_path(body, method, budget))
+            except RuntimeError as error:
+                cell = {"failure": str(error)}
+            self.put(key, cell)
+        return self.get(key)
+
+    def sphere_mesh_cells(self, body, budgets):
+        keys = {n: self.key("error", body, SPHERE_MESHES, n) for n in budgets}
+        if any(self.get(key) is None for key in keys.values()):
+            self.fit_sphere_meshes(body, budgets)
+        for budget, key in keys.items():
+            if self.get(key) is None:
+                prefix = f"{self.sphere_mesh_prefix(body)}.{budget}"
+                self.put(key, self.measure(body, prefix + ".json", prefix + ".capsules.json"))
+        return {n: self.get(key) for n, key in keys.items()}
+
+    def time_cell(self, body, method, budget, runs):
+        """Median seconds of `runs` fits, one after the other."""
+        key = self.key(f"time{runs}", body, method, budget)
+        if self.get(key) is None:
+            try:
+                times = [self.fit(body, method, budget) for _ in range(runs)]
+                cell = {"seconds": statistics.median(times), "least": min(times),
+                        "most": max(times)}
+            except RuntimeError as error:
+                cell = {"failure": str(error)}
+            self.put(key, cell)
+        return self.get(key)
+
+    def sphere_mesh_times(self, body, budgets, runs):
+        keys = {n: self.key(f"time{runs}", body, SPHERE_MESHES, n) for n in budgets}
+        if any(self.get(key) is None for key in keys.values()):
+            times = [self.fit_sphere_meshes(body, budgets) for _ in range(runs)]
+            for n, key in keys.items():
+                one = [t[n] for t in times]
+                self.put(key, {"seconds": statistics.median(one), "least": min(one),
+                               "most": max(one)})
+        return {n: self.get(key) for n, key in keys.items()}
+
+
+class Progress:
+    def __init__(self, total):
+        self.total, self.done, self.start, self.worked = total, 0, time.time(), 0
+
+    def step(self, text, was_kept=False):
+        self.done += 1
+        self.worked += not was_kept
+        left = self.total - self.done
+        rate = (time.time() - self.start) / max(1, self.worked)
+        print(f"[{self.done:4d}/{self.total}] {text}"
+              + (" (kept)" if was_kept else f"   {left * rate / 60:.0f} min left"), flush=True)
