@@ -41,7 +41,7 @@ for package in "${wanted[@]}"; do
 done
 # A Node.js with npm from another source serves as well as Debian's package.
 command -v npm >/dev/null 2>&1 && missing=("${missing[@]/#npm/}")
-missing=(${missing[@]+"${missing[@]}"})
+missing=(${missing[@]+${missing[@]}})
 [ "${#missing[@]}" -eq 0 ] && exit 0
 
 as_root=()
