@@ -131,11 +131,26 @@ def draw_pictures(store, errors, bodies, folder, budget):
     return pictures
 
 
+def version(capfit):
+    """capfit's own, and the commit where the program was built from it here and now."""
+    def git(*words):
+        return subprocess.run(["git", *words], capture_output=True, text=True).stdout.strip()
+
+    text = "capfit " + cells.run([capfit, "--version"]).strip()
+    commit = git("rev-parse", "--short", "HEAD")
+    if not commit or "CAPFIT_BUILD" in os.environ:
+        return text
+    changed = git("status", "--porcelain", "--", "core", "client", "CMakeLists.txt")
+    return f"{text} at commit {commit}" + (" with local changes" if changed else "")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--capfit", required=True)
     parser.add_argument("--sphere-mesh", required=True)
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--budgets", type=lambda text: sorted(map(int, text.split(","))),
+                        help="numbers of primitives, among the eleven, with 64 among them")
     arguments = parser.parse_args()
     work = "build/evaluation"
     docs = os.path.join(work, "quick") if arguments.quick else "docs"
@@ -146,7 +161,9 @@ def main():
     if not judge:
         print("CAPFIT_JUDGE names no program: `capfit evaluate` measures")
     store = cells.Store(work, arguments.capfit, arguments.sphere_mesh, judge)
-    budgets = QUICK_BUDGETS if arguments.quick else BUDGETS
+    budgets = arguments.budgets or (QUICK_BUDGETS if arguments.quick else BUDGETS)
+    if FIGURE_10_BUDGET not in budgets or not set(budgets) <= set(BUDGETS):
+        parser.error(f"--budgets must be some of {BUDGETS} and have {FIGURE_10_BUDGET} among them")
     runs = 1 if arguments.quick else 3
     bodies, scales, time_body, are_real = find_bodies(arguments, work)
     progress = cells.Progress(len(cells.METHODS) * len(budgets) * (len(bodies) + 1)
@@ -158,13 +175,10 @@ def main():
     plots.table_1(times, budgets, os.path.join(pictures_folder, "table_1.svg"))
     plots.figure_10(ratios, os.path.join(pictures_folder, "figure_10.svg"))
     pictures = draw_pictures(store, errors, bodies, pictures_folder, FIGURE_10_BUDGET)
-    version = cells.run([arguments.capfit, "--version"]).strip()
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True,
-                            text=True).stdout.strip()
     text = page.write(errors=errors, times=times, ratios=ratios, budgets=budgets, runs=runs,
                       pictures=pictures, are_real=are_real, is_judged=bool(judge),
                       time_body=stem(time_body), figure_10_budget=FIGURE_10_BUDGET,
-                      version=f"{version} ({commit})" if commit else version)
+                      version=version(arguments.capfit))
     path = os.path.join(docs, "evaluation.md")
     with open(path, "w") as file:
         file.write(text)

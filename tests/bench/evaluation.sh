@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # The paper's evaluation (figures 9 and 10, table 1) on all bodies, as docs/evaluation.md.
 #
-#   tests/bench/evaluation.sh [--quick]      --quick: 3 bodies, 3 budgets, into build/evaluation/quick
+#   tests/bench/evaluation.sh [--quick] [--budgets 22,64,...]
+#
+# --quick: 3 bodies, 3 budgets, one run for the times, into build/evaluation/quick.
 #
 # Installs what it needs, builds the bench preset, then fits and measures one after the other with
 # two threads, and goes on where it stopped: what the same programs have done for the same body is

@@ -3,11 +3,10 @@
 import hashlib
 import json
 import os
-import statistics
 import subprocess
 import time
 
-# Name, arguments of `capfit approximate`, words for a legend.
+# Name and the arguments of `capfit approximate`.
 METHODS = {
     "paper enclose": ["--quality", "paper", "--fit", "enclose"],
     "paper best": ["--quality", "paper", "--fit", "best"],
@@ -35,6 +34,10 @@ def run(command):
     if done.returncode != 0:
         raise RuntimeError((done.stderr.strip().splitlines() or ["failed"])[-1])
     return done.stdout
+
+
+def time_figures(times):
+    return {"seconds": min(times), "most": max(times), "load": os.getloadavg()[0]}
 
 
 class Store:
@@ -143,13 +146,12 @@ class Store:
         return {n: self.get(key) for n, key in keys.items()}
 
     def time_cell(self, body, method, budget, runs):
-        """Median seconds of `runs` fits, one after the other."""
+        """Seconds of `runs` fits, one after the other: other programs only ever add, so the least."""
         key = self.key(f"time{runs}", body, method, budget)
         if self.get(key) is None:
             try:
                 times = [self.fit(body, method, budget) for _ in range(runs)]
-                cell = {"seconds": statistics.median(times), "least": min(times),
-                        "most": max(times)}
+                cell = time_figures(times)
             except RuntimeError as error:
                 cell = {"failure": str(error)}
             self.put(key, cell)
@@ -160,9 +162,7 @@ class Store:
         if any(self.get(key) is None for key in keys.values()):
             times = [self.fit_sphere_meshes(body, budgets) for _ in range(runs)]
             for n, key in keys.items():
-                one = [t[n] for t in times]
-                self.put(key, {"seconds": statistics.median(one), "least": min(one),
-                               "most": max(one)})
+                self.put(key, time_figures([t[n] for t in times]))
         return {n: self.get(key) for n, key in keys.items()}
 
 
