@@ -9,6 +9,7 @@
 #include "client/body_client.h"
 #include "client/exit_code.h"
 #include "client/picture/file_bytes.h"
+#include "client/picture/gaps_file.h"
 #include "client/progress_line.h"
 #include "client/result_json.h"
 #include "client/result_table.h"
@@ -35,7 +36,8 @@ struct ApproximateArguments {
 absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
                                             mesh::MeshFormat format,
                                             const pipeline::FitOptions& options,
-                                            const ApproximateArguments& arguments, ProgressLine& progress) {
+                                            const ApproximateArguments& arguments,
+                                            ProgressLine& progress) {
   CAPFIT_RETURN_IF_ERROR(pipeline::ValidateOptions(options));
   CAPFIT_ASSIGN_OR_RETURN(const mesh::PolygonSoup soup, mesh::ReadMesh(bytes, format));
   return pipeline::Fit(soup, options, ThreadPool(arguments.threads), progress);
@@ -44,7 +46,8 @@ absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
 absl::StatusOr<pipeline::FitResult> FitThere(std::span<const std::byte> bytes,
                                              mesh::MeshFormat format,
                                              const pipeline::FitOptions& options,
-                                             const ApproximateArguments& arguments, ProgressLine& progress) {
+                                             const ApproximateArguments& arguments,
+                                             ProgressLine& progress) {
   CallOptions call;
   call.timeout_seconds = arguments.timeout_seconds;
   call.request_id = arguments.request_id;
@@ -67,6 +70,10 @@ absl::Status RunApproximate(const ApproximateArguments& arguments) {
   CAPFIT_RETURN_IF_ERROR(FileProblem(WriteFileBytes(arguments.output, FormatResult(result))));
   if (result.weights) {
     CAPFIT_RETURN_IF_ERROR(WriteWeights(*result.weights, arguments.output));
+  }
+  if (!result.vertex_gaps.empty()) {
+    CAPFIT_RETURN_IF_ERROR(FileProblem(
+        WriteVertexGaps(result.vertex_gaps, result.body_from_caller.scale, arguments.output)));
   }
   if (!arguments.quiet) std::fputs(ResultTable(result).c_str(), stdout);
   return absl::OkStatus();

@@ -10,12 +10,13 @@
 #include "client/approximate_flags.h"
 #include "client/exit_code.h"
 #include "client/picture/file_bytes.h"
+#include "client/picture/result_body.h"
 #include "client/picture/result_set.h"
+#include "client/result_json.h"
 #include "client/result_table.h"
 #include "core/base/status.h"
 #include "core/body/find_body.h"
 #include "core/coverage/cover_vertices.h"
-#include "core/mesh/prepare_mesh.h"
 #include "core/mesh/read_mesh.h"
 #include "core/metrics/measure.h"
 
@@ -38,64 +39,16 @@ absl::StatusOr<body::Body> LoadBody(const EvaluateArguments& arguments, const Th
   CAPFIT_ASSIGN_OR_RETURN(
       const mesh::PolygonSoup soup,
       mesh::ReadMesh(std::as_bytes(std::span(file)), mesh::FormatFromFileName(arguments.body)));
-  CAPFIT_ASSIGN_OR_RETURN(const mesh::PreparedMesh prepared, mesh::PrepareMesh(soup));
-  return body::FindBody(prepared.mesh, arguments.frame, pool, NullObserver());
+  return UnderstandBody(soup, arguments.frame, pool);
 }
 
-// Which part a word of "sphere_parts" means; the torso for words that are not known.
-body::Part PartFromWord(const std::string& word) {
-  for (int i = 0; i < body::kPartCount; ++i) {
-    if (body::PartName(static_cast<body::Part>(i)) == word) return static_cast<body::Part>(i);
-  }
-  return body::Part::kTorso;
-}
-
-// The result as the core knows it, in the body frame.
-capsule::PrimitiveSet InBodyFrame(const ResultSet& result, const geometry::Similarity& frame) {
-  capsule::PrimitiveSet set;
-  for (std::size_t i = 0; i < result.spheres.size(); ++i) {
-    const geometry::Sphere& sphere = result.spheres[i];
-    set.spheres.push_back({frame.Apply(sphere.center_m), frame.scale * sphere.radius_m});
-    set.origins.push_back({PartFromWord(result.sphere_parts[i]), -1, -1});
-  }
-  for (const std::array<int, 2>& ends : result.capsules) {
-    if (ends[0] != ends[1])
-      set.capsules.push_back({std::min(ends[0], ends[1]), std::max(ends[0], ends[1])});
-  }
-  return set;
-}
-
-// The parts that the result has spheres for; the default where it does not say.
-body::PartSelection PartsOfResult(const ResultSet& result) {
-  body::PartSelection parts{.torso = false, .arms = false, .legs = false};
-  bool is_told = false;
-  for (const std::string& word : result.sphere_parts) {
-    if (word.empty()) continue;
-    is_told = true;
-    parts.torso |= word == "torso";
-    parts.arms |= word == "left_arm" || word == "right_arm";
-    parts.legs |= word == "left_leg" || word == "right_leg";
-    parts.head |= word == "head";
-    parts.hands |= word == "left_hand" || word == "right_hand";
-    parts.feet |= word == "left_foot" || word == "right_foot";
-  }
-  return is_told ? parts : body::PartSelection();
-}
-
-std::string MetricsJson(const metrics::Metrics& m) {
-  return nlohmann::ordered_json{{"n_p", m.n_p},
-                                {"E_r", m.E_r},
-                                {"outside", m.outside},
-                                {"uncovered", m.uncovered},
-                                {"E_M", m.E_M},
-                                {"hausdorff", m.hausdorff},
-                                {"max_gap_m", m.max_gap_m},
-                                {"volume_ratio", m.volume_ratio},
-                                {"mirror_error", m.mirror_error},
-                                {"vertices_out", m.vertices_out},
-                                {"max_out_m", m.max_out_m}}
-             .dump() +
-         "\n";
+// As in RESULT.json, and the two lengths in metres.
+std::string ReportJson(const metrics::Metrics& metrics, double metres_per_unit) {
+  auto json = nlohmann::ordered_json::parse(FormatMetrics(metrics, metres_per_unit));
+  json["metres_per_unit"] = metres_per_unit;
+  json["max_gap_m"] = metrics.max_gap_m;
+  json["max_out_m"] = metrics.max_out_m;
+  return json.dump() + "\n";
 }
 
 absl::Status RunEvaluate(const EvaluateArguments& arguments) {
@@ -109,7 +62,9 @@ absl::Status RunEvaluate(const EvaluateArguments& arguments) {
   metrics::Metrics metrics = metrics::Measure(body, set, options, pool, NullObserver());
   metrics.max_gap_m =
       coverage::CertifiedGap(coverage::TargetOf(body, options.parts), set, kGapToleranceM, pool);
-  std::fputs((arguments.as_json ? MetricsJson(metrics) : MetricsTable(metrics)).c_str(), stdout);
+  const std::string report = arguments.as_json ? ReportJson(metrics, body.body_from_caller.scale)
+                                               : PartsTable(metrics) + "\n" + MetricsTable(metrics);
+  std::fputs(report.c_str(), stdout);
   return absl::OkStatus();
 }
 

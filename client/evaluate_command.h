@@ -1,4 +1,4 @@
-// `capfit evaluate`: measures any result against its body.
+// `capfit evaluate`: the quality report of any result, of capfit or of another program.
 #ifndef CAPFIT_CLIENT_EVALUATE_COMMAND_H_
 #define CAPFIT_CLIENT_EVALUATE_COMMAND_H_
 

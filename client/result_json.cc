@@ -48,8 +48,32 @@ ordered_json WarningsJson(const std::vector<Warning>& warnings) {
   return json;
 }
 
-ordered_json MetricsJson(const metrics::Metrics& metrics, double metres_per_unit) {
+ordered_json GapJson(const metrics::GapStatistics& gap, double metres_per_unit) {
+  return {{"mean", gap.mean_m / metres_per_unit},
+          {"p95", gap.p95_m / metres_per_unit},
+          {"max", gap.max_m / metres_per_unit}};
+}
+
+ordered_json PartJson(const metrics::PartMetrics& part, double metres_per_unit) {
+  return {{"spheres", part.spheres},
+          {"capsules", part.capsules},
+          {"volume", part.volume_m3 / (metres_per_unit * metres_per_unit * metres_per_unit)},
+          {"E_r", part.E_r},
+          {"outside", part.outside},
+          {"uncovered", part.uncovered},
+          {"E_M", part.E_M},
+          {"volume_ratio", part.volume_ratio},
+          {"gap", GapJson(part.gap, metres_per_unit)},
+          {"surface_out", part.surface_out},
+          {"vertices_out", part.vertices_out},
+          {"max_out", part.max_out_m / metres_per_unit}};
+}
+
+// All but the parts.
+ordered_json WholeJson(const metrics::Metrics& metrics, double metres_per_unit) {
   return {{"n_p", metrics.n_p},
+          {"spheres", metrics.spheres},
+          {"capsules", metrics.capsules},
           {"E_r", metrics.E_r},
           {"outside", metrics.outside},
           {"uncovered", metrics.uncovered},
@@ -57,7 +81,10 @@ ordered_json MetricsJson(const metrics::Metrics& metrics, double metres_per_unit
           {"max_gap", metrics.max_gap_m / metres_per_unit},
           {"hausdorff", metrics.hausdorff},
           {"volume_ratio", metrics.volume_ratio},
+          {"iou", metrics.iou},
           {"mirror_error", metrics.mirror_error},
+          {"gap", GapJson(metrics.gap, metres_per_unit)},
+          {"surface_out", metrics.surface_out},
           {"vertices_out", metrics.vertices_out},
           {"max_out", metrics.max_out_m / metres_per_unit}};
 }
@@ -101,6 +128,21 @@ std::string Dump(const ordered_json& json) {
 
 }  // namespace
 
+std::string FormatMetrics(const metrics::Metrics& metrics, double metres_per_unit) {
+  std::string text = WholeJson(metrics, metres_per_unit).dump();
+  text.pop_back();
+  text += ",\n    \"parts\": {";
+  bool is_first = true;
+  for (std::size_t p = 0; p < metrics.parts.size(); ++p) {
+    if (!metrics.parts[p]) continue;
+    text += (is_first ? "\n      \"" : ",\n      \"") +
+            std::string(body::PartName(static_cast<body::Part>(p))) +
+            "\": " + PartJson(*metrics.parts[p], metres_per_unit).dump();
+    is_first = false;
+  }
+  return text + "}}";
+}
+
 std::string FormatResult(const pipeline::FitResult& result) {
   ordered_json root;
   root["spheres"] = SpheresJson(result.primitives.spheres);
@@ -108,13 +150,15 @@ std::string FormatResult(const pipeline::FitResult& result) {
   root["sphere_parts"] = PartsJson(result.primitives);
   root["landmarks"] = LandmarksJson(result);
   root["warnings"] = WarningsJson(result.warnings);
-  root["metrics"] = MetricsJson(result.metrics, result.body_from_caller.scale);
+  root["metrics"] = nullptr;  // keeps the place
   root["stages"] = StagesJson(result);
   root["seconds"] = result.seconds;
   if (!result.polygons.empty()) root["polygons"] = PolygonsJson(result.polygons);
   std::string text;
   for (const auto& [name, value] : root.items()) {
-    text += (text.empty() ? "{\n  \"" : ",\n  \"") + name + "\": " + Dump(value);
+    text += (text.empty() ? "{\n  \"" : ",\n  \"") + name + "\": " +
+            (name == "metrics" ? FormatMetrics(result.metrics, result.body_from_caller.scale)
+                               : Dump(value));
   }
   return text + "\n}\n";
 }

@@ -16,36 +16,12 @@ std::string Line(const char* format, Values... values) {
   return std::string(text.data()) + "\n";
 }
 
-struct Count {
-  int spheres = 0;
-  int capsules = 0;
-};
-
-// A capsule counts for its ends' part; one between two parts for the outer one, which is the later
-// in the list of parts.
-std::array<Count, body::kPartCount> CountByPart(const capsule::PrimitiveSet& set) {
-  std::array<Count, body::kPartCount> counts{};
-  const auto part_of = [&](int sphere) {
-    return static_cast<std::size_t>(set.origins[static_cast<std::size_t>(sphere)].part);
-  };
-  for (std::size_t i = 0; i < set.origins.size(); ++i) {
-    ++counts[part_of(static_cast<int>(i))].spheres;
-  }
-  for (const capsule::CapsuleEnds& ends : set.capsules) {
-    ++counts[std::max(part_of(ends[0]), part_of(ends[1]))].capsules;
-  }
-  return counts;
-}
-
-std::string PartsTable(const capsule::PrimitiveSet& set) {
-  const auto counts = CountByPart(set);
-  std::string table = Line("%-12s %8s %9s", "part", "spheres", "capsules");
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i].spheres == 0) continue;
-    const std::string name(body::PartName(static_cast<body::Part>(i)));
-    table += Line("%-12s %8d %9d", name.c_str(), counts[i].spheres, counts[i].capsules);
-  }
-  return table + Line("%-12s %8zu %9zu", "total", set.spheres.size(), set.capsules.size());
+template <typename AnyMetrics>
+std::string PartLine(const std::string& name, const AnyMetrics& m, double volume_m3) {
+  return Line("%-12s %7d %8d %9.3f %8.4f %8.4f %9.4f %8.4f %8.2f %8.2f %8.2f %7.2f %8d",
+              name.c_str(), m.spheres, m.capsules, 1000.0 * volume_m3, m.E_r, m.outside,
+              m.uncovered, m.volume_ratio, 1000.0 * m.gap.mean_m, 1000.0 * m.gap.p95_m,
+              1000.0 * m.gap.max_m, 100.0 * m.surface_out, m.vertices_out);
 }
 
 std::string StagesTable(const pipeline::FitResult& result) {
@@ -61,20 +37,45 @@ std::string StagesTable(const pipeline::FitResult& result) {
 }  // namespace
 
 std::string MetricsTable(const metrics::Metrics& metrics) {
-  return Line("%-12s %10d     spheres + cones", "n_p", metrics.n_p) +
+  return Line("%-12s %10d     %d spheres + %d capsules", "n_p", metrics.n_p, metrics.spheres,
+              metrics.capsules) +
          Line("%-12s %10.4f     outside %.4f + uncovered %.4f of the fitted parts' volume", "E_r",
               metrics.E_r, metrics.outside, metrics.uncovered) +
+         Line("%-12s %10.4f     primitives / fitted parts; common / joint volume %.4f",
+              "volume ratio", metrics.volume_ratio, metrics.iou) +
          Line("%-12s %10.3f %%   of the fitted parts' box diagonal, worst %.2f %%", "E_M",
               metrics.E_M, metrics.hausdorff) +
-         Line("%-12s %10d     vertices outside, worst %.2f mm", "coverage", metrics.vertices_out,
-              1000.0 * metrics.max_out_m) +
+         Line("%-12s %10.2f mm  mean from skin to primitives, 95 %% within %.2f mm, worst %.2f mm",
+              "gap", 1000.0 * metrics.gap.mean_m, 1000.0 * metrics.gap.p95_m,
+              1000.0 * metrics.gap.max_m) +
+         Line("%-12s %10d     vertices outside, worst %.2f mm; %.2f %% of the skin", "coverage",
+              metrics.vertices_out, 1000.0 * metrics.max_out_m, 100.0 * metrics.surface_out) +
          Line("%-12s %10.3f mm  no point of the surface is further out", "max gap",
-              1000.0 * metrics.max_gap_m);
+              1000.0 * metrics.max_gap_m) +
+         Line("%-12s %10.2e     volume of (primitives xor their mirror image) / primitives",
+              "mirror error", metrics.mirror_error);
+}
+
+std::string PartsTable(const metrics::Metrics& metrics) {
+  std::string table =
+      Line("%-12s %7s %8s %9s %8s %8s %9s %8s %8s %8s %8s %7s %8s", "part", "spheres", "capsules",
+           "volume", "E_r", "outside", "uncovered", "volume", "gap", "gap", "gap", "skin",
+           "vertices") +
+      Line("%-12s %7s %8s %9s %8s %8s %9s %8s %8s %8s %8s %7s %8s", "", "", "", "litres", "", "",
+           "", "ratio", "mean mm", "95 % mm", "max mm", "out %", "out");
+  double volume_m3 = 0.0;
+  for (std::size_t p = 0; p < metrics.parts.size(); ++p) {
+    if (!metrics.parts[p]) continue;
+    const std::string name(body::PartName(static_cast<body::Part>(p)));
+    table += PartLine(name, *metrics.parts[p], metrics.parts[p]->volume_m3);
+    volume_m3 += metrics.parts[p]->volume_m3;
+  }
+  return table + PartLine("total", metrics, volume_m3);
 }
 
 std::string ResultTable(const pipeline::FitResult& result) {
-  std::string table = PartsTable(result.primitives) + "\n" + MetricsTable(result.metrics) + "\n" +
-                      StagesTable(result);
+  std::string table =
+      PartsTable(result.metrics) + "\n" + MetricsTable(result.metrics) + "\n" + StagesTable(result);
   if (!result.warnings.empty()) table += "\n";
   for (const Warning& warning : result.warnings) {
     table += "warning: " + warning.message + " (" + warning.code + ")\n";

@@ -9,12 +9,15 @@
 
 namespace capfit::client {
 
-// Spheres and capsules of each part, then the metrics, then the time of each stage, then warnings:
-// aligned columns, with units, ending with a newline.
+// The parts, then the metrics of the whole, then the time of each stage, then warnings: aligned
+// columns, with units, ending with a newline.
 [[nodiscard]] std::string ResultTable(const pipeline::FitResult& result);
 
-// The metrics alone.
+// The metrics of the whole alone.
 [[nodiscard]] std::string MetricsTable(const metrics::Metrics& metrics);
+
+// A line for each part and one for the whole: primitives, volumes, gaps, coverage.
+[[nodiscard]] std::string PartsTable(const metrics::Metrics& metrics);
 
 }  // namespace capfit::client
 

@@ -21,6 +21,9 @@ struct Figure {
   std::vector<mesh::Triangle> triangles;
   std::vector<geometry::TaperedCapsule> solids;  // capsules, then the spheres that none uses
   std::vector<Color> solid_colors;
+  // Signed distance of each vertex from the union of the solids: < 0 where they cover it, NaN where
+  // it is not meant to be covered. Empty: found out when they are drawn.
+  std::vector<double> gaps;
 };
 
 // Which axis of the caller's frame points up.

@@ -38,7 +38,8 @@ class Painter {
       body_.DrawMesh(figure.vertices, figure.triangles, view_);
       normals_ = VertexNormals(figure);
     }
-    if (options.style == PanelStyle::kHeat) gaps_ = Gaps(figure);
+    if (options.style == PanelStyle::kHeat)
+      gaps_ = figure.gaps.empty() ? Gaps(figure) : figure.gaps;
     if (ShowsSet()) set_.DrawCapsules(figure.solids, view_);
   }
 
@@ -88,8 +89,9 @@ class Painter {
       if (!gaps_.empty()) gap += weights[k] * gaps_[vertex];
     }
     const bool is_heat = options_.style == PanelStyle::kHeat;
-    // The gap counts positive where the primitives stand off from the covered surface.
-    const Color color = is_heat ? SignedColor(-gap / options_.heat_limit) : kSkin;
+    // Warm where the primitives stand off from the covered surface, blue where it sticks out.
+    const Color color =
+        is_heat && !std::isnan(gap) ? SignedColor(-gap / options_.heat_limit) : kSkin;
     return Lit(color, view_.Turn(normal.stableNormalized()));
   }
 

@@ -22,7 +22,7 @@ enum class PanelStyle {
   kBody,             // the body alone
   kBodyAndOutlines,  // the primitives lie over the body like tinted glass, with their outlines
   kPrimitives,       // the primitives alone
-  kHeat              // the body, coloured by the gap at each vertex
+  kHeat              // the body, coloured by the gap at each vertex; grey where there is none
 };
 
 struct PanelOptions {

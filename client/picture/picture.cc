@@ -109,7 +109,7 @@ void DrawPanel(cairo_t* cr, Pixels& pixels, double x, double y) {
   cairo_fill(cr);
 }
 
-// From -limit (body outside the primitives) up to +limit (primitives stand off).
+// From +limit (the body sticks out of the primitives) up to -limit (they stand off from it).
 void DrawColorBar(cairo_t* cr, const PictureOptions& options) {
   constexpr int kSteps = 200;
   const double x = options.width - kBarWidth + 22;
@@ -124,12 +124,17 @@ void DrawColorBar(cairo_t* cr, const PictureOptions& options) {
   PrepareText(cr, 17, CAIRO_FONT_WEIGHT_NORMAL);
   for (const double value : {1.0, 0.5, 0.0, -0.5, -1.0}) {
     char label[32];
-    std::snprintf(label, sizeof(label), "%+.0f", value * options.heat_limit * options.mm_per_unit);
+    std::snprintf(label, sizeof(label), "%+.3g", -value * options.heat_limit * options.mm_per_unit);
     cairo_move_to(cr, x + 30, top + 0.5 * height * (1.0 - value) + 6);
     cairo_show_text(cr, label);
   }
-  cairo_move_to(cr, x - 8, top - 16);
+  cairo_move_to(cr, x - 8, top - 36);
   cairo_show_text(cr, "gap, mm");
+  PrepareText(cr, 14, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_move_to(cr, x - 8, top - 14);
+  cairo_show_text(cr, "covered");
+  cairo_move_to(cr, x - 8, top + height + 22);
+  cairo_show_text(cr, "sticks out");
 }
 
 void Compose(cairo_t* cr, const std::vector<PictureColumn>& columns, const PictureOptions& options,

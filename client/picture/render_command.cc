@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -13,10 +14,13 @@
 #include "absl/strings/str_cat.h"
 #include "client/picture/figure.h"
 #include "client/picture/file_bytes.h"
+#include "client/picture/gaps_file.h"
 #include "client/picture/picture.h"
+#include "client/picture/result_body.h"
 #include "client/picture/result_set.h"
 #include "core/base/status.h"
 #include "core/mesh/read_mesh.h"
+#include "core/metrics/measure.h"
 
 namespace capfit::client {
 namespace {
@@ -31,6 +35,7 @@ struct RenderArguments {
   std::string title;
   std::vector<std::string> views = {"front", "side", "back"};
   bool heat = false;
+  std::string gaps;
   double heat_limit_mm = 30.0;
   double mm_per_unit = 1000.0;
   int width = 1500;
@@ -66,6 +71,9 @@ absl::Status CheckArguments(const RenderArguments& arguments) {
   CAPFIT_RETURN_IF_ERROR(check("height", arguments.height, 300, 6000));
   CAPFIT_RETURN_IF_ERROR(check("heat_limit_mm", arguments.heat_limit_mm, 0.01, 1e4));
   CAPFIT_RETURN_IF_ERROR(check("mm_per_unit", arguments.mm_per_unit, 1e-6, 1e6));
+  if (!arguments.gaps.empty() && !arguments.frames.empty()) {
+    return InvalidField("gaps", "are those of the body at rest: not with --frames");
+  }
   if (arguments.result.empty() && (arguments.heat || !arguments.frames.empty())) {
     return InvalidField("result", "is missing: --heat and --frames need the primitives");
   }
@@ -160,6 +168,32 @@ absl::StatusOr<Scene> AnimatedScene(const RenderArguments& arguments, const Inpu
   return scene;
 }
 
+// The gaps of the file, which also knows the unit.
+absl::Status UseGapsFile(RenderArguments& arguments, Figure& figure) {
+  CAPFIT_ASSIGN_OR_RETURN(const VertexGaps file, ReadVertexGaps(arguments.gaps));
+  if (file.gaps.size() != figure.vertices.size()) {
+    return InvalidField("gaps", absl::StrCat("has ", file.gaps.size(), " vertices, the body has ",
+                                             figure.vertices.size()));
+  }
+  figure.gaps.assign(file.gaps.begin(), file.gaps.end());
+  arguments.mm_per_unit = 1000.0 * file.metres_per_unit;
+  return absl::OkStatus();
+}
+
+// Measured on the body, as a fit does it: parts that the result does not stand for have no gap. A
+// mesh that is no body is left to the painter, which takes all vertices alike.
+void MeasureGaps(const Inputs& in, const ThreadPool& pool, Figure& figure) {
+  const absl::StatusOr<body::Body> body = UnderstandBody(in.soup, body::BodyOptions(), pool);
+  if (!body.ok()) return;
+  const geometry::Similarity& frame = body->body_from_caller;
+  const std::vector<double> gaps_m =
+      metrics::SignedGaps(*body, InBodyFrame(in.result, frame), PartsOfResult(in.result), pool);
+  for (const std::int32_t vertex : body->mesh.vertex_of_source()) {
+    figure.gaps.push_back(vertex < 0 ? std::numeric_limits<double>::quiet_NaN()
+                                     : gaps_m[static_cast<std::size_t>(vertex)] / frame.scale);
+  }
+}
+
 // "32 spheres + 32 capsules   E_r 0.512   E_M 1.21 %": what the result tells.
 std::string Subtitle(const ResultSet& result) {
   std::string text =
@@ -206,7 +240,7 @@ PictureOptions ToPictureOptions(const RenderArguments& arguments, const ResultSe
   PictureOptions options;
   options.width = arguments.width;
   options.height = arguments.height;
-  if (arguments.heat) options.rows.front() = PanelStyle::kHeat;
+  if (arguments.heat || !arguments.gaps.empty()) options.rows.front() = PanelStyle::kHeat;
   options.title = arguments.title.empty() ? FileName(arguments.body) : arguments.title;
   if (arguments.result.empty()) {
     options.rows = {PanelStyle::kBody};
@@ -218,7 +252,7 @@ PictureOptions ToPictureOptions(const RenderArguments& arguments, const ResultSe
   return options;
 }
 
-absl::Status RunRender(const RenderArguments& arguments) {
+absl::Status RunRender(RenderArguments arguments) {
   CAPFIT_RETURN_IF_ERROR(CheckArguments(arguments));
   CAPFIT_ASSIGN_OR_RETURN(const Inputs in, ReadInputs(arguments));
   Scene scene;
@@ -226,6 +260,12 @@ absl::Status RunRender(const RenderArguments& arguments) {
     std::vector<Vector3d> centers;
     for (const geometry::Sphere& sphere : in.result.spheres) centers.push_back(sphere.center_m);
     scene = StillScene(arguments, in, centers);
+    Figure& figure = *scene.figures.back();
+    if (!arguments.gaps.empty()) {
+      CAPFIT_RETURN_IF_ERROR(UseGapsFile(arguments, figure));
+    } else if (arguments.heat) {
+      MeasureGaps(in, ThreadPool(), figure);
+    }
   } else {
     CAPFIT_ASSIGN_OR_RETURN(scene, AnimatedScene(arguments, in));
   }
@@ -271,7 +311,10 @@ void AddRenderCommand(CLI::App& app, int& exit_code) {
   command->add_option("--title", arguments->title, "Title; the body's file name without it");
   command->add_option("--width", arguments->width, "Pixels")->capture_default_str();
   command->add_option("--height", arguments->height, "Pixels")->capture_default_str();
-  command->add_flag("--heat", arguments->heat, "Colour the body by its gap to the primitives");
+  command->add_flag("--heat,--heat-map", arguments->heat,
+                    "Colour the body by its gap to the primitives");
+  command->add_option("--gaps", arguments->gaps,
+                      "RESULT.gaps.json whose gaps are shown, instead of measuring them");
   command->add_option("--heat-limit-mm", arguments->heat_limit_mm, "Gap of the strongest colour")
       ->capture_default_str();
   command->add_option("--mm-per-unit", arguments->mm_per_unit, "Length of the mesh's unit in mm")

@@ -52,6 +52,26 @@ TEST(ResultJson, LengthsAreInTheUnitOfTheFile) {
   EXPECT_DOUBLE_EQ(json::parse(FormatResult(result))["metrics"]["max_gap"].get<double>(), 0.2);
 }
 
+TEST(ResultJson, PartsHaveTheirOwnMetricsInTheUnitOfTheFile) {
+  const json metrics = json::parse(FormatResult(server::HandMadeResult()))["metrics"];
+  EXPECT_EQ(metrics["spheres"], 3);
+  EXPECT_DOUBLE_EQ(metrics["gap"]["p95"].get<double>(), 7.0);
+  EXPECT_EQ(metrics["iou"], 0.643);
+  ASSERT_EQ(metrics["parts"].size(), 2U);
+  const json arm = metrics["parts"]["left_arm"];
+  EXPECT_EQ(arm["capsules"], 1);
+  EXPECT_DOUBLE_EQ(arm["volume"].get<double>(), 4300.0);  // cubic centimetres
+  EXPECT_EQ(arm["E_r"], 0.61);
+  EXPECT_EQ(arm["volume_ratio"], 1.35);
+  EXPECT_DOUBLE_EQ(arm["gap"]["mean"].get<double>(), 3.8);
+  EXPECT_EQ(arm["vertices_out"], 2);
+  EXPECT_DOUBLE_EQ(arm["max_out"].get<double>(), 0.04);
+}
+
+TEST(ResultJson, WithoutPartsTheirObjectIsEmpty) {
+  EXPECT_EQ(json::parse(FormatMetrics(metrics::Metrics(), 1.0))["parts"], json::object());
+}
+
 TEST(ResultJson, AnEmptyResultAndNamesOfAnyBytesAreValidJson) {
   pipeline::FitResult result;
   EXPECT_EQ(json::parse(FormatResult(result))["spheres"], json::array());

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "tests/server/fake_fit.h"
 
 namespace capfit::client {
@@ -12,13 +16,25 @@ using testing::HasSubstr;
 
 TEST(ResultTable, ShowsPartsMetricsStagesAndWarnings) {
   const std::string table = ResultTable(server::HandMadeResult());
-  EXPECT_THAT(table, HasSubstr("torso               1         0\n"));
-  EXPECT_THAT(table, HasSubstr("left_arm            1         1\n"));
-  EXPECT_THAT(table, HasSubstr("total               3         2\n"));
+  EXPECT_THAT(table,
+              HasSubstr("torso              1        0    37.500   0.4600   0.3700    0.0900"));
+  EXPECT_THAT(table, HasSubstr("left_arm           1        1     4.300   0.6100"));
+  EXPECT_THAT(table, HasSubstr("  1.3500    38.00    90.00   130.00    5.30        2\n"));
+  EXPECT_THAT(table, HasSubstr("total              3        2    41.800   0.5000"));
+  EXPECT_THAT(table, HasSubstr("gap               30.00 mm  mean"));
   EXPECT_THAT(table, HasSubstr("E_r              0.5000"));
   EXPECT_THAT(table, HasSubstr("circle         400.0 ms\n"));
   EXPECT_THAT(table, HasSubstr("warning: 2 holes were closed (HOLES_CLOSED)\n"));
   EXPECT_THAT(table, testing::Not(HasSubstr("head")));
+}
+
+TEST(ResultTable, ColumnsOfThePartsStandBelowTheirNames) {
+  const std::string table = PartsTable(server::HandMadeResult().metrics);
+  std::vector<std::size_t> widths;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) widths.push_back(line.size());
+  ASSERT_EQ(widths.size(), 5U);  // two of names, two parts, the whole
+  for (const std::size_t width : widths) EXPECT_EQ(width, widths[0]);
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+// A mesh file and RESULT.json brought into the body frame, to be measured there.
+#ifndef CAPFIT_CLIENT_PICTURE_RESULT_BODY_H_
+#define CAPFIT_CLIENT_PICTURE_RESULT_BODY_H_
+
+#include "absl/status/statusor.h"
+#include "client/picture/result_set.h"
+#include "core/base/thread_pool.h"
+#include "core/body/find_body.h"
+#include "core/capsule/primitive_set.h"
+#include "core/mesh/polygon_soup.h"
+
+namespace capfit::client {
+
+// The mesh checked, mended and understood, as a fit does it.
+[[nodiscard]] absl::StatusOr<body::Body> UnderstandBody(const mesh::PolygonSoup& soup,
+                                                        const body::BodyOptions& options,
+                                                        const ThreadPool& pool);
+
+// The result as the core knows it, in the body frame.
+[[nodiscard]] capsule::PrimitiveSet InBodyFrame(const ResultSet& result,
+                                                const geometry::Similarity& body_from_caller);
+
+// The parts that the result has spheres for; torso, arms and legs where it does not say.
+[[nodiscard]] body::PartSelection PartsOfResult(const ResultSet& result);
+
+}  // namespace capfit::client
+
+#endif  // CAPFIT_CLIENT_PICTURE_RESULT_BODY_H_
