@@ -11,10 +11,12 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/base/status.h"
+#include "core/mesh/canonical_order.h"
 #include "core/mesh/close_holes.h"
 #include "core/mesh/edge_mates.h"
 #include "core/mesh/join_triangles.h"
 #include "core/mesh/mend_flat_triangles.h"
+#include "core/mesh/recover_decimals.h"
 #include "core/mesh/soup_checks.h"
 #include "core/mesh/split_vertices.h"
 #include "core/mesh/surface.h"
@@ -64,7 +66,9 @@ std::string PointText(const Eigen::Vector3d& p) {
 // Takes one mesh through the steps, in the order of the functions below.
 class MeshMender {
  public:
-  explicit MeshMender(const PolygonSoup& soup) : positions_(soup.positions) {
+  // `positions` stand for the soup's own.
+  MeshMender(const PolygonSoup& soup, const std::vector<Eigen::Vector3d>& positions)
+      : positions_(positions) {
     Triangulate(soup);
     MeasureUsed();
   }
@@ -87,7 +91,7 @@ class MeshMender {
 
  private:
   void Triangulate(const PolygonSoup& soup) {
-    TriangulatedFaces faces = TriangulateFaces(soup);
+    TriangulatedFaces faces = TriangulateFaces(soup, positions_);
     surface_.triangles = std::move(faces.triangles);
     degenerate_ = faces.degenerate;
   }
@@ -309,10 +313,11 @@ class MeshMender {
     for (auto merge = merged_.rbegin(); merge != merged_.rend(); ++merge) {
       new_index[merge->first] = new_index[merge->second];
     }
+    const std::vector<std::uint32_t> place = PutInCanonicalOrder(vertices, surface_.triangles);
     std::vector<std::int32_t> vertex_of_source(positions_.size());
     for (std::size_t v = 0; v < positions_.size(); ++v) {
-      vertex_of_source[v] =
-          static_cast<std::int32_t>(new_index[stand_in_.empty() ? v : stand_in_[v]]);
+      const std::uint32_t index = new_index[stand_in_.empty() ? v : stand_in_[v]];
+      vertex_of_source[v] = index == kNone ? -1 : static_cast<std::int32_t>(place[index]);
     }
     return {
         BodyMesh(std::move(vertices), std::move(surface_.triangles), std::move(vertex_of_source)),
@@ -357,7 +362,8 @@ class MeshMender {
 
 absl::StatusOr<PreparedMesh> PrepareMesh(const PolygonSoup& soup, const MeshLimits& limits) {
   CAPFIT_RETURN_IF_ERROR(CheckSoup(soup, limits));
-  return MeshMender(soup).Run();
+  const std::vector<Eigen::Vector3d> decimals = RecoverDecimalsOfFloats(soup.positions);
+  return MeshMender(soup, decimals.empty() ? soup.positions : decimals).Run();
 }
 
 }  // namespace capfit::mesh

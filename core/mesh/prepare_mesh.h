@@ -25,7 +25,10 @@ struct PreparedMesh {
 };
 
 // From any arrays to a mesh that keeps the promises of BodyMesh. A mesh that keeps them already
-// passes through with its vertices and triangles in order and without a warning. O(n log n).
+// passes through without a warning. The vertices and triangles of the result have an order of their
+// own (see canonical_order.h), so that the same surface gives the same bits from any file;
+// `vertex_of_source` leads back to the caller's. Coordinates that are decimals rounded to floats
+// are taken as the decimals (see recover_decimals.h). O(n log n).
 //
 // Steps, each of which warns with a count of what it changed:
 //   1. Sizes, finite positions, indices; unused vertices are ignored.          UNUSED_VERTICES
@@ -42,8 +45,8 @@ struct PreparedMesh {
 //  10. Vertices in which the surface touches itself are split.                 NONMANIFOLD_VERTICES
 //  11. Faces without area (lower than 1e-9 of the diagonal) are mended.        FLAT_FACES
 //
-// New vertices (copies from step 10) come after the caller's. A surface that cuts through itself
-// is left as it is.
+// The copies from step 10 are nobody's in `vertex_of_source`. A surface that cuts through itself is
+// left as it is.
 //
 // INVALID_ARGUMENT names the first offender: "triangle_indices[17] is 90210, must be below 6890".
 // FAILED_PRECONDITION says why there is no body in it: NO_SURFACE, NO_VOLUME, TWO_BODIES (a second

@@ -15,6 +15,7 @@
 #include "core/base/status.h"
 #include "core/mesh/glb_file.h"
 #include "core/mesh/gltf_nodes.h"
+#include "core/mesh/recover_decimals.h"
 
 namespace capfit::mesh {
 namespace {
@@ -27,6 +28,9 @@ constexpr std::size_t kTriangleFan = 6;
 
 // A skeleton of a human has some 70 joints, with every finger and hair strand some hundred.
 constexpr std::size_t kMostJoints = 4096;
+
+// Half the distance of two floats, at most, as a share of their size.
+constexpr double kFloatShare = 0x1p-24;
 
 Eigen::Vector3d Apply(const Eigen::Matrix4d& transform, const Eigen::Vector3d& point) {
   return (transform * point.homogeneous()).head<3>();
@@ -51,6 +55,11 @@ class GlbReader {
     }
     if (soup_.face_vertices.empty()) {
       return InvalidField("file", "has no mesh: its scene draws no triangles");
+    }
+    // (What no transform moved is for PrepareMesh to look at.)
+    if (rounding_ > 0.0) {
+      std::vector<Eigen::Vector3d> decimals = RecoverDecimals(soup_.positions, rounding_);
+      if (!decimals.empty()) soup_.positions = std::move(decimals);
     }
     return std::move(soup_);
   }
@@ -164,9 +173,15 @@ class GlbReader {
                           absl::StrCat("has more than ", limits_.max_vertices, " vertices"));
     }
     soup_.positions.reserve(soup_.positions.size() + positions.count());
+    double largest = 0.0;
     for (std::size_t i = 0; i < positions.count(); ++i) {
-      soup_.positions.push_back(
-          Apply(to_world, {positions.At(i, 0), positions.At(i, 1), positions.At(i, 2)}));
+      const Eigen::Vector3d stored(positions.At(i, 0), positions.At(i, 1), positions.At(i, 2));
+      largest = std::max(largest, stored.cwiseAbs().maxCoeff());
+      soup_.positions.push_back(Apply(to_world, stored));
+    }
+    if (!to_world.isIdentity(0.0)) {
+      rounding_ = std::max(
+          rounding_, kFloatShare * largest * to_world.topLeftCorner<3, 3>().cwiseAbs().maxCoeff());
     }
     return entry->second;
   }
@@ -231,6 +246,7 @@ class GlbReader {
   PolygonSoup soup_;
   std::map<std::size_t, std::size_t> base_of_positions_;  // of the mesh being read
   std::set<std::size_t> skins_read_;
+  double rounding_ = 0.0;  // of transformed positions, from their storage as floats
 };
 
 }  // namespace

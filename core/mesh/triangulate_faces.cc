@@ -1,6 +1,8 @@
 #include "core/mesh/triangulate_faces.h"
 
+#include <Eigen/Geometry>  // cross
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,14 +16,19 @@ namespace {
 // that one mesh may take: a million hexagons. What is beyond gets fans.
 constexpr std::size_t kMostSteps = 40'000'000;
 
+// Where one face in this many would fold over, the quads were made by joining triangles.
+constexpr std::size_t kManyFolded = 100;
+
 class FaceTriangulator {
  public:
-  explicit FaceTriangulator(const PolygonSoup& soup) : soup_(soup) {
+  FaceTriangulator(const PolygonSoup& soup, std::span<const Eigen::Vector3d> positions)
+      : soup_(soup), positions_(positions) {
     result_.triangles.reserve(soup.face_vertices.size() / 3);
   }
 
   TriangulatedFaces Run() {
     const std::span<const std::uint32_t> corners = soup_.face_vertices;
+    unfolds_ = kManyFolded * CountFolded() > soup_.face_sizes.size();
     if (soup_.face_sizes.empty()) {
       for (std::size_t i = 0; i < corners.size(); i += 3) AddFan(corners.subspan(i, 3));
     }
@@ -36,12 +43,44 @@ class FaceTriangulator {
  private:
   void AddFace(std::span<const std::uint32_t> face) {
     const std::size_t steps = face.size() * face.size() * face.size() / 6;
-    if (face.size() <= 4 || steps > steps_left_) {
+    if (face.size() == 4) {
+      AddQuad(face);
+    } else if (face.size() <= 4 || steps > steps_left_) {
       AddFan(face);
     } else {
       steps_left_ -= steps;
       AddSmallest(face);
     }
+  }
+
+  void AddQuad(std::span<const std::uint32_t> face) {
+    AddFan(unfolds_ && OnlyFirstFolds(face) ? std::array{face[1], face[2], face[3], face[0]}
+                                            : std::array{face[0], face[1], face[2], face[3]});
+  }
+
+  [[nodiscard]] std::size_t CountFolded() const {
+    const std::span<const std::uint32_t> corners = soup_.face_vertices;
+    std::size_t folded = 0;
+    std::size_t first = 0;
+    for (const std::uint32_t size : soup_.face_sizes) {
+      if (size == 4 && OnlyFirstFolds(corners.subspan(first, 4))) ++folded;
+      first += size;
+    }
+    return folded;
+  }
+
+  // Whether the diagonal from the first corner folds the quad over and the other does not.
+  [[nodiscard]] bool OnlyFirstFolds(std::span<const std::uint32_t> quad) const {
+    return IsFolded(quad[0], quad[1], quad[2], quad[3]) &&
+           !IsFolded(quad[1], quad[2], quad[3], quad[0]);
+  }
+
+  // Whether the two triangles beside the diagonal a-c face away from each other.
+  [[nodiscard]] bool IsFolded(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                              std::uint32_t d) const {
+    const Eigen::Vector3d diagonal = positions_[c] - positions_[a];
+    const Eigen::Vector3d right = (positions_[b] - positions_[a]).cross(diagonal);
+    return right.dot(diagonal.cross(positions_[d] - positions_[a])) < 0.0;
   }
 
   void AddFan(std::span<const std::uint32_t> face) {
@@ -51,7 +90,7 @@ class FaceTriangulator {
 
   void AddSmallest(std::span<const std::uint32_t> face) {
     points_.clear();
-    for (const std::uint32_t v : face) points_.push_back(soup_.positions[v]);
+    for (const std::uint32_t v : face) points_.push_back(positions_[v]);
     const auto any = [](std::uint32_t, std::uint32_t) { return true; };
     const std::optional<std::vector<Triangle>> filling = FillBySmallestArea(points_, any);
     for (const Triangle& t : *filling) Add({face[t[0]], face[t[1]], face[t[2]]});
@@ -66,13 +105,18 @@ class FaceTriangulator {
   }
 
   const PolygonSoup& soup_;
+  std::span<const Eigen::Vector3d> positions_;
   TriangulatedFaces result_;
   std::vector<Eigen::Vector3d> points_;
   std::size_t steps_left_ = kMostSteps;
+  bool unfolds_ = false;  // by the other diagonal
 };
 
 }  // namespace
 
-TriangulatedFaces TriangulateFaces(const PolygonSoup& soup) { return FaceTriangulator(soup).Run(); }
+TriangulatedFaces TriangulateFaces(const PolygonSoup& soup,
+                                   std::span<const Eigen::Vector3d> positions) {
+  return FaceTriangulator(soup, positions).Run();
+}
 
 }  // namespace capfit::mesh

@@ -2,7 +2,9 @@
 #ifndef CAPFIT_CORE_MESH_TRIANGULATE_FACES_H_
 #define CAPFIT_CORE_MESH_TRIANGULATE_FACES_H_
 
+#include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/mesh/body_mesh.h"
@@ -16,10 +18,13 @@ struct TriangulatedFaces {
 };
 
 // Triangles as they are, quads by the diagonal from their first corner, as other programs do (so a
-// mesh of quads gives the same surface as its triangulated copy). Larger faces often have inward
-// corners, which a fan would fold over: they get the triangulation of least area. `soup` is
-// checked. O(corners) for the usual sizes of faces.
-[[nodiscard]] TriangulatedFaces TriangulateFaces(const PolygonSoup& soup);
+// mesh of quads gives the same surface as its triangulated copy). Where that would fold over more
+// than one face in a hundred, as in quads that were joined from triangles and have inward corners,
+// the folded ones are cut by the other diagonal. Larger faces often have inward corners: they get
+// the triangulation of least area. `soup` is checked; `positions` stand for its own. O(corners) for
+// the usual sizes of faces.
+[[nodiscard]] TriangulatedFaces TriangulateFaces(const PolygonSoup& soup,
+                                                 std::span<const Eigen::Vector3d> positions);
 
 }  // namespace capfit::mesh
 

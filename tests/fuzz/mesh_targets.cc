@@ -4,6 +4,7 @@
 
 #include "core/mesh/prepare_mesh.h"
 #include "core/mesh/read_mesh.h"
+#include "tests/fuzz/byte_source.h"
 #include "tests/fuzz/mesh_promises.h"
 
 namespace capfit::fuzz {
@@ -11,25 +12,15 @@ namespace {
 
 constexpr int kFormats = 6;
 
-// Hands out bytes; zeros when they are used up.
-class ByteSource {
- public:
-  explicit ByteSource(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  [[nodiscard]] bool IsEmpty() const { return bytes_.empty(); }
-  std::uint8_t Next() {
-    if (bytes_.empty()) return 0;
-    const auto value = static_cast<std::uint8_t>(bytes_.front());
-    bytes_ = bytes_.subspan(1);
-    return value;
-  }
+std::string TryPrepare(const mesh::PolygonSoup& soup, const mesh::MeshLimits& limits) {
+  const auto prepared = mesh::PrepareMesh(soup, limits);
+  return prepared.ok() ? BrokenPromiseOfPrepare(*prepared, soup.positions.size()) : std::string();
+}
 
- private:
-  std::span<const std::byte> bytes_;
-};
+}  // namespace
 
-// First byte: switches. Second byte: number of vertices. Then three signed bytes for each vertex,
-// then the faces.
-mesh::PolygonSoup SoupFrom(ByteSource source) {
+mesh::PolygonSoup SoupFrom(std::span<const std::byte> bytes) {
+  ByteSource source(bytes);
   const std::uint8_t switches = source.Next();
   const bool has_polygons = (switches & 1) != 0;
   const bool may_be_out_of_range = (switches & 2) != 0;
@@ -40,7 +31,7 @@ mesh::PolygonSoup SoupFrom(ByteSource source) {
   for (unsigned i = 0; i < vertices; ++i) {
     Eigen::Vector3d& position = soup.positions.emplace_back();
     for (int axis = 0; axis < 3; ++axis) {
-      position[axis] = static_cast<std::int8_t>(source.Next());
+      position[axis] = source.NextSigned();
     }
     if (i % 2 == 1) position *= scale;
     position.array() += offset;
@@ -54,13 +45,6 @@ mesh::PolygonSoup SoupFrom(ByteSource source) {
   return soup;
 }
 
-std::string TryPrepare(const mesh::PolygonSoup& soup, const mesh::MeshLimits& limits) {
-  const auto prepared = mesh::PrepareMesh(soup, limits);
-  return prepared.ok() ? BrokenPromiseOfPrepare(*prepared, soup.positions.size()) : std::string();
-}
-
-}  // namespace
-
 std::string TryReadMesh(std::span<const std::byte> bytes) {
   if (bytes.empty()) return {};
   mesh::MeshLimits limits;
@@ -72,7 +56,7 @@ std::string TryReadMesh(std::span<const std::byte> bytes) {
 }
 
 std::string TryPrepareMesh(std::span<const std::byte> bytes) {
-  return TryPrepare(SoupFrom(ByteSource(bytes)), {});
+  return TryPrepare(SoupFrom(bytes), {});
 }
 
 }  // namespace capfit::fuzz
