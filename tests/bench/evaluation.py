@@ -115,12 +115,18 @@ def draw_pictures(store, errors, bodies, folder, budget):
 
     for method in ("tight best", "tight enclose"):
         ranked = page.ranked_bodies(errors, method, budget)
+        if not ranked:
+            continue
         for rank, name in (("best", ranked[0]), ("worst", ranked[-1])):
             words = (f"{name}, {page.WORDS[method]}, n_p {budget}, "
                      f"E_r {errors[name][method][budget]['E_r']:.3f}")
             render(name, method, store.result_path(by_name[name], method, budget),
                    f"{method.replace(' ', '_')}_{rank}.png", words)
-    name = page.ranked_bodies(errors, "tight best", budget)[-1]
+    ranked = page.ranked_bodies(errors, "tight best", budget)
+    ranked = [name for name in ranked if "E_r" in errors[name][cells.SPHERE_MESHES][budget]]
+    if not ranked:
+        return pictures
+    name = ranked[-1]
     words = (f"{name}, {cells.SPHERE_MESHES}, n_p {budget}, "
              f"E_r {errors[name][cells.SPHERE_MESHES][budget]['E_r']:.3f}")
     prefix = store.sphere_mesh_prefix(by_name[name])
@@ -151,6 +157,8 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--budgets", type=lambda text: sorted(map(int, text.split(","))),
                         help="numbers of primitives, among the eleven, with 64 among them")
+    parser.add_argument("--kept", action="store_true",
+                        help="fit nothing: the page of what is measured so far")
     arguments = parser.parse_args()
     work = "build/evaluation"
     docs = os.path.join(work, "quick") if arguments.quick else "docs"
@@ -160,7 +168,7 @@ def main():
     judge = os.environ.get("CAPFIT_JUDGE")
     if not judge:
         print("CAPFIT_JUDGE names no program: `capfit evaluate` measures")
-    store = cells.Store(work, arguments.capfit, arguments.sphere_mesh, judge)
+    store = cells.Store(work, arguments.capfit, arguments.sphere_mesh, judge, arguments.kept)
     budgets = arguments.budgets or (QUICK_BUDGETS if arguments.quick else BUDGETS)
     if FIGURE_10_BUDGET not in budgets or not set(budgets) <= set(BUDGETS):
         parser.error(f"--budgets must be some of {BUDGETS} and have {FIGURE_10_BUDGET} among them")
@@ -170,6 +178,11 @@ def main():
                               + 3 * len(scales))
     times, ratios = measure_times(store, progress, time_body, scales, budgets, runs)
     errors = measure_errors(store, progress, bodies, budgets)
+    if arguments.kept:
+        errors = {name: table for name, table in errors.items()
+                  if any("E_r" in c for m in cells.METHODS for c in table[m].values())}
+        if not errors:
+            parser.error("--kept: these programs have measured nothing yet")
 
     plots.figure_9(errors, budgets, os.path.join(pictures_folder, "figure_9.svg"))
     plots.table_1(times, budgets, os.path.join(pictures_folder, "table_1.svg"))

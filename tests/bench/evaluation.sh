@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # The paper's evaluation (figures 9 and 10, table 1) on all bodies, as docs/evaluation.md.
 #
-#   tests/bench/evaluation.sh [--quick] [--budgets 22,64,...]
+#   tests/bench/evaluation.sh [--quick] [--budgets 22,64,...] [--kept]
 #
-# --quick: 3 bodies, 3 budgets, one run for the times, into build/evaluation/quick.
+# --quick: 3 bodies, 3 budgets, one run for the times, into build/evaluation/quick. --kept: fits
+# nothing and writes the page of what an interrupted run has measured.
 #
 # Installs what it needs, builds the bench preset, then fits and measures one after the other with
 # two threads, and goes on where it stopped: what the same programs have done for the same body is

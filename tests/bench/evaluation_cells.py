@@ -16,6 +16,7 @@ METHODS = {
 SPHERE_MESHES = "Sphere-Meshes"
 THREADS = "2"
 LIMIT_S = 180
+NOT_MEASURED = {"failure": "not measured"}
 # A furrow of at most this between the capsules that stand for a triangle of a sphere mesh.
 SAG_MM = "0.1"
 
@@ -43,8 +44,10 @@ def time_figures(times):
 class Store:
     """Finished cells, one JSON line each, by a key that names programs and body by their bytes."""
 
-    def __init__(self, folder, capfit, sphere_mesh, judge):
+    def __init__(self, folder, capfit, sphere_mesh, judge, only_kept=False):
+        """With only_kept nothing is fitted: cells that are not there yet are NOT_MEASURED."""
         self.capfit, self.sphere_mesh, self.judge = capfit, sphere_mesh, judge
+        self.only_kept = only_kept
         measure = digest(judge or capfit)
         self.programs = {"capfit": f"{digest(capfit)}/{measure}",
                          SPHERE_MESHES: f"{digest(sphere_mesh)}/{measure}"}
@@ -69,7 +72,7 @@ class Store:
         return "|".join([kind, program, self.body_digests[body], method, str(budget)])
 
     def get(self, key):
-        return self.cells.get(key)
+        return self.cells.get(key, NOT_MEASURED if self.only_kept else None)
 
     def put(self, key, cell):
         self.cells[key] = cell

@@ -6,7 +6,7 @@ import re
 import statistics
 import textwrap
 
-from evaluation_cells import METHODS, SPHERE_MESHES
+from evaluation_cells import METHODS, NOT_MEASURED, SPHERE_MESHES
 from evaluation_plots import PAPER_S, PAPER_SPHERE_MESHES_S, spread
 
 WORDS = {"paper enclose": "PAPER, ENCLOSE", "paper best": "PAPER, BEST_FIT",
@@ -41,7 +41,9 @@ def triangle_count(path):
 
 
 def figures(cell, name, digits):
-    return "failed" if "failure" in cell else f"{cell[name]:.{digits}f}"
+    if "failure" in cell:
+        return "" if cell == NOT_MEASURED else "failed"
+    return f"{cell[name]:.{digits}f}"
 
 
 def table(head, rows):
@@ -84,7 +86,13 @@ def cells_of(errors, method):
 def failures(errors):
     return [f"{body}, {WORDS[method]}, n_p {budget}: {cell['failure']}"
             for method in METHODS for body, budget, cell in cells_of(errors, method)
-            if "failure" in cell]
+            if "failure" in cell and cell != NOT_MEASURED]
+
+
+def unmeasured(errors):
+    missing = [1 for method in METHODS for _, _, c in cells_of(errors, method) if c == NOT_MEASURED]
+    return (f"{len(missing)} cells of these bodies and budgets were left out for want of time; they "
+            "are empty in the tables.\n") if missing else ""
 
 
 def worsenings(errors, method, budgets):
@@ -106,6 +114,8 @@ def checks(errors, budgets, is_judged):
     lines = []
     for method in METHODS:
         good = [(b, n, c) for b, n, c in cells_of(errors, method) if "failure" not in c]
+        if not good:
+            continue
         over = [1 for _, n, c in good if c["n_p"] > n]
         unused = [n - c["n_p"] for _, n, c in good]
         worse = worsenings(errors, method, budgets)
@@ -136,7 +146,8 @@ def gain(errors, budgets):
         gains = [1 - t["tight enclose"][n]["E_r"] / t["paper enclose"][n]["E_r"]
                  for t in errors.values()
                  if "E_r" in t["tight enclose"][n] and "E_r" in t["paper enclose"][n]]
-        rows.append(f"{100 * statistics.median(gains):.0f} ({n})")
+        if gains:
+            rows.append(f"{100 * statistics.median(gains):.0f} ({n})")
     return ("* TIGHT, ENCLOSE below PAPER, ENCLOSE at the same budget, % of its $E_r$, median over "
             f"the bodies (budget): {', '.join(rows)}.")
 
@@ -169,7 +180,7 @@ def ratio_table(ratios):
     methods = ["paper enclose", "tight enclose", "tight best"]
     rows = []
     for name, row in sorted(ratios.items(), key=lambda item: item[1]["faces"]):
-        base = row[SPHERE_MESHES]["seconds"]
+        base = row[SPHERE_MESHES].get("seconds", float("nan"))
         cells = [figures(row[m], "seconds", 3) for m in methods]
         cells += [f"{base / row[m]['seconds']:.1f}" if "seconds" in row[m] else "" for m in methods]
         rows.append([name, str(row["faces"]), f"{base:.3f}"] + cells)
@@ -269,6 +280,7 @@ $E_M$, % of the diagonal:
 ### What holds in all of them
 
 {checks(errors, budgets, is_judged)}
+{unmeasured(errors)}
 {("Fits that failed:" + chr(10) + chr(10) + chr(10).join("* " + f for f in failed) + chr(10))
  if failed else "No fit failed." + chr(10)}
 ## Table 1: time over the number of primitives
