@@ -124,7 +124,9 @@ void DrawColorBar(cairo_t* cr, const PictureOptions& options) {
   PrepareText(cr, 17, CAIRO_FONT_WEIGHT_NORMAL);
   for (const double value : {1.0, 0.5, 0.0, -0.5, -1.0}) {
     char label[32];
-    std::snprintf(label, sizeof(label), "%+.3g", -value * options.heat_limit * options.mm_per_unit);
+    // Taken from 0, so that the middle is +0.
+    const double gap_mm = 0.0 - value * options.heat_limit * options.mm_per_unit;
+    std::snprintf(label, sizeof(label), "%+.3g", gap_mm);
     cairo_move_to(cr, x + 30, top + 0.5 * height * (1.0 - value) + 6);
     cairo_show_text(cr, label);
   }

@@ -5,10 +5,12 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "client/picture/file_bytes.h"
+#include "client/picture/gaps_file.h"
 #include "client/picture/mannequin_command.h"
 #include "client/picture/render_command.h"
 #include "core/mesh/read_mesh.h"
@@ -109,6 +111,29 @@ TEST_F(CommandTest, RendersStillsHeatAndTheBodyAlone) {
   EXPECT_EQ(render({"render", Path("b.obj"), Path("r.json"), "-o", Path("h.svg"), "--heat"}), 0);
   EXPECT_THAT(*ReadFileBytes(Path("h.svg")), HasSubstr("</svg>"));
   EXPECT_EQ(render({"render", Path("b.obj"), "-o", Path("a.png"), "--views", "front,back"}), 0);
+}
+
+TEST_F(CommandTest, HeatMapShowsTheGapsOfTheFile) {
+  ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "2000"}), 0);
+  WriteResult();
+  const auto render = [&](float gap) {
+    const std::vector<float> gaps(ReadSoup(Path("b.obj")).positions.size(), gap);
+    EXPECT_TRUE(WriteVertexGaps(gaps, 1.0, Path("r.json")).ok());
+    EXPECT_EQ(Run({"render", Path("b.obj"), Path("r.json"), "-o", Path("h.png"), "--gaps",
+                   Path("r.gaps.json"), "--width", "300", "--height", "300", "--views", "front"}),
+              0);
+    return *ReadFileBytes(Path("h.png"));
+  };
+  const std::string covered = render(-0.02F);
+  EXPECT_EQ(covered, render(-0.02F));
+  EXPECT_NE(covered, render(0.02F));
+  EXPECT_NE(covered, render(std::numeric_limits<float>::quiet_NaN()));
+  ASSERT_TRUE(WriteVertexGaps(std::vector<float>(7), 1.0, Path("r.json")).ok());
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(Run({"render", Path("b.obj"), Path("r.json"), "-o", Path("h.png"), "--gaps",
+                 Path("r.gaps.json")}),
+            2);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("gaps has 7 vertices"));
 }
 
 TEST_F(CommandTest, RendersFramesOfAnAnimation) {
