@@ -132,8 +132,8 @@ std::vector<Station> CutAlong(const CutSurface& surface, const Line& line, doubl
 }  // namespace
 
 Station LimbProfile::At(double arc) const {
-  if (arc <= stations.front().arc) return stations.front();
-  if (arc >= stations.back().arc) return stations.back();
+  if (!(arc > stations.front().arc)) return stations.front();  // also what is not a number
+  if (!(arc < stations.back().arc)) return stations.back();
   const auto after = std::lower_bound(stations.begin(), stations.end(), arc,
                                       [](const Station& s, double a) { return s.arc < a; });
   const Station& b = *after;

@@ -16,6 +16,7 @@
 #include "core/mesh/edge_mates.h"
 #include "core/mesh/join_triangles.h"
 #include "core/mesh/mend_flat_triangles.h"
+#include "core/mesh/overlap.h"
 #include "core/mesh/recover_decimals.h"
 #include "core/mesh/soup_checks.h"
 #include "core/mesh/split_vertices.h"
@@ -42,6 +43,9 @@ constexpr double kLeastVolumeShare = 1e-9;
 // Triangles lower than this share of the diagonal have no area: 2 nm on a body, which neither text
 // nor float coordinates can mean.
 constexpr double kFlatShare = 1e-9;
+
+// Overlap above this share of the volume is more than lips or armpits that touch.
+constexpr double kTellingOverlap = 1e-3;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
@@ -319,9 +323,18 @@ class MeshMender {
       const std::uint32_t index = new_index[stand_in_.empty() ? v : stand_in_[v]];
       vertex_of_source[v] = index == kNone ? -1 : static_cast<std::int32_t>(place[index]);
     }
-    return {
-        BodyMesh(std::move(vertices), std::move(surface_.triangles), std::move(vertex_of_source)),
-        std::move(warnings_)};
+    BodyMesh mesh(std::move(vertices), std::move(surface_.triangles), std::move(vertex_of_source));
+    WarnOfOverlap(mesh);
+    return {std::move(mesh), std::move(warnings_)};
+  }
+
+  void WarnOfOverlap(const BodyMesh& mesh) {
+    const Overlap overlap = MeasureOverlap(mesh);
+    if (overlap.volume <= kTellingOverlap * mesh.volume()) return;
+    Warn("SURFACE_OVERLAPS", 0,
+         absl::StrFormat("the surface cuts through itself: %.2g %% of its volume, around %s, is "
+                         "enclosed more than once",
+                         100.0 * overlap.volume / mesh.volume(), PointText(overlap.middle)));
   }
 
   void WarnOfDropped() {

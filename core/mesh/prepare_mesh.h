@@ -46,7 +46,8 @@ struct PreparedMesh {
 //  11. Faces without area (lower than 1e-9 of the diagonal) are mended.        FLAT_FACES
 //
 // The copies from step 10 are nobody's in `vertex_of_source`. A surface that cuts through itself is
-// left as it is.
+// left as it is; SURFACE_OVERLAPS tells of it where it encloses more than a thousandth of its
+// volume twice.
 //
 // INVALID_ARGUMENT names the first offender: "triangle_indices[17] is 90210, must be below 6890".
 // FAILED_PRECONDITION says why there is no body in it: NO_SURFACE, NO_VOLUME, TWO_BODIES (a second

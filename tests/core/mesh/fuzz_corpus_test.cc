@@ -1,26 +1,12 @@
 // Replays the seeds and the kept findings of the fuzzers, in every build.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <vector>
-
+#include "tests/core/mesh/corpus.h"
 #include "tests/fuzz/mesh_targets.h"
 #include "tests/support/bodies.h"
 
 namespace capfit::fuzz {
 namespace {
-
-std::vector<std::filesystem::path> Corpus(const std::string& target) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(CAPFIT_FUZZ_CORPUS) / target)) {
-    files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  EXPECT_GT(files.size(), 10u);
-  return files;
-}
 
 TEST(FuzzCorpusTest, ReadMeshKeepsItsPromises) {
   for (const auto& file : Corpus("read_mesh")) {

@@ -3,13 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "core/base/random.h"
+#include "core/mesh/body_mesh.h"
 #include "core/mesh/edge_mates.h"
+#include "core/mesh/overlap.h"
 #include "core/mesh/triangulate_loop.h"
 #include "core/mesh/weld_vertices.h"
 
@@ -152,6 +158,45 @@ TEST(TriangulateLoopTest, UsesNoForbiddenEdge) {
     const auto none = [](std::uint32_t, std::uint32_t) { return false; };
     EXPECT_FALSE(fill(square, none).has_value());
   }
+}
+
+// Boxes given by their low and high corners, faces outward.
+BodyMesh BoxesOf(std::span<const std::array<Eigen::Vector3d, 2>> boxes) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangle> triangles;
+  for (const auto& [low, high] : boxes) {
+    const auto base = static_cast<std::uint32_t>(vertices.size());
+    for (int k = 0; k < 8; ++k) {
+      vertices.emplace_back((k & 1) != 0 ? high.x() : low.x(), (k & 2) != 0 ? high.y() : low.y(),
+                            (k & 4) != 0 ? high.z() : low.z());
+    }
+    for (const Triangle& t :
+         {Triangle{0, 2, 3}, Triangle{0, 3, 1}, Triangle{4, 5, 7}, Triangle{4, 7, 6},
+          Triangle{0, 1, 5}, Triangle{0, 5, 4}, Triangle{2, 6, 7}, Triangle{2, 7, 3},
+          Triangle{0, 4, 6}, Triangle{0, 6, 2}, Triangle{1, 3, 7}, Triangle{1, 7, 5}}) {
+      triangles.push_back({base + t[0], base + t[1], base + t[2]});
+    }
+  }
+  return BodyMesh(std::move(vertices), std::move(triangles), {});
+}
+
+TEST(OverlapTest, MeasuresWhatIsEnclosedTwice) {
+  using BoxCorners = std::array<Eigen::Vector3d, 2>;
+  const BoxCorners tall = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 4, 1)};
+  const BoxCorners beside = {Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(3, 1, 1)};
+  const BoxCorners half_in = {Eigen::Vector3d(0.5, 1, 0.25), Eigen::Vector3d(2, 2, 0.75)};
+  EXPECT_EQ(MeasureOverlap(BoxesOf(std::vector{tall})).volume, 0.0);
+  EXPECT_EQ(MeasureOverlap(BoxesOf(std::vector{tall, beside})).volume, 0.0);
+  const Overlap overlap = MeasureOverlap(BoxesOf(std::vector{tall, half_in}));
+  EXPECT_NEAR(overlap.volume, 0.25, 0.02);
+  EXPECT_LT((overlap.middle - Eigen::Vector3d(0.75, 1.5, 0.5)).norm(), 0.03);
+  EXPECT_NEAR(MeasureOverlap(BoxesOf(std::vector{tall, tall})).volume, 4.0, 0.2);
+}
+
+TEST(OverlapTest, GivesUpWhereItWouldTakeLong) {
+  const std::array<Eigen::Vector3d, 2> cube = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1)};
+  const std::vector many(5000, cube);
+  EXPECT_EQ(MeasureOverlap(BoxesOf(many)).volume, 0.0);
 }
 
 }  // namespace
