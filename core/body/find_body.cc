@@ -211,6 +211,11 @@ class Anatomist {
     CAPFIT_ASSIGN_OR_RETURN(body_.landmarks, ToldLandmarks(options_, body_.body_from_caller,
                                                            extremities_, shape_, body_.warnings));
     CAPFIT_RETURN_IF_ERROR(FindLandmarks(extremities_, shape_, body_.landmarks, body_.warnings));
+    if (!AllLandmarksFinite()) {
+      return CannotFit("NOT_A_BODY",
+                       "not a human body: a limb has no sections from which its landmarks could be "
+                       "measured");
+    }
     if (observer.IsCancelled()) return absl::CancelledError("cancelled while finding landmarks");
     body_.is_symmetric = IsSymmetric(shape_, body_.landmarks);
     if (body_.is_symmetric) {
@@ -224,6 +229,12 @@ class Anatomist {
   }
 
  private:
+  [[nodiscard]] bool AllLandmarksFinite() const {
+    return std::all_of(body_.landmarks.begin(), body_.landmarks.end(), [](const auto& landmark) {
+      return !landmark.has_value() || landmark->position_m.allFinite();
+    });
+  }
+
   void Label() {
     const std::vector<Segment> segments = LabelVertices(shape_, body_.landmarks);
     body_.vertex_segments.resize(segments.size());
