@@ -14,7 +14,8 @@ using EdgeKey = std::uint64_t;
 
 constexpr std::size_t kGroupSize = 8;
 // Rounding must not lose a triangle that just touches the plane.
-constexpr double kBallSlack = 1.000001;
+constexpr double kBoxSlack = 1.000001;
+constexpr double kRounding = 1e-12;
 
 EdgeKey KeyOf(std::uint32_t a, std::uint32_t b) {
   return (static_cast<EdgeKey>(std::min(a, b)) << 32) | std::max(a, b);
@@ -126,25 +127,26 @@ CutSurface::CutSurface(std::span<const Eigen::Vector3d> points,
         high = high.cwiseMax(points[v]);
       }
     }
-    groups_.push_back({0.5 * (low + high), 0.5 * (high - low).norm()});
+    groups_.push_back({0.5 * (low + high), 0.5 * (high - low)});
   }
   for (std::size_t first = 0; first < groups_.size(); first += kGroupSize) {
     const std::size_t last = std::min(first + kGroupSize, groups_.size());
-    Ball clan;
-    for (std::size_t i = first; i < last; ++i) clan.center += groups_[i].center;
-    clan.center /= static_cast<double>(last - first);
-    for (std::size_t i = first; i < last; ++i) {
-      clan.radius =
-          std::max(clan.radius, (groups_[i].center - clan.center).norm() + groups_[i].radius);
+    Eigen::Vector3d low = groups_[first].center - groups_[first].half;
+    Eigen::Vector3d high = groups_[first].center + groups_[first].half;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      low = low.cwiseMin(groups_[i].center - groups_[i].half);
+      high = high.cwiseMax(groups_[i].center + groups_[i].half);
     }
-    clans_.push_back(clan);
+    clans_.push_back({0.5 * (low + high), 0.5 * (high - low)});
   }
 }
 
 std::vector<SectionLoop> CutSurface::Cut(const CutPlane& plane) const {
   std::vector<Piece> pieces;
-  const auto touches = [&](const Ball& ball) {
-    return std::abs(plane.Height(ball.center)) <= ball.radius * kBallSlack;
+  const Eigen::Vector3d steepness = kBoxSlack * plane.normal.cwiseAbs();
+  const double offset = plane.normal.dot(plane.origin);
+  const auto touches = [&](const Box& box) {
+    return std::abs(plane.normal.dot(box.center) - offset) <= steepness.dot(box.half) + kRounding;
   };
   for (std::size_t c = 0; c < clans_.size(); ++c) {
     if (!touches(clans_[c])) continue;

@@ -33,7 +33,7 @@ struct SectionLoop {
 };
 
 // Triangles that will be cut by many planes. Neighbouring triangles are looked at in groups, each
-// with a ball around it, so that a plane touches few of them when neighbours in the list are
+// with a box around it, so that a plane touches few of them when neighbours in the list are
 // neighbours in space.
 class CutSurface {
  public:
@@ -52,14 +52,14 @@ class CutSurface {
   [[nodiscard]] std::span<const Eigen::Vector3d> points() const { return points_; }
 
  private:
-  struct Ball {
+  struct Box {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
-    double radius = 0.0;
+    Eigen::Vector3d half = Eigen::Vector3d::Zero();
   };
   std::span<const Eigen::Vector3d> points_;
   std::span<const mesh::Triangle> triangles_;
-  std::vector<Ball> groups_;  // of triangles
-  std::vector<Ball> clans_;   // of groups
+  std::vector<Box> groups_;  // of triangles
+  std::vector<Box> clans_;   // of groups
 };
 
 }  // namespace capfit::body

@@ -55,7 +55,15 @@ double Stature(const Shape& shape) {
   double share = 1.0;
   if (!shape.has_head) share -= kHeadShare;
   if (!shape.has_foot[kLeft] && !shape.has_foot[kRight]) share -= kFootShare;
-  return shape.top_m / share;
+  return shape.crown_m / share;
+}
+
+// Hands may be higher.
+double CrownHeight(const Shape& shape) {
+  if (!shape.head) return shape.top_m;
+  double crown = 0.0;
+  for (const std::uint32_t v : shape.head->vertices) crown = std::max(crown, shape.points[v].y());
+  return crown;
 }
 
 void WarnOfMissing(const std::string& what, const std::string& consequence,
@@ -140,6 +148,7 @@ absl::Status FindLandmarks(const Extremities& extremities, Shape& shape, Landmar
                            std::vector<Warning>& warnings) {
   shape.has_head = shape.head && shape.head->tip_distance - shape.head->junction > kHeadLength;
   shape.has_foot = {true, true};
+  shape.crown_m = CrownHeight(shape);
   shape.stature_m = Stature(shape);
   MakeProfiles(extremities, shape);
   if (!shape.legs[kLeft] && !shape.legs[kRight] && !shape.arms[kLeft] && !shape.arms[kRight]) {

@@ -1,6 +1,7 @@
 #include "core/body/limb_landmarks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -38,13 +39,22 @@ constexpr double kUpperArmTo = 0.200;
 // Where the flank is, seen from the inner end of the arm's middle line, and how far around that
 // the armpit is looked for.
 constexpr double kFlankInside = 0.02;
-constexpr double kFlankBelow = 0.14;
+constexpr std::array<double, 3> kFlankBelow = {0.14, 0.10, 0.06};
 constexpr double kArmpitRegion = 0.25;
+// What is further to the front or back of the armpit is an arm that is held there.
+constexpr double kShoulderDepth = 0.085;
 // The shoulder joint on the way from the armpit to the top of the shoulder, as a share of that
 // way, and how that way leans out when the arm hangs and in when it is raised (per radian).
 constexpr double kShoulderHeightShare = 0.54;
 constexpr double kShoulderLean = 0.165;
 constexpr double kShoulderLeanPerRadian = 0.20;
+// The way from wrist to shoulder where no armpit can be found, and how far below that one would be.
+constexpr double kArmLength = 0.285;
+constexpr double kArmpitBelowShoulder = 0.045;
+// Sines of the arm's rise (25 degrees over level) and reach to the front (55 degrees) beyond which
+// that is so.
+constexpr double kRaisedSlope = 0.42;
+constexpr double kForwardSlope = 0.82;
 // Elbow: share of the way from wrist to shoulder (women 0.48, men 0.505).
 constexpr double kElbowShare = 0.495;
 constexpr double kElbowShareSpread = 0.015;
@@ -193,18 +203,23 @@ std::optional<Armpit> FindArmpit(const Shape& shape, int side, const Landmarks& 
   Armpit armpit;
   armpit.arm = (lower.center - upper.center).normalized();
   const Eigen::Vector3d outward = (armpit.arm - Eigen::Vector3d::UnitY()).normalized();
-  // The flank beside the waist, and a way from there to the arm that stays near the shoulder.
+  // The flank beside the waist, and a way from there to the arm that stays near the shoulder. Where
+  // the arm is raised the flank may lie as far in as the armpit: then a nearer place on it.
   const Eigen::Vector3d root = profile.stations.back().center;
-  const Eigen::Vector3d flank =
-      root + Eigen::Vector3d(-kFlankInside * SideSign(side), -kFlankBelow, 0.0) * stature;
   std::vector<char> in_arm(shape.points.size(), 0);
   for (const std::uint32_t v : shape.arms[side]->vertices) in_arm[v] = 1;
-  const auto cleft = FindCleft(
-      shape.points, *shape.graph, NearestVertex(shape, in_arm, true, lower.center),
-      NearestVertex(shape, in_arm, false, flank), outward, {root, kArmpitRegion * stature});
-  if (!cleft) return std::nullopt;
-  armpit.position_m = shape.points[*cleft];
-  return armpit;
+  const std::uint32_t on_arm = NearestVertex(shape, in_arm, true, lower.center);
+  for (const double below : kFlankBelow) {
+    const Eigen::Vector3d flank =
+        root + Eigen::Vector3d(-kFlankInside * SideSign(side), -below, 0.0) * stature;
+    const auto cleft =
+        FindCleft(shape.points, *shape.graph, on_arm, NearestVertex(shape, in_arm, false, flank),
+                  outward, {root, kArmpitRegion * stature});
+    if (!cleft) continue;
+    armpit.position_m = shape.points[*cleft];
+    return armpit;
+  }
+  return std::nullopt;
 }
 
 // Where the plane x = armpit.x cuts the shoulder above the armpit: its top, and its middle depth.
@@ -224,9 +239,12 @@ ShoulderCut CutShoulder(const Shape& shape, const Armpit& armpit) {
     nearest = distance;
     double front = -std::numeric_limits<double>::infinity();
     double back = -front;
-    cut.top_y = loop.Max(Eigen::Vector3d::UnitY());
+    cut.top_y = above.y();
     for (const Eigen::Vector3d& p : loop.outline) {
-      if (p.y() < armpit.position_m.y()) continue;
+      const bool is_arm =
+          std::abs(p.z() - armpit.position_m.z()) > kShoulderDepth * shape.stature_m;
+      if (p.y() < armpit.position_m.y() || is_arm) continue;
+      cut.top_y = std::max(cut.top_y, p.y());
       front = std::max(front, p.z());
       back = std::min(back, p.z());
     }
@@ -247,23 +265,43 @@ Eigen::Vector3d ShoulderOver(const Shape& shape, int side, const Armpit& armpit)
 
 }  // namespace
 
+namespace {
+
+// An arm above the shoulder, or held out to the front, has no cleft that says where it begins. Its
+// length does, along its own middle line.
+bool HasNoCleft(const Eigen::Vector3d& arm) {
+  return arm.y() > kRaisedSlope || std::abs(arm.z()) > kForwardSlope;
+}
+
+Eigen::Vector3d ShoulderAlong(const Shape& shape, const LimbProfile& arm, double wrist_arc) {
+  const double arc = wrist_arc + kArmLength * shape.stature_m;
+  const Station& last = arm.stations.back();
+  if (arc <= last.arc) return arm.At(arc).center;
+  return last.center + (arc - last.arc) * last.normal;
+}
+
+}  // namespace
+
 void FindUpperArm(const Shape& shape, int side, Landmarks& landmarks) {
   const LimbProfile& arm = *shape.arm_profiles[side];
   const std::size_t armpit_at = Sided(LandmarkId::kLeftArmpit, side);
   const std::size_t shoulder_at = Sided(LandmarkId::kLeftShoulder, side);
-  if (std::optional<Armpit> armpit = FindArmpit(shape, side, landmarks)) {
+  const Eigen::Vector3d wrist = landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m;
+  const double wrist_arc = arm.NearestArc(wrist);
+  std::optional<Armpit> armpit = FindArmpit(shape, side, landmarks);
+  if (armpit && !HasNoCleft(armpit->arm)) {
     Put(landmarks, armpit_at, armpit->position_m, 0.8);
     armpit->position_m = landmarks[armpit_at]->position_m;
     Put(landmarks, shoulder_at, ShoulderOver(shape, side, *armpit), 0.7);
   } else {
-    // No cleft (the arm is melted to the trunk there): the inner end of the arm's own tube.
-    Put(landmarks, armpit_at, arm.stations.back().center, 0.2, LandmarkMethod::kRatio);
-    Put(landmarks, shoulder_at, arm.stations.back().center, 0.2, LandmarkMethod::kRatio);
+    const Eigen::Vector3d shoulder = ShoulderAlong(shape, arm, wrist_arc);
+    const Eigen::Vector3d below =
+        shoulder - kArmpitBelowShoulder * shape.stature_m * Eigen::Vector3d::UnitY();
+    Put(landmarks, armpit_at, below, 0.2, LandmarkMethod::kRatio);
+    Put(landmarks, shoulder_at, shoulder, 0.4, LandmarkMethod::kRatio);
   }
-  const Eigen::Vector3d wrist = landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m;
   const Eigen::Vector3d shoulder = landmarks[shoulder_at]->position_m;
-  const double arc =
-      BendArc(arm, arm.NearestArc(wrist), ArcOf(arm, shoulder), kElbowShare, kElbowShareSpread);
+  const double arc = BendArc(arm, wrist_arc, ArcOf(arm, shoulder), kElbowShare, kElbowShareSpread);
   Put(landmarks, Sided(LandmarkId::kLeftElbow, side), arm.At(arc).center, 0.8);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace capfit::body {
 namespace {
@@ -35,12 +36,16 @@ constexpr double kGroinBelowCrotch = 0.0145;
 // Jaw and nape: the plane that parts head and neck rises from the front to the back.
 constexpr double kJawAboveNeck = 0.035;
 
-// A way over the surface stops where it comes to the inner side of the plane within the radius.
+// A way over the surface stops where it comes to the inner side of the plane within the radius, and
+// where it would leave both the limb and the radius.
 struct Barrier {
   CutPlane plane;  // normal outward, away from the trunk
   double radius = 0.0;
-  [[nodiscard]] bool Stops(const Eigen::Vector3d& p) const {
-    return plane.Height(p) < 0.0 && (p - plane.origin).norm() < radius;
+  const std::vector<char>* in_limb = nullptr;  // by vertex
+  [[nodiscard]] bool Stops(std::uint32_t v, const Eigen::Vector3d& p) const {
+    const bool is_inner = plane.Height(p) < 0.0;
+    const bool is_near = (p - plane.origin).norm() < radius;
+    return (*in_limb)[v] ? is_inner && is_near : is_inner || !is_near;
   }
 };
 
@@ -54,7 +59,7 @@ std::vector<std::uint32_t> Flood(const Shape& shape, std::vector<std::uint32_t> 
   for (std::size_t i = 0; i < reached.size(); ++i) {
     segments[reached[i]] = segment;
     for (const std::uint32_t n : shape.graph->Neighbours(reached[i])) {
-      if (seen[n] || barrier.Stops(shape.points[n])) continue;
+      if (seen[n] || barrier.Stops(n, shape.points[n])) continue;
       seen[n] = 1;
       reached.push_back(n);
     }
@@ -90,13 +95,19 @@ class Labeller {
   [[nodiscard]] Barrier Across(const Eigen::Vector3d& origin, const Eigen::Vector3d& outward,
                                double shift, double radius) const {
     const Eigen::Vector3d normal = outward.normalized();
-    return {{origin + shift * shape_.stature_m * normal, normal}, radius * shape_.stature_m};
+    return {
+        {origin + shift * shape_.stature_m * normal, normal}, radius * shape_.stature_m, &in_limb_};
+  }
+  void TakeUp(const Limb& limb) {
+    in_limb_.assign(shape_.points.size(), 0);
+    for (const std::uint32_t v : limb.vertices) in_limb_[v] = 1;
   }
 
   // The outermost first: each later flood must not paint over the one before, so go from the
   // trunk outward.
   void LabelArm(int side) {
     if (!Has(LandmarkId::kLeftShoulder, side) || !Has(LandmarkId::kLeftElbow, side)) return;
+    TakeUp(*shape_.arms[side]);
     const std::uint32_t tip = shape_.arms[side]->tip;
     const Eigen::Vector3d shoulder = At(LandmarkId::kLeftShoulder, side);
     const Eigen::Vector3d elbow = At(LandmarkId::kLeftElbow, side);
@@ -123,6 +134,7 @@ class Labeller {
 
   void LabelLeg(int side) {
     if (!Has(LandmarkId::kLeftHip, side) || !Has(LandmarkId::kCrotch)) return;
+    TakeUp(*shape_.legs[side]);
     const std::uint32_t tip = shape_.legs[side]->tip;
     const Eigen::Vector3d knee = At(LandmarkId::kLeftKnee, side);
     const Eigen::Vector3d ankle = At(LandmarkId::kLeftAnkle, side);
@@ -144,6 +156,7 @@ class Labeller {
 
   void LabelHead() {
     if (!shape_.head || !shape_.neck_base_m) return;
+    TakeUp(*shape_.head);
     const std::uint32_t tip = shape_.head->tip;
     const Eigen::Vector3d base = *shape_.neck_base_m;
     Flood(shape_, {tip}, Across(base, Eigen::Vector3d(0, 0.96, 0.28), 0.0, kNeckRadius),
@@ -156,6 +169,7 @@ class Labeller {
   const Shape& shape_;
   const Landmarks& landmarks_;
   std::vector<Segment> segments_;
+  std::vector<char> in_limb_;  // that is being labelled
 };
 
 }  // namespace

@@ -26,6 +26,8 @@ struct Shape {
   const SurfaceGraph* graph = nullptr;
   const CutSurface* surface = nullptr;
   double top_m = 0.0;  // extent along Y; the lowest point is at 0
+  // Height of the head's top, or of the neck's; top_m without either. Set by FindLandmarks.
+  double crown_m = 0.0;
   // Height of the whole body: what is cut off is added, by proportion. Without legs it must be set
   // before landmarks are looked for; with them it follows from the extent.
   double stature_m = 0.0;

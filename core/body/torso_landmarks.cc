@@ -115,7 +115,7 @@ CutPlane NeckPlane(double y) {
 
 std::vector<NeckLevel> NeckLevels(const Shape& shape, double from_y) {
   std::vector<NeckLevel> levels;
-  const double to_y = shape.top_m - (shape.has_head ? kNeckBelowTop * shape.stature_m : 0.0);
+  const double to_y = shape.crown_m - (shape.has_head ? kNeckBelowTop * shape.stature_m : 0.0);
   for (double y = from_y; y < to_y; y += kTrunkLevelStep * shape.stature_m) {
     auto loop = TrunkLoop(shape, NeckPlane(y));
     if (loop) levels.push_back({y, std::move(*loop)});
@@ -127,7 +127,8 @@ double MeanArmpitHeight(const Shape& shape, const Landmarks& landmarks) {
   double sum = 0.0;
   int count = 0;
   for (const int side : {kLeft, kRight}) {
-    if (!landmarks[Sided(LandmarkId::kLeftArmpit, side)]) continue;
+    const auto& armpit = landmarks[Sided(LandmarkId::kLeftArmpit, side)];
+    if (!armpit || armpit->method == LandmarkMethod::kRatio) continue;
     sum += landmarks[Sided(LandmarkId::kLeftArmpit, side)]->position_m.y();
     ++count;
   }

@@ -64,7 +64,10 @@ double ErrorMm(const Body& body, const std::string& name, const Eigen::Vector3d&
 }
 
 double LabelledRight(const Body& body, const std::string& label_file) {
-  const std::string labels = test_support::ReadFile(test_support::BodiesFolder() / label_file);
+  return LabelledAs(body, test_support::ReadFile(test_support::BodiesFolder() / label_file));
+}
+
+double LabelledAs(const Body& body, const std::string& labels) {
   const auto sources = body.mesh.vertex_of_source();
   EXPECT_EQ(labels.size(), sources.size());
   std::vector<int> label(body.mesh.vertices().size(), -1);

@@ -33,7 +33,9 @@ struct PosedBody {
 [[nodiscard]] double ErrorMm(const Body& body, const std::string& name,
                              const Eigen::Vector3d& truth);
 
-// Share of the surface whose segment is that of the label file (one byte for each source vertex).
+// Share of the surface whose segment is that of the labels, one byte for each source vertex.
+[[nodiscard]] double LabelledAs(const Body& body, const std::string& labels);
+// The same with the labels of a file.
 [[nodiscard]] double LabelledRight(const Body& body, const std::string& label_file);
 
 // Joints that the accuracy of the whole is judged by; shoulders and hips have their own limit.

@@ -132,7 +132,7 @@ struct Place {
 };
 
 constexpr std::array<Place, 12> kPlaces = {{{LandmarkId::kHeadTop, 0.97, 1.01, 0.0, 0.02},
-                                            {LandmarkId::kNeck, 0.83, 0.89, 0.0, 0.01},
+                                            {LandmarkId::kNeck, 0.80, 0.89, 0.0, 0.01},
                                             {LandmarkId::kCrotch, 0.43, 0.50, 0.0, 0.01},
                                             {LandmarkId::kWaist, 0.58, 0.70, 0.0, 0.01},
                                             {LandmarkId::kBust, 0.67, 0.79, 0.0, 0.01},
