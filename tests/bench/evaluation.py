@@ -70,17 +70,20 @@ def measure_times(store, progress, time_body, scales, budgets, runs):
     for method in cells.METHODS:
         times[method] = {}
         for n in budgets:
-            kept = store.get(store.key(f"time{runs}", time_body, method, n)) is not None
+            kept = store.has_time(store.key(f"time{runs}", time_body, method, n))
             cell = times[method][n] = store.time_cell(time_body, method, n, runs)
             progress.step(f"time   {stem(time_body)} {method} {n}  "
                           f"{cell.get('failure') or format(cell['seconds'], '.3f') + ' s'}", kept)
     ratios = {}
     for scale in scales:
-        row = ratios[stem(scale)] = {"faces": page.triangle_count(scale)}
+        row = ratios[stem(scale)] = {
+            "faces": page.triangle_count(scale),
+            # The others are other surfaces or come from quads: not on one line with these.
+            "is_series": "_tri_" in stem(scale) or stem(scale).startswith("mannequin_")}
         row[cells.SPHERE_MESHES] = store.sphere_mesh_times(
             scale, [FIGURE_10_BUDGET], runs)[FIGURE_10_BUDGET]
         for method in ("paper enclose", "tight enclose", "tight best"):
-            kept = store.get(store.key(f"time{runs}", scale, method, FIGURE_10_BUDGET)) is not None
+            kept = store.has_time(store.key(f"time{runs}", scale, method, FIGURE_10_BUDGET))
             cell = row[method] = store.time_cell(scale, method, FIGURE_10_BUDGET, runs)
             progress.step(f"scale  {stem(scale)} {method}  "
                           f"{cell.get('failure') or format(cell['seconds'], '.3f') + ' s'}", kept)

@@ -79,6 +79,13 @@ class Store:
         with open(self.path, "a") as file:
             file.write(json.dumps({"key": key, "cell": cell}) + "\n")
 
+    def has_time(self, key):
+        """Whether there is a time to keep: not one from a far busier machine than now."""
+        kept = self.get(key)
+        if kept is None or self.only_kept or "load" not in kept:
+            return kept is not None
+        return kept["load"] < 1.5 * os.cpu_count() or os.getloadavg()[0] > .5 * kept["load"]
+
     def result_path(self, body, method, budget):
         """Where the fitted set is: kept for as long as the same programs are evaluated."""
         stem = self.key("set", body, method, budget).replace("/", "-").replace("|", ".")
@@ -151,7 +158,7 @@ class Store:
     def time_cell(self, body, method, budget, runs):
         """Seconds of `runs` fits, one after the other: other programs only ever add, so the least."""
         key = self.key(f"time{runs}", body, method, budget)
-        if self.get(key) is None:
+        if not self.has_time(key):
             try:
                 times = [self.fit(body, method, budget) for _ in range(runs)]
                 cell = time_figures(times)
@@ -162,7 +169,7 @@ class Store:
 
     def sphere_mesh_times(self, body, budgets, runs):
         keys = {n: self.key(f"time{runs}", body, SPHERE_MESHES, n) for n in budgets}
-        if any(self.get(key) is None for key in keys.values()):
+        if not all(self.has_time(key) for key in keys.values()):
             times = [self.fit_sphere_meshes(body, budgets) for _ in range(runs)]
             for n, key in keys.items():
                 self.put(key, time_figures([t[n] for t in times]))

@@ -206,8 +206,8 @@ def load_words(times, ratios):
     if max(loads, default=0) < 1.5 * os.cpu_count():
         return "nothing else to speak of was running"
     return (f"**other programs were running** (load average {min(loads):.0f} to {max(loads):.0f} on "
-            f"{os.cpu_count()} cores), so that the times are too long, by up to that factor; their "
-            "ratios hold better")
+            f"{os.cpu_count()} cores), so that these times are several times too long, and uneven; a "
+            "run on a calm machine takes them anew")
 
 
 def paragraphs(text):
@@ -296,7 +296,7 @@ is not counted. The last two rows are the paper's, on an i7-7700 and a mesh of a
 ## Figure 10: time over the size of the mesh
 
 Each at $n_p$ {figure_10_budget}, as above. The baseline of the ratio is our own Sphere-Meshes in the
-same run, not the program that the paper timed.
+same run, not the program that the paper timed. Hollow marks: meshes of quads or of another surface.
 
 ![Time ratio over the number of triangles](evaluation/figure_10.svg)
 

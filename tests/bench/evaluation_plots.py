@@ -111,18 +111,23 @@ def figure_10(ratios, path):
     def seconds(row, method):
         return row[method].get("seconds", float("nan"))
 
-    x = [row["faces"] for row in rows]
+    def draw(axes, value, method, line, label):
+        """A line through one surface at several densities; other meshes as hollow marks."""
+        color, marker, _, _ = STYLE[method]
+        for is_series, style in ((True, {"linestyle": line, "label": label}),
+                                 (False, {"linestyle": "", "markerfacecolor": "none"})):
+            chosen = [row for row in rows if row["is_series"] == is_series]
+            axes.plot([row["faces"] for row in chosen], [value(row) for row in chosen],
+                      color=color, marker=marker, markersize=5, **style)
+
     for method in ("paper enclose", "tight enclose", "tight best"):
-        color, marker, _, words = STYLE[method]
-        fit = "BEST_FIT" if method.endswith("best") else "ENCLOSE"
-        line = ":" if method.endswith("best") else "-"
-        left.plot(x, [seconds(row, SPHERE_MESHES) / seconds(row, method) for row in rows],
-                  color=color, marker=marker, markersize=5, linestyle=line,
-                  label=f"{words}, {fit}")
-        right.plot(x, [seconds(row, method) for row in rows], color=color, marker=marker,
-                   markersize=5, linestyle=line, label=f"{words}, {fit}")
-    right.plot(x, [seconds(row, SPHERE_MESHES) for row in rows], color="#555555", marker="^",
-               markersize=5, linestyle="--", label="Sphere-Meshes, own code")
+        fit, line = ("BEST_FIT", ":") if method.endswith("best") else ("ENCLOSE", "-")
+        label = f"{STYLE[method][3]}, {fit}"
+        draw(left, lambda row, m=method: seconds(row, SPHERE_MESHES) / seconds(row, m), method, line,
+             label)
+        draw(right, lambda row, m=method: seconds(row, m), method, line, label)
+    draw(right, lambda row: seconds(row, SPHERE_MESHES), SPHERE_MESHES, "--",
+         "Sphere-Meshes, own code")
     left.axhline(1, color="#999999", linewidth=1)
     left.set_ylabel("time of Sphere-Meshes / time of capfit")
     right.set_ylabel("time, s")
