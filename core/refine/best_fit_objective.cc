@@ -12,19 +12,21 @@ namespace {
 
 constexpr double kBestFitLeafDistanceM = 0.04;  // between the points where leaves are tried
 constexpr double kLeastMissM = 0.002;           // points nearer to the set than this need no leaf
-constexpr int kBestFitTrialSteps = 24;
+constexpr int kBestFitGlanceSteps = 8;
+constexpr int kBestFitTrialSteps = 18;
 
 class BestFitRound final : public Objective::Round {
  public:
   BestFitRound(const OccupancyGrid& grid, std::uint64_t seed, const CapsuleGraph& graph)
-      : grid_(grid), seed_(seed), before_(graph) {}
+      : grid_(grid), seed_(seed), before_(graph), errors_before_(grid, graph) {}
 
-  double Try(EditedGraph& edited) const override {
+  double Try(Trial trial, EditedGraph& edited) const override {
     const std::vector<char> active = Neighbourhood(edited.graph, edited.touched, 1);
     BestFitOptions options;
-    options.steps = kBestFitTrialSteps;
-    options.first_rate_m = 0.004;
-    options.last_rate_m = 0.0003;
+    const bool glance = trial == Trial::kGlance;
+    options.steps = glance ? kBestFitGlanceSteps : kBestFitTrialSteps;
+    options.first_rate_m = glance ? 0.005 : 0.004;
+    options.last_rate_m = glance ? 0.002 : 0.0003;
     options.seed = seed_;
     options.active = &active;
     Eigen::AlignedBox3d box = ReachOf(edited.graph, active);
@@ -32,14 +34,14 @@ class BestFitRound final : public Objective::Round {
     DescendBestFit(grid_, options, edited.graph);
     box.extend(ReachOf(edited.graph, active));
     const Box cells = {box.min(), box.max()};
-    return (FillError(grid_, before_, cells) - FillError(grid_, edited.graph, cells)) /
-           grid_.volume_m3;
+    return (errors_before_.Over(cells) - FillError(grid_, edited.graph, cells)) / grid_.volume_m3;
   }
 
  private:
   const OccupancyGrid& grid_;
   std::uint64_t seed_;
   CapsuleGraph before_;
+  FillErrorMap errors_before_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace {
 using body::LandmarkId;
 using Vec3 = Eigen::Vector3d;
 
+constexpr double kLongestBoneShare = 0.5;  // of the height; beyond, a landmark is wrong
 constexpr double kShortestBoneM = 0.01;
 // A bone that runs close under the skin still gets a radius of this share of its length.
 constexpr double kLeastRadiusShare = 0.15;
@@ -143,6 +144,7 @@ Skeleton::Skeleton(const body::Body& body) {
     for (int i = 0; i < kBoneCount; ++i) {
       const auto [from, to] = EndsOf(joints, static_cast<BoneId>(i));
       if (!from || !to || (*to - *from).norm() < kShortestBoneM) continue;
+      if ((*to - *from).norm() > kLongestBoneShare * body.height_m) continue;
       Bone bone{*from, *to, 0.0};
       for (const double t : {0.25, 0.5, 0.75}) {
         bone.radius_m += SkinDistance(skin, *from + t * (*to - *from)) / 3.0;

@@ -1,6 +1,9 @@
 #include "core/refine/enclosing_objective.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/refine/cone.h"
@@ -14,6 +17,16 @@ namespace {
 constexpr double kPenalty = 12.0;                 // body volumes per metre outside
 constexpr double kVolumeCellM = 0.008;            // when volumes are compared
 constexpr double kEnclosingLeafDistanceM = 0.03;  // between the points where leaves are tried
+// Of a cell's area: what a point costs at first is some cells' worth of depth, for any body.
+constexpr double kLooseCellM = 0.015;
+constexpr double kLoosestPenaltyM2 = 8.0 * kLooseCellM * kLooseCellM;
+constexpr double kTightening = 10.0;  // from the first round to the last
+constexpr double kLooseReachM = 0.015;
+constexpr std::array<double, 3> kLooseness = {1.0, 2.5, 0.5};  // of the attempts
+constexpr int kSmallSet = 40;                                  // spheres
+constexpr int kLooseRounds = 7;
+constexpr int kLooseSteps = 2;
+constexpr int kEnclosingGlanceSteps = 1;
 constexpr int kEnclosingTrialSteps = 4;
 
 class EnclosingRound final : public Objective::Round {
@@ -25,7 +38,7 @@ class EnclosingRound final : public Objective::Round {
         cones_(ConesOf(graph)),
         deepest_(FindDeepest(points, cones_)) {}
 
-  double Try(EditedGraph& edited) const override {
+  double Try(Trial trial, EditedGraph& edited) const override {
     const std::vector<char> was = Neighbourhood(before_, edited.touched_before, 1);
     const std::vector<char> active = Neighbourhood(edited.graph, edited.touched, 1);
     const CoverPoints near = PointsHeldBy(was);
@@ -33,7 +46,7 @@ class EnclosingRound final : public Objective::Round {
     box.extend(ReachOf(edited.graph, active));
     const double old_value = ValueIn(before_, near, box);
     EnclosingOptions options;
-    options.max_steps = kEnclosingTrialSteps;
+    options.max_steps = trial == Trial::kGlance ? kEnclosingGlanceSteps : kEnclosingTrialSteps;
     options.reach_m = 0.006;
     options.row_cell_m = 0.018;
     options.gap_share = 0.03;
@@ -74,19 +87,41 @@ class EnclosingRound final : public Objective::Round {
 EnclosingObjective::EnclosingObjective(CoverPoints points, double volume_m3)
     : points_(std::move(points)), volume_m3_(volume_m3) {}
 
-void EnclosingObjective::Settle(Effort effort, CapsuleGraph& graph) const {
+// Lets go of the tightest points, finds the shape, and takes hold of them again little by little:
+// holding on to all of them from the start ends in worse sets.
+void EnclosingObjective::Loosen(double looseness, CapsuleGraph& graph) const {
   EnclosingOptions options;
-  if (effort == Effort::kRough) {
-    options.reach_m = 0.01;
-    options.max_steps = 4;
-    for (const double penalty : {0.1, 0.3}) {
-      options.penalty = penalty;
-      DescendEnclosing(points_, volume_m3_, options, graph);
-    }
+  options.max_steps = kLooseSteps;
+  options.row_cell_m = kLooseCellM;
+  for (int round = 0; round < kLooseRounds; ++round) {
+    const double share = static_cast<double>(round) / (kLooseRounds - 1);
+    options.reach_m = kLooseReachM * std::pow(0.5, share);
+    options.penalty = kLoosestPenaltyM2 * std::pow(kTightening, share) / (looseness * volume_m3_);
+    DescendEnclosing(points_, volume_m3_, options, graph);
   }
-  options = {};
-  options.max_steps = effort == Effort::kTouch ? 3 : effort == Effort::kRough ? 6 : 16;
-  DescendEnclosing(points_, volume_m3_, options, graph);
+}
+
+void EnclosingObjective::Settle(Effort effort, CapsuleGraph& graph) const {
+  EnclosingOptions tight;
+  tight.max_steps = effort == Effort::kTouch ? 3 : effort == Effort::kRough ? 6 : 16;
+  if (effort == Effort::kRough) Loosen(1.0, graph);
+  if (effort != Effort::kFinish) {
+    DescendEnclosing(points_, volume_m3_, tight, graph);
+    return;
+  }
+  // Which local minimum comes out of it is a lottery: small sets can afford several tickets.
+  const int attempts = graph.sphere_count() <= kSmallSet ? 3 : 1;
+  const CapsuleGraph start = graph;
+  double least = std::numeric_limits<double>::max();
+  for (int i = 0; i < attempts; ++i) {
+    CapsuleGraph next = i == 0 ? start : graph;
+    Loosen(kLooseness[U(i)], next);
+    DescendEnclosing(points_, volume_m3_, tight, next);
+    const double value = Value(next);
+    if (value >= least) continue;
+    least = value;
+    graph = std::move(next);
+  }
 }
 
 double EnclosingObjective::Value(const CapsuleGraph& graph) const {

@@ -23,6 +23,8 @@ class EnclosingObjective final : public Objective {
                                                          int count) const override;
 
  private:
+  void Loosen(double looseness, CapsuleGraph& graph) const;
+
   CoverPoints points_;
   double volume_m3_;
 };

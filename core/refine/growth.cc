@@ -16,6 +16,16 @@ namespace {
 constexpr double kLinkReach = 1.1;
 // A round keeps edits that gain at least this share of its best one, per primitive.
 constexpr double kKeepShare = 0.35;
+// Of the edits glanced at no fewer than so many are tried thoroughly.
+constexpr std::size_t kLeastThorough = 8;
+// Capsules go together when their losses are within this ratio, or below the least, which is
+// relative to the body's volume.
+constexpr double kSpareShare = 2.0;
+constexpr double kLeastLoss = 1e-4;
+// An exchange gives up this share of all primitives.
+constexpr double kExchangeShare = 0.06;
+// A round spends at least this share of what is there already.
+constexpr double kLeastBatchShare = 0.05;
 
 Edit Simple(EditKind kind, int first, int second) {
   Edit edit;
@@ -96,28 +106,41 @@ std::vector<Edit> Removals(const CapsuleGraph& graph) {
   return edits;
 }
 
-// Applies and settles all edits in parallel; `cost` turns a gain into a score.
+void SortByScore(std::vector<Candidate>& candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+}
+
+// Applies and settles all edits in parallel: a glance at each, then the better ones in earnest.
+// `score` turns a gain into a score. Best first.
 template <class Admit, class Score>
 std::vector<Candidate> TryAll(const Objective& objective, const CapsuleGraph& graph,
                               const std::vector<Edit>& edits, const ThreadPool& pool,
-                              const FitObserver& observer, const Admit& admit, const Score& score) {
+                              const FitObserver& observer, double thorough_share,
+                              const Admit& admit, const Score& score) {
   const std::unique_ptr<Objective::Round> round = objective.StartRound(graph);
   std::vector<Candidate> candidates(edits.size());
-  pool.ForEach(edits.size(), [&](std::size_t i) {
-    if (observer.IsCancelled()) return;
-    Candidate& c = candidates[i];
-    c.edit = edits[i];
-    c.result = Apply(graph, edits[i]);
-    if (!c.result.possible || !admit(c.result.graph)) {
-      c.result.possible = false;
-      return;
-    }
-    const CapsuleGraph fresh = c.result.graph;
-    c.score = score(fresh, round->Try(c.result));
-  });
-  std::erase_if(candidates, [](const Candidate& c) { return !c.result.possible; });
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  const auto attempt = [&](Trial trial) {
+    pool.ForEach(candidates.size(), [&](std::size_t i) {
+      Candidate& c = candidates[i];
+      if (observer.IsCancelled()) {
+        c.result.possible = false;
+        return;
+      }
+      if (trial == Trial::kGlance) {
+        c.edit = edits[i];
+        c.result = Apply(graph, edits[i]);
+        c.result.possible = c.result.possible && admit(c.result.graph);
+      }
+      if (c.result.possible) c.score = score(c.result.graph, round->Try(trial, c.result));
+    });
+    std::erase_if(candidates, [](const Candidate& c) { return !c.result.possible; });
+    SortByScore(candidates);
+  };
+  attempt(Trial::kGlance);
+  const auto kept = static_cast<std::size_t>(thorough_share * static_cast<double>(edits.size()));
+  candidates.resize(std::min(candidates.size(), std::max(kLeastThorough, kept)));
+  attempt(Trial::kThorough);
   return candidates;
 }
 
@@ -189,13 +212,14 @@ bool GrowOnce(const Objective& objective, const Spending& spending, const Growth
               const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
   const std::vector<Candidate> candidates = TryAll(
       objective, graph, Additions(objective, options, graph), pool, observer,
-      [&](const CapsuleGraph& after) { return spending.Allows(after); },
+      options.thorough_share, [&](const CapsuleGraph& after) { return spending.Allows(after); },
       [&](const CapsuleGraph& after, double gain) {
         return gain / CostOf(spending, graph, after);
       });
   if (candidates.empty() || candidates.front().score <= 0.0) return false;
-  CapsuleGraph grown =
-      KeepBest(graph, candidates, spending, options.batch_share * RoomIn(spending, graph));
+  CapsuleGraph grown = KeepBest(graph, candidates, spending,
+                                std::max(options.batch_share * RoomIn(spending, graph),
+                                         kLeastBatchShare * graph.primitive_count()));
   if (grown.primitive_count() == graph.primitive_count()) return false;
   objective.Settle(Effort::kTouch, grown);
   RemoveSwallowed(grown);
@@ -204,16 +228,35 @@ bool GrowOnce(const Objective& objective, const Spending& spending, const Growth
   return grew;
 }
 
-// Gives up the capsule or sphere whose loss is least.
-bool SpareOnce(const Objective& objective, const ThreadPool& pool, const FitObserver& observer,
-               CapsuleGraph& graph) {
-  std::vector<Candidate> candidates = TryAll(
-      objective, graph, Removals(graph), pool, observer, [](const CapsuleGraph&) { return true; },
+// Gives up the capsule or sphere whose loss is least, and other capsules elsewhere that cost hardly
+// more, up to `most` primitives or a little beyond.
+bool SpareSome(const Objective& objective, int most, const ThreadPool& pool,
+               const FitObserver& observer, CapsuleGraph& graph) {
+  const std::vector<Candidate> candidates = TryAll(
+      objective, graph, Removals(graph), pool, observer, /*thorough_share=*/0.35,
+      [](const CapsuleGraph&) { return true; },
       [&](const CapsuleGraph& after, double gain) {
         return gain / std::max(1, graph.primitive_count() - after.primitive_count());
       });
   if (candidates.empty()) return false;
-  graph = std::move(candidates.front().result.graph);
+  std::vector<char> locked(graph.nodes.size(), 0);
+  LockSurroundings(graph, candidates.front(), locked);
+  CapsuleGraph spared = candidates.front().result.graph;
+  // Removing capsules keeps the indices of spheres, so that several may go at once.
+  if (candidates.front().edit.kind == EditKind::kUnlink) {
+    const double worst = kSpareShare * std::min(-kLeastLoss, candidates.front().score);
+    for (const Candidate& c : candidates) {
+      if (graph.primitive_count() - spared.primitive_count() >= most || c.score < worst) break;
+      if (c.edit.kind != EditKind::kUnlink || !LockSurroundings(graph, c, locked)) continue;
+      const Edge& wanted = graph.edges[U(c.edit.first)];
+      for (int e = 0; e < spared.capsule_count(); ++e) {
+        if (spared.edges[U(e)].a != wanted.a || spared.edges[U(e)].b != wanted.b) continue;
+        spared.RemoveEdge(e);
+        break;
+      }
+    }
+  }
+  graph = std::move(spared);
   objective.Settle(Effort::kTouch, graph);
   return true;
 }
@@ -232,7 +275,9 @@ void Fill(const Objective& objective, const Spending& spending, const GrowthOpti
 void Spare(const Objective& objective, const Spending& spending, const ThreadPool& pool,
            const FitObserver& observer, CapsuleGraph& graph) {
   while (!spending.Allows(graph) && !observer.IsCancelled()) {
-    if (!SpareOnce(objective, pool, observer, graph)) return;
+    const int excess = std::max({1, graph.primitive_count() - spending.max_primitives,
+                                 graph.capsule_count() - spending.max_capsules});
+    if (!SpareSome(objective, excess, pool, observer, graph)) return;
   }
 }
 
@@ -242,7 +287,8 @@ void Grow(const Objective& objective, const Spending& spending, const GrowthOpti
   double value = options.exchanges > 0 ? objective.Value(graph) : 0.0;
   for (int i = 0; i < options.exchanges && !observer.IsCancelled(); ++i) {
     CapsuleGraph other = graph;
-    if (!SpareOnce(objective, pool, observer, other)) return;
+    const int most = std::max(2, static_cast<int>(kExchangeShare * graph.primitive_count()));
+    if (!SpareSome(objective, most, pool, observer, other)) return;
     Fill(objective, spending, options, pool, observer, other);
     const double other_value = objective.Value(other);
     if (other_value >= value) return;

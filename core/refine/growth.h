@@ -22,10 +22,11 @@ struct Spending {
 };
 
 struct GrowthOptions {
-  int worst_points = 16;      // where leaves are tried in each round
-  double batch_share = 0.25;  // of the room left, spent in one round (at least one edit)
-  int exchanges = 0;          // rounds that give up the least and spend it elsewhere
-  bool links = true;          // try new capsules between spheres that nearly touch
+  int worst_points = 16;         // where leaves are tried in each round
+  double batch_share = 0.4;      // of the room left, spent in one round (at least one edit)
+  double thorough_share = 0.35;  // of the edits glanced at, how many are tried in earnest
+  int exchanges = 0;             // rounds that give up the least and spend it elsewhere
+  bool links = true;             // try new capsules between spheres that nearly touch
 };
 
 // Removes what costs least until the graph is within the spending.

@@ -5,223 +5,405 @@
 namespace capfit::refine {
 namespace {
 
-// Rough on purpose: places to a twentieth of a bone's length and a tenth of its radius. What counts
-// is the topology; everything else is optimised for each body.
+// Found by tests/core/refine/make_layouts.cc on built-in mannequins of both sexes, slim and heavy.
+// What counts is the topology; places and radii are rounded, everything is optimised for each body.
 
-// About 16 + 16 without head, hands and feet: one chain for each limb; pelvis and chest in pairs,
-// the belly between them single.
-constexpr auto kPlainNodes = std::to_array<LayoutNode>({
-    {BoneId::kPelvis, {0.85, 0.0, 0.0}, 1.1, true},      // 0
-    {BoneId::kBelly, {1.75, 0.0, 1.3}, 1.4, false},      // 1
-    {BoneId::kShin, {0.75, 0.3, -0.4}, 0.6, true},       // 2
-    {BoneId::kChest, {0.70, 0.0, 0.0}, 1.4, false},      // 3
-    {BoneId::kThigh, {0.45, -0.1, 0.5}, 1.3, true},      // 4
-    {BoneId::kForearm, {0.00, -0.1, 0.0}, 1.0, true},    // 5
-    {BoneId::kClavicle, {1.10, -0.1, -0.2}, 0.9, true},  // 6
-    {BoneId::kClavicle, {0.45, -1.2, 0.4}, 1.7, true},   // 7
-    {BoneId::kForearm, {0.85, 0.0, -0.1}, 0.7, true},    // 8
+// 22 + 10 for the best fit, without head, hands and feet.
+constexpr auto kBest32Nodes = std::to_array<LayoutNode>({
+    {BoneId::kRibs, {1.40, 0.0, -0.4}, 1.0, false},     // 0
+    {BoneId::kClavicle, {0.65, 0.0, -0.2}, 1.1, true},  // 1
+    {BoneId::kForearm, {0.89, -0.1, -0.3}, 0.7, true},  // 2
+    {BoneId::kPelvis, {0.66, 0.3, 0.1}, 1.6, true},     // 3
+    {BoneId::kThigh, {0.25, -0.1, 0.2}, 1.3, true},     // 4
+    {BoneId::kRibs, {1.47, 0.6, -0.2}, 1.2, true},      // 5
+    {BoneId::kThigh, {0.93, 0.0, 0.0}, 0.9, true},      // 6
+    {BoneId::kBelly, {1.02, 0.5, 0.1}, 0.9, true},      // 7
+    {BoneId::kChest, {0.79, 0.0, -0.3}, 1.0, false},    // 8
+    {BoneId::kRibs, {0.85, 0.5, 0.4}, 0.9, true},       // 9
+    {BoneId::kShin, {0.89, -0.1, -0.2}, 0.8, true},     // 10
+    {BoneId::kClavicle, {0.07, 0.3, -0.4}, 1.2, true},  // 11
 });
-constexpr auto kPlainEdges = std::to_array<LayoutEdge>({{0, 0, true},
-                                                        {0, 1, false},
-                                                        {0, 4, false},
-                                                        {1, 3, false},
-                                                        {1, 7, false},
-                                                        {2, 4, false},
-                                                        {3, 6, false},
-                                                        {5, 6, false},
-                                                        {5, 8, false}});
+constexpr auto kBest32Edges = std::to_array<LayoutEdge>(
+    {{1, 2, false}, {4, 6, false}, {3, 7, false}, {6, 10, false}, {5, 7, false}});
 
-// About 16 + 16 with head, hands and feet, each the end of a chain.
-constexpr auto kPlainFullNodes = std::to_array<LayoutNode>({
-    {BoneId::kHead, {0.05, 0.0, 0.1}, 1.1, false},      // 0
-    {BoneId::kUpperArm, {1.00, 0.1, -0.1}, 1.0, true},  // 1
-    {BoneId::kHand, {0.50, 0.5, -0.5}, 0.6, true},      // 2
-    {BoneId::kChest, {-0.45, 0.0, 1.6}, 1.3, false},    // 3
-    {BoneId::kThigh, {0.40, -0.1, 0.5}, 1.3, true},     // 4
-    {BoneId::kPelvis, {0.80, 0.0, 0.0}, 1.1, true},     // 5
-    {BoneId::kHead, {0.70, 0.0, 0.5}, 1.8, false},      // 6
-    {BoneId::kFoot, {0.55, 0.5, -0.7}, 1.2, true},      // 7
-    {BoneId::kShin, {1.45, 0.3, -0.3}, 0.4, true},      // 8
-    {BoneId::kRibs, {0.85, 0.0, 1.0}, 3.4, false},      // 9
+// 49 + 15 for the best fit, without head, hands and feet.
+constexpr auto kBest64Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {-0.22, 0.0, -0.3}, 1.5, false},    // 0
+    {BoneId::kRibs, {0.90, 0.6, -0.1}, 1.1, true},       // 1
+    {BoneId::kChest, {0.61, 0.7, -0.2}, 1.1, true},      // 2
+    {BoneId::kClavicle, {0.51, -0.8, 0.0}, 1.6, true},   // 3
+    {BoneId::kUpperArm, {0.07, -0.1, 0.0}, 1.3, true},   // 4
+    {BoneId::kForearm, {0.88, -0.1, -0.2}, 0.8, true},   // 5
+    {BoneId::kThigh, {0.68, 0.0, 0.3}, 0.9, true},       // 6
+    {BoneId::kShin, {0.90, -0.1, -0.1}, 0.7, true},      // 7
+    {BoneId::kPelvis, {0.58, 0.4, 0.1}, 1.5, true},      // 8
+    {BoneId::kThigh, {0.58, 0.0, 0.2}, 1.1, true},       // 9
+    {BoneId::kChest, {0.37, 0.6, -0.2}, 1.6, true},      // 10
+    {BoneId::kBelly, {0.35, 0.4, -0.1}, 1.1, true},      // 11
+    {BoneId::kUpperArm, {-0.21, -0.7, 0.0}, 1.3, true},  // 12
+    {BoneId::kClavicle, {0.48, 0.3, -0.4}, 1.2, true},   // 13
+    {BoneId::kBelly, {0.85, 0.2, 0.0}, 1.0, true},       // 14
+    {BoneId::kRibs, {0.38, 0.2, 0.1}, 0.9, true},        // 15
+    {BoneId::kRibs, {0.61, 0.1, -0.1}, 1.1, true},       // 16
+    {BoneId::kUpperArm, {0.93, 0.0, 0.0}, 0.9, true},    // 17
+    {BoneId::kPelvis, {0.95, 0.1, -0.4}, 1.0, true},     // 18
+    {BoneId::kShin, {0.79, -0.1, -0.2}, 0.8, true},      // 19
+    {BoneId::kShin, {0.59, -0.1, -0.6}, 0.8, true},      // 20
+    {BoneId::kBelly, {0.12, 0.3, 0.4}, 0.7, true},       // 21
+    {BoneId::kThigh, {0.75, 0.0, 0.0}, 1.0, true},       // 22
+    {BoneId::kPelvis, {0.94, 0.6, 0.3}, 1.3, true},      // 23
+    {BoneId::kRibs, {0.49, 0.4, 0.4}, 0.5, true},        // 24
 });
-constexpr auto kPlainFullEdges = std::to_array<LayoutEdge>({{0, 1, false},
-                                                            {0, 3, false},
-                                                            {0, 6, false},
-                                                            {0, 9, false},
-                                                            {1, 2, false},
-                                                            {3, 5, false},
-                                                            {4, 5, false},
-                                                            {4, 8, false},
-                                                            {5, 5, true},
-                                                            {7, 8, false}});
+constexpr auto kBest64Edges = std::to_array<LayoutEdge>({{4, 17, false},
+                                                         {5, 17, false},
+                                                         {6, 19, false},
+                                                         {9, 18, false},
+                                                         {6, 20, false},
+                                                         {1, 1, true},
+                                                         {9, 23, false},
+                                                         {15, 23, false}});
 
-// About 32 + 32 without head, hands and feet: two chains from chest to hip, bust and belly and
-// buttock tied crosswise, two capsules side by side in the thigh.
-constexpr auto kTwinNodes = std::to_array<LayoutNode>({
-    {BoneId::kChest, {-0.70, 1.3, 1.3}, 1.4, true},     // 0
-    {BoneId::kChest, {1.10, 0.3, 0.4}, 0.8, true},      // 1
-    {BoneId::kClavicle, {0.45, -0.9, 0.3}, 1.6, true},  // 2
-    {BoneId::kThigh, {0.10, -0.2, 0.1}, 1.6, true},     // 3
-    {BoneId::kThigh, {0.90, -0.2, 0.5}, 0.7, true},     // 4
-    {BoneId::kThigh, {0.90, -0.1, 0.0}, 0.9, true},     // 5
-    {BoneId::kBelly, {2.10, 0.6, 1.1}, 1.1, true},      // 6
-    {BoneId::kClavicle, {1.00, 0.1, -0.1}, 0.9, true},  // 7
-    {BoneId::kPelvis, {0.60, 0.0, -0.1}, 1.2, true},    // 8
-    {BoneId::kForearm, {0.90, 0.0, -0.1}, 0.7, true},   // 9
-    {BoneId::kThigh, {0.35, -0.1, 0.5}, 1.4, true},     // 10
-    {BoneId::kBelly, {0.60, 0.5, 0.7}, 1.4, true},      // 11
-    {BoneId::kClavicle, {0.40, 0.0, -0.3}, 1.2, true},  // 12
-    {BoneId::kShin, {0.35, 0.3, -0.5}, 1.0, true},      // 13
-    {BoneId::kUpperArm, {1.05, -0.1, 0.0}, 1.0, true},  // 14
-    {BoneId::kShin, {0.90, 0.1, -0.1}, 0.5, true},      // 15
+// 24 + 8 for the best fit, with head, hands and feet.
+constexpr auto kBestFull32Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.36, 0.0, 0.6}, 0.8, false},      // 0
+    {BoneId::kClavicle, {0.63, 0.2, -0.2}, 1.0, true},   // 1
+    {BoneId::kPelvis, {0.65, 0.2, 0.1}, 1.6, true},      // 2
+    {BoneId::kThigh, {0.23, -0.1, 0.3}, 1.3, true},      // 3
+    {BoneId::kShin, {1.91, 0.0, 0.0}, 0.4, true},        // 4
+    {BoneId::kHand, {0.91, -0.3, -0.4}, 0.5, true},      // 5
+    {BoneId::kShin, {1.62, 0.0, 0.0}, 0.7, true},        // 6
+    {BoneId::kClavicle, {0.35, -0.6, -0.1}, 1.6, true},  // 7
+    {BoneId::kRibs, {0.84, 0.5, 0.0}, 1.2, true},        // 8
+    {BoneId::kHead, {0.67, 0.0, 0.1}, 1.5, false},       // 9
+    {BoneId::kHead, {0.21, 0.0, 0.5}, 1.2, false},       // 10
+    {BoneId::kHead, {0.17, 0.0, 0.2}, 1.2, false},       // 11
+    {BoneId::kHand, {0.45, -0.1, 0.7}, 0.9, true},       // 12
+    {BoneId::kFoot, {0.94, 0.0, 0.4}, 0.9, true},        // 13
 });
-constexpr auto kTwinEdges = std::to_array<LayoutEdge>({{0, 7, true},
-                                                       {0, 11, true},
-                                                       {1, 12, true},
-                                                       {2, 2, true},
-                                                       {2, 6, false},
-                                                       {2, 7, false},
-                                                       {3, 6, false},
-                                                       {3, 10, false},
-                                                       {4, 10, false},
-                                                       {5, 10, false},
-                                                       {5, 13, false},
-                                                       {7, 12, false},
-                                                       {7, 14, false},
-                                                       {8, 11, true},
-                                                       {9, 14, false},
-                                                       {11, 11, true},
-                                                       {13, 15, false}});
+constexpr auto kBestFull32Edges =
+    std::to_array<LayoutEdge>({{0, 2, false}, {3, 4, false}, {1, 5, false}, {6, 13, false}});
 
-// About 32 + 32 with head, hands and feet.
-constexpr auto kTwinFullNodes = std::to_array<LayoutNode>({
-    {BoneId::kHead, {0.05, 0.0, 0.0}, 0.8, false},       // 0
-    {BoneId::kUpperArm, {1.00, -0.1, -0.1}, 0.9, true},  // 1
-    {BoneId::kHand, {0.65, 0.7, -0.5}, 0.4, true},       // 2
-    {BoneId::kChest, {-1.15, 0.0, 1.1}, 1.5, false},     // 3
-    {BoneId::kPelvis, {0.55, 0.1, 0.0}, 1.2, true},      // 4
-    {BoneId::kHead, {0.70, 0.0, 0.3}, 1.8, false},       // 5
-    {BoneId::kFoot, {0.50, 0.7, -0.7}, 1.2, true},       // 6
-    {BoneId::kChest, {-0.95, 0.8, 0.7}, 1.9, true},      // 7
-    {BoneId::kForearm, {0.45, 0.0, -0.1}, 0.9, true},    // 8
-    {BoneId::kShin, {0.30, 0.2, -0.5}, 0.9, true},       // 9
-    {BoneId::kThigh, {0.95, -0.2, 0.1}, 0.9, true},      // 10
-    {BoneId::kThigh, {0.35, -0.1, 0.5}, 1.4, true},      // 11
-    {BoneId::kClavicle, {1.00, 0.1, -0.1}, 0.9, true},   // 12
-    {BoneId::kShin, {1.55, 0.1, 0.0}, 0.4, true},        // 13
-    {BoneId::kHand, {0.25, 0.2, 1.1}, 0.8, true},        // 14
-    {BoneId::kHead, {0.45, 0.0, 1.4}, 1.3, false},       // 15
-    {BoneId::kThigh, {0.10, -0.2, 0.1}, 1.6, true},      // 16
-    {BoneId::kClavicle, {0.60, 0.0, -0.2}, 1.2, true},   // 17
+// 47 + 17 for the best fit, with head, hands and feet.
+constexpr auto kBestFull64Nodes = std::to_array<LayoutNode>({
+    {BoneId::kClavicle, {0.43, 0.1, -0.2}, 1.2, true},  // 0
+    {BoneId::kChest, {0.20, 0.9, -0.1}, 1.4, true},     // 1
+    {BoneId::kUpperArm, {0.87, 0.0, -0.1}, 0.9, true},  // 2
+    {BoneId::kPelvis, {0.67, 0.3, 0.1}, 1.6, true},     // 3
+    {BoneId::kShin, {0.31, 0.0, 0.1}, 0.7, true},       // 4
+    {BoneId::kHead, {0.70, 0.0, -0.3}, 1.3, false},     // 5
+    {BoneId::kShin, {0.18, 0.0, -0.2}, 1.0, true},      // 6
+    {BoneId::kHand, {0.90, -0.3, -0.1}, 0.6, true},     // 7
+    {BoneId::kShin, {1.85, 0.0, 0.1}, 0.5, true},       // 8
+    {BoneId::kThigh, {0.23, -0.1, 0.3}, 1.4, true},     // 9
+    {BoneId::kChest, {1.19, 0.0, 0.0}, 0.9, true},      // 10
+    {BoneId::kClavicle, {0.99, -0.1, 0.0}, 1.0, true},  // 11
+    {BoneId::kRibs, {0.97, 0.8, 0.7}, 0.6, true},       // 12
+    {BoneId::kChest, {0.26, 0.7, -0.2}, 1.5, true},     // 13
+    {BoneId::kRibs, {0.80, 0.6, -0.1}, 1.1, true},      // 14
+    {BoneId::kRibs, {0.50, 0.5, 0.2}, 0.7, true},       // 15
+    {BoneId::kFoot, {0.37, 0.2, -0.8}, 1.1, true},      // 16
+    {BoneId::kHead, {0.20, 0.0, 0.4}, 1.0, false},      // 17
+    {BoneId::kHead, {0.36, 0.0, 0.4}, 1.1, false},      // 18
+    {BoneId::kHand, {0.46, 0.1, 1.4}, 0.5, true},       // 19
+    {BoneId::kFoot, {0.73, 0.5, 0.0}, 1.0, true},       // 20
+    {BoneId::kFoot, {0.88, -0.8, 0.3}, 0.8, true},      // 21
+    {BoneId::kBelly, {0.13, 0.1, 0.4}, 0.9, true},      // 22
+    {BoneId::kHead, {0.49, 0.0, 0.4}, 1.2, false},      // 23
+    {BoneId::kHand, {0.53, -0.1, 1.0}, 0.7, true},      // 24
+    {BoneId::kHead, {0.69, 0.0, 0.5}, 1.3, false},      // 25
 });
-constexpr auto kTwinFullEdges = std::to_array<LayoutEdge>({{0, 3, false},
-                                                           {0, 7, false},
-                                                           {0, 15, false},
-                                                           {1, 8, false},
-                                                           {1, 12, false},
-                                                           {2, 8, false},
-                                                           {2, 14, false},
-                                                           {3, 12, false},
-                                                           {3, 16, false},
-                                                           {4, 16, false},
-                                                           {5, 15, false},
-                                                           {6, 13, false},
-                                                           {7, 17, false},
-                                                           {9, 10, false},
-                                                           {9, 13, false},
-                                                           {10, 11, false},
-                                                           {11, 16, false},
-                                                           {17, 17, true}});
+constexpr auto kBestFull64Edges = std::to_array<LayoutEdge>({{6, 8, false},
+                                                             {4, 9, false},
+                                                             {2, 11, false},
+                                                             {2, 7, false},
+                                                             {3, 15, false},
+                                                             {16, 20, false},
+                                                             {16, 21, false},
+                                                             {14, 22, true},
+                                                             {5, 25, false}});
 
-// About 32 + 32 that enclose a body without head, hands and feet: a big sphere in each buttock tied
-// to the waist straight and crosswise, a capsule in each breast, shoulder and chest and shoulder
-// blade as a star.
-constexpr auto kShellNodes = std::to_array<LayoutNode>({
-    {BoneId::kShin, {0.90, 0.1, 0.2}, 0.4, true},       // 0
-    {BoneId::kClavicle, {0.60, -2.0, 1.9}, 0.9, true},  // 1
-    {BoneId::kClavicle, {0.45, 0.1, -0.3}, 1.2, true},  // 2
-    {BoneId::kChest, {1.30, 0.0, 0.5}, 1.1, false},     // 3
-    {BoneId::kUpperArm, {1.05, -0.1, 0.0}, 1.1, true},  // 4
-    {BoneId::kChest, {-0.65, 0.8, 0.6}, 2.0, true},     // 5
-    {BoneId::kChest, {-0.10, 1.1, 0.5}, 1.9, true},     // 6
-    {BoneId::kChest, {0.85, 0.0, 0.0}, 1.1, false},     // 7
-    {BoneId::kBelly, {2.00, 0.4, 1.2}, 1.4, true},      // 8
-    {BoneId::kForearm, {0.95, 0.0, -0.1}, 0.9, true},   // 9
-    {BoneId::kShin, {0.90, 0.1, -0.2}, 0.6, true},      // 10
-    {BoneId::kClavicle, {1.00, 0.0, -0.2}, 1.0, true},  // 11
-    {BoneId::kThigh, {0.10, -0.2, 0.1}, 1.7, true},     // 12
-    {BoneId::kThigh, {0.40, -0.1, 0.5}, 1.5, true},     // 13
-    {BoneId::kPelvis, {0.65, -0.1, 0.0}, 1.3, true},    // 14
-    {BoneId::kShin, {0.35, 0.3, -0.5}, 1.0, true},      // 15
-    {BoneId::kThigh, {0.90, -0.2, 0.2}, 1.1, true},     // 16
+// The fewest that enclose: 10 + 5, a capsule each for trunk and limbs. By hand.
+constexpr auto kPlainestNodes = std::to_array<LayoutNode>({
+    {BoneId::kBelly, {0.30, 0.0, 0.0}, 1.5, false},
+    {BoneId::kChest, {0.60, 0.0, 0.0}, 1.2, false},
+    {BoneId::kClavicle, {0.90, 0.0, 0.0}, 1.2, true},
+    {BoneId::kForearm, {0.90, 0.0, 0.0}, 1.0, true},
+    {BoneId::kThigh, {0.10, 0.0, 0.0}, 1.7, true},
+    {BoneId::kShin, {0.90, 0.0, 0.0}, 1.0, true},
 });
-constexpr auto kShellEdges = std::to_array<LayoutEdge>({{1, 6, false},
-                                                        {2, 6, false},
-                                                        {2, 7, false},
-                                                        {2, 11, false},
-                                                        {3, 7, false},
-                                                        {4, 9, false},
-                                                        {4, 11, false},
-                                                        {5, 7, false},
-                                                        {5, 8, false},
-                                                        {6, 11, false},
-                                                        {8, 8, true},
-                                                        {8, 14, false},
-                                                        {8, 14, true},
-                                                        {10, 15, false},
-                                                        {12, 13, false},
-                                                        {13, 16, false},
-                                                        {15, 16, false}});
+constexpr auto kPlainestEdges =
+    std::to_array<LayoutEdge>({{0, 1, false}, {2, 3, false}, {4, 5, false}});
 
-// About 31 + 32 that enclose a whole body.
-constexpr auto kShellFullNodes = std::to_array<LayoutNode>({
-    {BoneId::kClavicle, {0.65, -1.8, 1.7}, 0.9, true},  // 0
-    {BoneId::kHead, {0.65, 0.0, 0.4}, 2.1, false},      // 1
-    {BoneId::kUpperArm, {1.05, -0.1, 0.0}, 1.1, true},  // 2
-    {BoneId::kClavicle, {0.40, -0.7, 0.3}, 1.7, true},  // 3
-    {BoneId::kChest, {0.70, 0.0, -0.5}, 1.3, false},    // 4
-    {BoneId::kBelly, {2.10, 0.3, 1.3}, 1.5, true},      // 5
-    {BoneId::kForearm, {1.00, -0.1, -0.1}, 0.8, true},  // 6
-    {BoneId::kShin, {1.50, 0.1, -0.1}, 0.8, true},      // 7
-    {BoneId::kClavicle, {1.00, 0.0, -0.2}, 1.0, true},  // 8
-    {BoneId::kThigh, {0.10, -0.3, 0.0}, 1.8, true},     // 9
-    {BoneId::kThigh, {0.40, -0.1, 0.5}, 1.5, true},     // 10
-    {BoneId::kPelvis, {0.60, -0.1, 0.0}, 1.3, true},    // 11
-    {BoneId::kShin, {0.30, 0.3, -0.4}, 1.0, true},      // 12
-    {BoneId::kHand, {0.65, -0.2, 0.6}, 2.7, true},      // 13
-    {BoneId::kFoot, {0.80, 1.0, -0.2}, 1.7, true},      // 14
-    {BoneId::kThigh, {0.90, -0.2, 0.2}, 1.0, true},     // 15
-    {BoneId::kHead, {0.45, 0.0, 1.6}, 1.4, false},      // 16
+// 18 + 14 for enclosing, without head, hands and feet.
+constexpr auto kShell32Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.27, 0.0, 0.0}, 1.4, false},    // 0
+    {BoneId::kRibs, {0.95, 0.4, 0.0}, 1.6, true},      // 1
+    {BoneId::kChest, {0.79, 0.0, -0.2}, 1.3, false},   // 2
+    {BoneId::kClavicle, {0.80, 0.1, 0.0}, 1.2, true},  // 3
+    {BoneId::kForearm, {0.98, 0.0, 0.0}, 0.9, true},   // 4
+    {BoneId::kThigh, {0.99, 0.0, 0.0}, 0.9, true},     // 5
+    {BoneId::kShin, {0.97, -0.1, -0.2}, 0.7, true},    // 6
+    {BoneId::kPelvis, {0.60, 0.1, 0.2}, 1.8, true},    // 7
+    {BoneId::kThigh, {0.27, -0.1, 0.2}, 1.4, true},    // 8
+    {BoneId::kShin, {0.49, 0.0, -0.2}, 1.1, true},     // 9
 });
-constexpr auto kShellFullEdges = std::to_array<LayoutEdge>({{0, 0, true},
-                                                            {0, 8, false},
-                                                            {1, 16, false},
-                                                            {2, 6, false},
-                                                            {2, 8, false},
-                                                            {3, 3, true},
-                                                            {3, 5, false},
-                                                            {3, 8, false},
-                                                            {4, 8, false},
-                                                            {4, 16, false},
-                                                            {5, 9, false},
-                                                            {5, 11, true},
-                                                            {6, 13, false},
-                                                            {7, 12, false},
-                                                            {7, 14, false},
-                                                            {9, 10, false},
-                                                            {10, 15, false},
-                                                            {12, 15, false}});
+constexpr auto kShell32Edges = std::to_array<LayoutEdge>({{0, 7, false},
+                                                          {5, 8, false},
+                                                          {2, 3, false},
+                                                          {3, 4, false},
+                                                          {5, 9, false},
+                                                          {6, 9, false},
+                                                          {1, 3, false}});
+
+// 32 + 32 for enclosing, without head, hands and feet.
+constexpr auto kShell64Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.26, 0.0, 0.1}, 1.0, false},     // 0
+    {BoneId::kRibs, {1.03, 0.5, 0.0}, 1.3, true},       // 1
+    {BoneId::kForearm, {0.96, 0.0, 0.0}, 0.8, true},    // 2
+    {BoneId::kPelvis, {0.72, 0.4, 0.2}, 1.7, true},     // 3
+    {BoneId::kThigh, {0.99, 0.0, 0.0}, 0.9, true},      // 4
+    {BoneId::kShin, {0.97, -0.1, -0.2}, 0.7, true},     // 5
+    {BoneId::kRibs, {1.16, 0.6, -0.6}, 0.8, true},      // 6
+    {BoneId::kBelly, {0.61, 0.0, -0.1}, 0.9, false},    // 7
+    {BoneId::kThigh, {0.38, -0.1, 0.2}, 1.3, true},     // 8
+    {BoneId::kClavicle, {1.00, -0.2, 0.0}, 1.1, true},  // 9
+    {BoneId::kClavicle, {0.40, 0.1, -0.2}, 1.4, true},  // 10
+    {BoneId::kRibs, {-0.07, 0.0, -0.5}, 0.9, false},    // 11
+    {BoneId::kForearm, {-0.01, 0.0, 0.0}, 1.1, true},   // 12
+    {BoneId::kForearm, {0.46, 0.0, 0.0}, 1.1, true},    // 13
+    {BoneId::kRibs, {1.36, 1.1, -0.1}, 0.6, true},      // 14
+    {BoneId::kThigh, {0.12, -0.4, 0.3}, 1.5, true},     // 15
+    {BoneId::kShin, {0.49, 0.0, -0.2}, 1.1, true},      // 16
+    {BoneId::kChest, {1.02, 0.0, -0.1}, 0.8, false},    // 17
+});
+constexpr auto kShell64Edges = std::to_array<LayoutEdge>({{0, 3, false},
+                                                          {4, 8, false},
+                                                          {10, 11, false},
+                                                          {9, 10, false},
+                                                          {3, 3, true},
+                                                          {9, 12, false},
+                                                          {2, 13, false},
+                                                          {12, 13, false},
+                                                          {7, 14, false},
+                                                          {9, 14, false},
+                                                          {8, 15, false},
+                                                          {4, 16, false},
+                                                          {5, 16, false},
+                                                          {1, 6, false},
+                                                          {3, 15, false},
+                                                          {10, 10, true},
+                                                          {10, 17, false}});
+
+// 83 + 44 for enclosing, without head, hands and feet.
+constexpr auto kShell128Nodes = std::to_array<LayoutNode>({
+    {BoneId::kRibs, {0.95, 0.0, 0.2}, 0.9, true},        // 0
+    {BoneId::kRibs, {0.17, 0.3, 0.3}, 0.6, true},        // 1
+    {BoneId::kChest, {0.86, 0.2, -0.2}, 1.0, true},      // 2
+    {BoneId::kRibs, {1.34, 0.8, 0.0}, 1.0, true},        // 3
+    {BoneId::kForearm, {0.96, 0.0, 0.0}, 0.8, true},     // 4
+    {BoneId::kPelvis, {0.67, 0.5, 0.2}, 1.8, true},      // 5
+    {BoneId::kThigh, {0.92, 0.0, 0.1}, 1.0, true},       // 6
+    {BoneId::kShin, {0.96, -0.1, -0.2}, 0.7, true},      // 7
+    {BoneId::kRibs, {1.20, 0.4, -0.4}, 0.8, true},       // 8
+    {BoneId::kThigh, {0.22, 0.0, 0.3}, 1.1, true},       // 9
+    {BoneId::kChest, {0.39, 0.0, 0.2}, 1.1, false},      // 10
+    {BoneId::kThigh, {0.49, 0.0, 0.1}, 1.2, true},       // 11
+    {BoneId::kRibs, {0.37, 0.2, 0.1}, 1.1, true},        // 12
+    {BoneId::kPelvis, {0.66, -0.2, 0.4}, 1.4, true},     // 13
+    {BoneId::kForearm, {0.45, 0.0, 0.0}, 1.1, true},     // 14
+    {BoneId::kClavicle, {1.15, -0.2, 0.3}, 0.7, true},   // 15
+    {BoneId::kThigh, {0.13, -0.2, 0.2}, 1.0, true},      // 16
+    {BoneId::kBelly, {0.35, 0.4, 0.0}, 0.8, true},       // 17
+    {BoneId::kShin, {0.48, 0.0, -0.2}, 1.1, true},       // 18
+    {BoneId::kBelly, {1.07, 0.4, 0.0}, 1.1, true},       // 19
+    {BoneId::kClavicle, {0.41, 0.4, -0.2}, 1.1, true},   // 20
+    {BoneId::kThigh, {0.37, -0.1, 0.2}, 1.2, true},      // 21
+    {BoneId::kChest, {0.64, 0.0, -1.1}, 0.2, false},     // 22
+    {BoneId::kBelly, {1.14, 0.6, -0.1}, 0.6, true},      // 23
+    {BoneId::kBelly, {0.35, 0.8, 0.0}, 1.1, true},       // 24
+    {BoneId::kForearm, {0.15, 0.0, 0.0}, 1.1, true},     // 25
+    {BoneId::kUpperArm, {0.03, 0.0, -0.1}, 1.3, true},   // 26
+    {BoneId::kChest, {0.15, 0.2, 0.1}, 1.6, true},       // 27
+    {BoneId::kRibs, {1.07, 0.5, -0.7}, 0.5, true},       // 28
+    {BoneId::kClavicle, {0.56, -0.3, -0.1}, 1.2, true},  // 29
+    {BoneId::kClavicle, {0.44, -0.3, -0.2}, 1.3, true},  // 30
+    {BoneId::kUpperArm, {0.25, -0.1, 0.0}, 1.3, true},   // 31
+    {BoneId::kChest, {0.86, 0.0, -0.2}, 1.0, false},     // 32
+    {BoneId::kClavicle, {0.35, 0.0, -0.2}, 1.3, true},   // 33
+    {BoneId::kThigh, {0.91, 0.0, -0.4}, 0.4, true},      // 34
+    {BoneId::kShin, {0.23, 0.0, 0.0}, 1.2, true},        // 35
+    {BoneId::kBelly, {0.52, 0.0, 0.1}, 1.1, true},       // 36
+    {BoneId::kPelvis, {0.64, -0.1, -0.6}, 0.8, true},    // 37
+    {BoneId::kShin, {0.70, -0.1, -0.2}, 0.9, true},      // 38
+    {BoneId::kShin, {-0.26, 0.0, 0.0}, 1.2, true},       // 39
+    {BoneId::kShin, {0.98, -0.1, -0.5}, 0.3, true},      // 40
+    {BoneId::kClavicle, {0.79, -1.1, -0.2}, 0.6, true},  // 41
+    {BoneId::kRibs, {0.09, 0.3, 0.1}, 1.0, true},        // 42
+});
+constexpr auto kShell128Edges = std::to_array<LayoutEdge>(
+    {{6, 11, false},  {4, 14, false}, {19, 24, false}, {8, 12, true},   {12, 23, true},
+     {14, 25, false}, {3, 27, false}, {1, 27, false},  {12, 29, false}, {18, 35, false},
+     {13, 36, true},  {17, 19, true}, {5, 17, true},   {25, 31, false}, {7, 38, false},
+     {18, 38, false}, {6, 39, false}, {35, 39, false}, {11, 16, false}, {3, 33, true},
+     {12, 42, false}, {19, 42, false}});
+
+// The fewest that enclose: 10 + 5, a capsule each for trunk and limbs. By hand.
+constexpr auto kPlainestFullNodes = std::to_array<LayoutNode>({
+    {BoneId::kBelly, {0.30, 0.0, 0.0}, 1.5, false},
+    {BoneId::kHead, {0.60, 0.0, 0.3}, 1.8, false},
+    {BoneId::kClavicle, {0.90, 0.0, 0.0}, 1.2, true},
+    {BoneId::kHand, {0.50, 0.0, 0.0}, 2.5, true},
+    {BoneId::kThigh, {0.10, 0.0, 0.0}, 1.7, true},
+    {BoneId::kFoot, {0.30, 0.0, 0.0}, 1.7, true},
+});
+constexpr auto kPlainestFullEdges =
+    std::to_array<LayoutEdge>({{0, 1, false}, {2, 3, false}, {4, 5, false}});
+
+// 20 + 12 for enclosing, with head, hands and feet.
+constexpr auto kShellFull32Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.35, 0.4, 0.4}, 1.0, true},       // 0
+    {BoneId::kRibs, {0.99, 0.0, -0.1}, 1.9, false},      // 1
+    {BoneId::kChest, {0.80, 0.0, -0.2}, 1.5, false},     // 2
+    {BoneId::kUpperArm, {0.06, -0.1, -0.1}, 1.4, true},  // 3
+    {BoneId::kHand, {0.42, -0.1, -0.2}, 1.2, true},      // 4
+    {BoneId::kBelly, {0.26, 0.5, 0.0}, 1.4, true},       // 5
+    {BoneId::kThigh, {0.66, 0.0, 0.2}, 1.1, true},       // 6
+    {BoneId::kHeel, {0.40, 0.0, -0.5}, 2.1, true},       // 7
+    {BoneId::kHand, {0.65, -0.2, 0.4}, 2.5, true},       // 8
+    {BoneId::kHead, {0.63, 0.0, 0.2}, 1.8, false},       // 9
+    {BoneId::kHead, {0.45, 0.0, 1.2}, 1.2, false},       // 10
+    {BoneId::kFoot, {0.90, 0.0, 0.3}, 1.7, true},        // 11
+});
+constexpr auto kShellFull32Edges = std::to_array<LayoutEdge>(
+    {{5, 6, false}, {6, 7, false}, {3, 4, false}, {7, 11, false}, {0, 5, false}, {2, 3, false}});
+
+// 32 + 31 for enclosing, with head, hands and feet.
+constexpr auto kShellFull64Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.42, 0.0, 0.0}, 1.1, false},     // 0
+    {BoneId::kChest, {0.15, 0.5, -0.1}, 1.7, true},     // 1
+    {BoneId::kChest, {0.87, 0.0, -0.5}, 0.8, false},    // 2
+    {BoneId::kClavicle, {0.84, 0.1, -0.1}, 1.1, true},  // 3
+    {BoneId::kHand, {0.15, -0.1, -0.2}, 1.2, true},     // 4
+    {BoneId::kPelvis, {0.69, 0.5, 0.1}, 1.9, true},     // 5
+    {BoneId::kThigh, {0.90, 0.0, 0.1}, 1.0, true},      // 6
+    {BoneId::kShin, {1.69, -0.1, 0.0}, 0.9, true},      // 7
+    {BoneId::kHand, {0.71, -0.4, 0.6}, 2.3, true},      // 8
+    {BoneId::kFoot, {0.90, 0.0, 0.3}, 1.7, true},       // 9
+    {BoneId::kShin, {0.36, 0.0, -0.2}, 1.0, true},      // 10
+    {BoneId::kHead, {0.41, 0.0, 0.6}, 1.1, true},       // 11
+    {BoneId::kRibs, {0.72, 0.0, 0.1}, 1.1, false},      // 12
+    {BoneId::kThigh, {0.37, -0.1, 0.2}, 1.4, true},     // 13
+    {BoneId::kHead, {0.62, 0.0, 0.1}, 1.8, false},      // 14
+    {BoneId::kBelly, {1.06, 0.5, 0.1}, 1.0, true},      // 15
+    {BoneId::kUpperArm, {0.84, 0.0, 0.0}, 1.0, true},   // 16
+    {BoneId::kShin, {0.77, 0.0, 0.0}, 0.7, true},       // 17
+});
+constexpr auto kShellFull64Edges = std::to_array<LayoutEdge>({{4, 8, false},
+                                                              {6, 10, false},
+                                                              {2, 11, false},
+                                                              {7, 9, false},
+                                                              {6, 13, false},
+                                                              {1, 3, false},
+                                                              {2, 3, false},
+                                                              {5, 15, false},
+                                                              {5, 13, false},
+                                                              {3, 16, false},
+                                                              {4, 16, false},
+                                                              {1, 15, false},
+                                                              {7, 17, false},
+                                                              {10, 17, false},
+                                                              {5, 15, true},
+                                                              {5, 5, true}});
+
+// 97 + 30 for enclosing, with head, hands and feet.
+constexpr auto kShellFull128Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {-0.01, 0.0, 0.1}, 1.1, false},     // 0
+    {BoneId::kRibs, {0.43, 0.0, 0.2}, 0.8, false},       // 1
+    {BoneId::kClavicle, {0.76, -0.1, -0.2}, 1.2, true},  // 2
+    {BoneId::kUpperArm, {0.67, 0.0, -0.1}, 1.0, true},   // 3
+    {BoneId::kForearm, {0.99, 0.0, 0.0}, 0.7, true},     // 4
+    {BoneId::kPelvis, {0.71, 0.5, 0.1}, 1.8, true},      // 5
+    {BoneId::kThigh, {0.42, -0.1, 0.3}, 1.2, true},      // 6
+    {BoneId::kThigh, {0.37, -0.1, 0.3}, 1.2, true},      // 7
+    {BoneId::kChest, {0.49, 0.0, -0.2}, 1.3, false},     // 8
+    {BoneId::kRibs, {1.15, 0.5, -0.2}, 1.2, true},       // 9
+    {BoneId::kShin, {0.98, 0.0, 0.5}, 0.6, true},        // 10
+    {BoneId::kBelly, {0.41, 0.7, 0.0}, 1.1, true},       // 11
+    {BoneId::kThigh, {0.68, 0.0, 0.0}, 1.0, true},       // 12
+    {BoneId::kFoot, {0.89, 0.0, 0.2}, 1.7, true},        // 13
+    {BoneId::kHeel, {0.26, 0.0, -0.4}, 2.0, true},       // 14
+    {BoneId::kUpperArm, {0.65, 0.0, 0.1}, 0.9, true},    // 15
+    {BoneId::kShin, {0.34, 0.0, -0.6}, 0.8, true},       // 16
+    {BoneId::kUpperArm, {0.15, -0.1, 0.0}, 1.5, true},   // 17
+    {BoneId::kRibs, {0.91, 0.6, -0.2}, 1.1, true},       // 18
+    {BoneId::kShin, {1.72, -0.1, -0.2}, 0.7, true},      // 19
+    {BoneId::kThigh, {0.31, -0.1, 0.1}, 1.2, true},      // 20
+    {BoneId::kHead, {0.27, 0.0, 0.3}, 1.2, false},       // 21
+    {BoneId::kBelly, {0.51, 0.1, 0.0}, 1.1, true},       // 22
+    {BoneId::kBelly, {0.28, 0.0, 0.0}, 1.3, false},      // 23
+    {BoneId::kBelly, {1.61, 0.0, -0.9}, 0.3, false},     // 24
+    {BoneId::kShin, {0.89, 0.0, 0.0}, 0.6, true},        // 25
+    {BoneId::kChest, {0.94, 0.3, -0.2}, 0.9, true},      // 26
+    {BoneId::kHead, {0.55, 0.0, 1.0}, 0.8, false},       // 27
+    {BoneId::kUpperArm, {0.43, 0.0, 0.0}, 1.3, true},    // 28
+    {BoneId::kHead, {0.66, 0.0, -0.1}, 1.6, false},      // 29
+    {BoneId::kHead, {0.69, 0.0, 0.5}, 1.4, false},       // 30
+    {BoneId::kThigh, {0.89, 0.0, 0.2}, 0.9, true},       // 31
+    {BoneId::kShin, {0.04, 0.0, -0.2}, 0.9, true},       // 32
+    {BoneId::kHead, {0.37, 0.0, 0.6}, 0.8, false},       // 33
+    {BoneId::kForearm, {0.25, 0.0, 0.0}, 1.2, true},     // 34
+    {BoneId::kShin, {0.52, 0.0, -0.2}, 0.9, true},       // 35
+    {BoneId::kHead, {0.46, 0.2, 0.7}, 1.0, true},        // 36
+    {BoneId::kClavicle, {0.38, -0.5, -0.6}, 1.0, true},  // 37
+    {BoneId::kRibs, {1.06, 0.8, 0.6}, 0.5, true},        // 38
+    {BoneId::kHead, {0.31, 0.0, 1.3}, 0.5, false},       // 39
+    {BoneId::kHand, {0.65, -0.7, 1.8}, 0.6, true},       // 40
+    {BoneId::kForearm, {0.13, 0.0, 0.0}, 1.1, true},     // 41
+    {BoneId::kBelly, {0.25, 0.5, -0.6}, 0.6, true},      // 42
+    {BoneId::kHand, {0.60, -0.2, 0.2}, 1.9, true},       // 43
+    {BoneId::kHand, {0.80, -0.2, -0.1}, 1.4, true},      // 44
+    {BoneId::kBelly, {0.98, 0.6, 0.0}, 0.9, true},       // 45
+    {BoneId::kThigh, {0.04, 0.3, 0.3}, 0.8, true},       // 46
+    {BoneId::kRibs, {1.26, 0.7, 0.3}, 0.6, true},        // 47
+    {BoneId::kBelly, {0.76, 0.3, 0.3}, 0.7, true},       // 48
+    {BoneId::kShin, {0.11, -0.4, -0.1}, 0.5, true},      // 49
+    {BoneId::kHand, {0.39, -0.1, -0.1}, 1.5, true},      // 50
+    {BoneId::kShin, {0.87, 0.0, -0.2}, 0.5, true},       // 51
+    {BoneId::kUpperArm, {0.67, 0.0, -0.5}, 0.4, true},   // 52
+    {BoneId::kThigh, {0.39, -0.1, 0.9}, 0.6, true},      // 53
+});
+constexpr auto kShellFull128Edges = std::to_array<LayoutEdge>({{5, 7, false},
+                                                               {0, 11, false},
+                                                               {13, 19, false},
+                                                               {12, 20, false},
+                                                               {6, 31, false},
+                                                               {6, 32, false},
+                                                               {16, 32, false},
+                                                               {4, 34, false},
+                                                               {25, 35, false},
+                                                               {31, 35, false},
+                                                               {3, 41, false},
+                                                               {18, 45, false},
+                                                               {4, 50, false},
+                                                               {16, 35, false},
+                                                               {2, 37, false}});
 
 }  // namespace
 
 std::span<const NamedLayout> Layouts() {
-  static constexpr std::array<NamedLayout, 6> kLayouts = {{
-      {"plain", Guise::kBestFit, false, {kPlainNodes, kPlainEdges}},
-      {"plain, full", Guise::kBestFit, true, {kPlainFullNodes, kPlainFullEdges}},
-      {"twin", Guise::kBestFit, false, {kTwinNodes, kTwinEdges}},
-      {"twin, full", Guise::kBestFit, true, {kTwinFullNodes, kTwinFullEdges}},
-      {"shell", Guise::kEnclose, false, {kShellNodes, kShellEdges}},
-      {"shell, full", Guise::kEnclose, true, {kShellFullNodes, kShellFullEdges}},
+  static constexpr std::array<NamedLayout, 12> kLayouts = {{
+      {"best fit, 32", Guise::kBestFit, false, {kBest32Nodes, kBest32Edges}},
+      {"best fit, 64", Guise::kBestFit, false, {kBest64Nodes, kBest64Edges}},
+      {"best fit, whole body, 32", Guise::kBestFit, true, {kBestFull32Nodes, kBestFull32Edges}},
+      {"best fit, whole body, 64", Guise::kBestFit, true, {kBestFull64Nodes, kBestFull64Edges}},
+      {"shell, 15", Guise::kEnclose, false, {kPlainestNodes, kPlainestEdges}},
+      {"shell, 32", Guise::kEnclose, false, {kShell32Nodes, kShell32Edges}},
+      {"shell, 64", Guise::kEnclose, false, {kShell64Nodes, kShell64Edges}},
+      {"shell, 128", Guise::kEnclose, false, {kShell128Nodes, kShell128Edges}},
+      {"shell, whole body, 15", Guise::kEnclose, true, {kPlainestFullNodes, kPlainestFullEdges}},
+      {"shell, whole body, 32", Guise::kEnclose, true, {kShellFull32Nodes, kShellFull32Edges}},
+      {"shell, whole body, 64", Guise::kEnclose, true, {kShellFull64Nodes, kShellFull64Edges}},
+      {"shell, whole body, 128", Guise::kEnclose, true, {kShellFull128Nodes, kShellFull128Edges}},
   }};
   return kLayouts;
 }

@@ -13,10 +13,14 @@
 namespace capfit::refine {
 
 enum class Effort {
-  kRough,   // from a start whose places and radii are guesses
-  kTouch,   // a few steps after edits
-  kFinish,  // until nothing is left to gain
+  kRough,    // from a start whose places and radii are guesses
+  kTouch,    // a few steps after edits
+  kTighten,  // from a set that is finished but for what has been added to the task since
+  kFinish,   // until nothing is left to gain
 };
+
+// A glance costs a third of a thorough trial and tells which edits are worth one.
+enum class Trial { kGlance, kThorough };
 
 // All values are relative to the volume of the fitted parts; lower is better. Implementations are
 // immutable and may be asked from several threads.
@@ -34,9 +38,9 @@ class Objective {
   class Round {
    public:
     virtual ~Round() = default;
-    // Settles the surroundings of the edit within edited.graph; returns by how much the value
-    // falls.
-    virtual double Try(EditedGraph& edited) const = 0;
+    // Settles the surroundings of the edit within edited.graph, a little or as far as pays;
+    // returns by how much the value falls against the graph without the edit.
+    virtual double Try(Trial trial, EditedGraph& edited) const = 0;
   };
   [[nodiscard]] virtual std::unique_ptr<Round> StartRound(const CapsuleGraph& graph) const = 0;
 

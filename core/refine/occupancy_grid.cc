@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/refine/cone.h"
 #include "core/refine/internal.h"
@@ -234,6 +235,42 @@ class SoftUnion {
   std::vector<float> share_;
 };
 
+// What one cell of the grid stands for, its image included.
+double CellVolume(const OccupancyGrid& grid) {
+  const double cell_m = grid.cell_m;
+  return (grid.folded ? 2.0 : 1.0) * cell_m * cell_m * cell_m;
+}
+
+Box WholeBox(const OccupancyGrid& grid) {
+  const Vec3 low = grid.origin_m.cast<double>();
+  return {low, low + grid.cell_m * Vec3(grid.nx, grid.ny, grid.nz)};
+}
+
+// Calls take(index of the first cell, errors of the cells) for each row along z of the range.
+template <class Take>
+void ForRowsOfError(const OccupancyGrid& grid, const CapsuleGraph& graph, const CellRange& range,
+                    const Take& take) {
+  const std::array<int, 3> count = {range.high[0] - range.low[0], range.high[1] - range.low[1],
+                                    range.high[2] - range.low[2]};
+  const Vec3 corner =
+      grid.origin_m.cast<double>() + grid.cell_m * Vec3(range.low[0], range.low[1], range.low[2]);
+  SoftUnion filled(corner, count, grid.cell_m);
+  filled.Add(graph);
+  std::vector<float> row(U(count[2]));
+  for (int j = 0; j < count[1]; ++j) {
+    for (int i = 0; i < count[0]; ++i) {
+      const std::size_t from = filled.RowOf(i, j);
+      const std::size_t to = grid.ColumnOf(range.low[0] + i, range.low[1] + j) + U(range.low[2]);
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        const float share = filled.ShareAt(from + k);
+        row[k] = std::max(0.0f, share - grid.inside[to + k]) +
+                 std::max(0.0f, grid.fitted[to + k] - share);
+      }
+      take(to, row);
+    }
+  }
+}
+
 }  // namespace
 
 OccupancyGrid MakeOccupancyGrid(const body::Body& body, const body::PartSelection& parts,
@@ -286,29 +323,34 @@ void SampleCost(const OccupancyGrid& grid, const float* x, const float* y, const
 }
 
 double FillError(const OccupancyGrid& grid, const CapsuleGraph& graph, const Box& box) {
-  const CellRange range = RangeOf(grid, box);
-  const std::array<int, 3> count = {range.high[0] - range.low[0], range.high[1] - range.low[1],
-                                    range.high[2] - range.low[2]};
-  const Vec3 corner =
-      grid.origin_m.cast<double>() + grid.cell_m * Vec3(range.low[0], range.low[1], range.low[2]);
-  SoftUnion filled(corner, count, grid.cell_m);
-  filled.Add(graph);
   double cells = 0.0;
-  for (int j = 0; j < count[1]; ++j) {
-    for (int i = 0; i < count[0]; ++i) {
-      const std::size_t from = filled.RowOf(i, j);
-      const std::size_t to = grid.ColumnOf(range.low[0] + i, range.low[1] + j) + U(range.low[2]);
+  ForRowsOfError(grid, graph, RangeOf(grid, box), [&](std::size_t, const std::vector<float>& row) {
+    cells += std::accumulate(row.begin(), row.end(), 0.0f);
+  });
+  return cells * CellVolume(grid);
+}
+
+FillErrorMap::FillErrorMap(const OccupancyGrid& grid, const CapsuleGraph& graph)
+    : grid_(grid), errors_(grid.inside.size(), 0.0f) {
+  ForRowsOfError(grid, graph, RangeOf(grid, WholeBox(grid)),
+                 [&](std::size_t at, const std::vector<float>& row) {
+                   std::copy(row.begin(), row.end(),
+                             errors_.begin() + static_cast<std::ptrdiff_t>(at));
+                 });
+}
+
+double FillErrorMap::Over(const Box& box) const {
+  const CellRange range = RangeOf(grid_, box);
+  double cells = 0.0;
+  for (int j = range.low[1]; j < range.high[1]; ++j) {
+    for (int i = range.low[0]; i < range.high[0]; ++i) {
+      const std::size_t column = grid_.ColumnOf(i, j);
       float row = 0.0f;
-      for (std::size_t k = 0; k < U(count[2]); ++k) {
-        const float share = filled.ShareAt(from + k);
-        row += std::max(0.0f, share - grid.inside[to + k]) +
-               std::max(0.0f, grid.fitted[to + k] - share);
-      }
+      for (int k = range.low[2]; k < range.high[2]; ++k) row += errors_[column + U(k)];
       cells += row;
     }
   }
-  const double cell_m = grid.cell_m;
-  return cells * (grid.folded ? 2.0 : 1.0) * cell_m * cell_m * cell_m;
+  return cells * CellVolume(grid_);
 }
 
 double UnionVolume(const CapsuleGraph& graph, const Box& box, double cell_m) {
@@ -334,9 +376,7 @@ Box BoundsOf(const CapsuleGraph& graph, double margin_m) {
 }
 
 double GridError(const OccupancyGrid& grid, const CapsuleGraph& graph) {
-  const Vec3 low = grid.origin_m.cast<double>();
-  const Vec3 high = low + grid.cell_m * Vec3(grid.nx, grid.ny, grid.nz);
-  return FillError(grid, graph, {low, high}) / std::max(1e-12, grid.volume_m3);
+  return FillError(grid, graph, WholeBox(grid)) / std::max(1e-12, grid.volume_m3);
 }
 
 }  // namespace capfit::refine

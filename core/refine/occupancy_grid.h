@@ -54,6 +54,17 @@ using Box = std::array<Eigen::Vector3d, 2>;
 [[nodiscard]] double FillError(const OccupancyGrid& grid, const CapsuleGraph& graph,
                                const Box& box);
 
+// FillError of one graph over many boxes: a pass over the whole grid once, a sum for each box.
+class FillErrorMap {
+ public:
+  FillErrorMap(const OccupancyGrid& grid, const CapsuleGraph& graph);
+  [[nodiscard]] double Over(const Box& box) const;
+
+ private:
+  const OccupancyGrid& grid_;
+  std::vector<float> errors_;  // by cell, in cells
+};
+
 // Volume of the union of the solids within `box` the same way, without a body; `symmetric` graphs
 // count x >= 0 twice.
 [[nodiscard]] double UnionVolume(const CapsuleGraph& graph, const Box& box, double cell_m);

@@ -27,14 +27,18 @@ constexpr double kCellM = 0.008;         // of the occupancy grid
 constexpr double kThinnedCellM = 0.012;  // of the points that growing works on
 constexpr double kFoldCellM = 2e-5;      // mirrored vertices this close count as one
 constexpr int kNoLimit = 1'000'000;
-constexpr int kClosingRounds = 3;
+constexpr int kClosingRounds = 6;
+constexpr int kSettledRounds = 3;   // of them
+constexpr int kFewPrimitives = 80;  // up to here exchanges are quick
+constexpr int kMostSpared = 10;     // primitives that a start may have too many
 
 Spending SpendingOf(const circle::Budget& budget) {
   return {std::min(budget.max_primitives, kNoLimit), std::min(budget.max_spheres, kNoLimit),
           std::min(budget.max_capsules, kNoLimit)};
 }
 
-// The vertices of the selected parts; folded to x >= 0, copies dropped, where symmetric.
+// The vertices of the selected parts; folded to x >= 0, copies dropped, where
+// symmetric.
 std::vector<CoverPoint> SelectedPoints(const body::Body& body, const RefineOptions& options) {
   std::vector<CoverPoint> points;
   for (std::size_t v = 0; v < body.mesh.vertices().size(); ++v) {
@@ -53,8 +57,8 @@ std::vector<CoverPoint> SelectedPoints(const body::Body& body, const RefineOptio
   std::sort(order.begin(), order.end());
   std::vector<CoverPoint> kept;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    // Rounding may part equal points or join points up to 20 um apart; both are harmless: the
-    // kept set is enclosed in full at the end.
+    // Rounding may part equal points or join points up to 20 um apart; both are
+    // harmless: the kept set is enclosed in full at the end.
     if (i == 0 || order[i].first != order[i - 1].first) kept.push_back(points[order[i].second]);
   }
   return kept;
@@ -68,50 +72,99 @@ bool HasEnds(const body::Body& body, const body::PartSelection& parts) {
       });
 }
 
-// The largest layout that fits; if none does, the smallest.
-CapsuleGraph StartingGraph(const body::Body& body, const RefineOptions& options,
-                           const Spending& spending) {
+// By how many primitives the graph is beyond the spending; 0 when it fits.
+int Excess(const Spending& spending, const CapsuleGraph& graph) {
+  return std::max({0, graph.primitive_count() - spending.max_primitives,
+                   graph.sphere_count() - spending.max_spheres,
+                   graph.capsule_count() - spending.max_capsules});
+}
+
+// What the search may start from, at least one graph: the largest layout that
+// fits, and the next one where little of it has to go.
+std::vector<CapsuleGraph> StartingGraphs(const body::Body& body, const RefineOptions& options,
+                                         const Spending& spending) {
   const Guise guise = options.enclose ? Guise::kEnclose : Guise::kBestFit;
   const bool with_ends = HasEnds(body, options.parts);
-  CapsuleGraph start;
+  std::vector<CapsuleGraph> starts;
   for (const NamedLayout& named : Layouts()) {
     if (named.guise != guise || named.with_ends != with_ends) continue;
     CapsuleGraph graph = HangLayout(named.layout, body, options.parts, body.is_symmetric);
-    if (!start.nodes.empty() && !spending.Allows(graph)) break;
-    start = std::move(graph);
+    const int excess = Excess(spending, graph);
+    if (excess == 0) starts.clear();
+    if (excess <= kMostSpared || starts.empty()) starts.push_back(std::move(graph));
+    if (excess > 0) break;
   }
-  return start;
+  return starts;
+}
+
+// How the two guises are grown. Capsules between present spheres seldom pay when enclosing, and
+// trying them takes most of the time; the best fit's edits show late what they are worth.
+struct GrowthPlan {
+  GrowthOptions at_first;
+  GrowthOptions for_the_rest;
+};
+
+GrowthPlan PlanGrowth(bool enclose, const Spending& spending) {
+  GrowthPlan plan;
+  plan.at_first.links = !enclose;
+  plan.at_first.thorough_share = enclose ? 0.35 : 0.6;
+  plan.for_the_rest = plan.at_first;
+  plan.for_the_rest.links = true;
+  const bool few = std::min(spending.max_primitives, spending.max_spheres) <= kFewPrimitives;
+  plan.for_the_rest.exchanges = !enclose && few ? 2 : 0;
+  return plan;
 }
 
 // Settles the start and brings it up to the budget.
-CapsuleGraph FindSet(const Objective& objective, const Spending& spending, bool links,
+CapsuleGraph FindSet(const Objective& objective, const Spending& spending, const GrowthPlan& plan,
                      const ThreadPool& pool, const FitObserver& observer, CapsuleGraph graph) {
   objective.Settle(Effort::kRough, graph);
   RemoveSwallowed(graph);
   Spare(objective, spending, pool, observer, graph);
-  GrowthOptions growth;
-  growth.links = links;
-  Grow(objective, spending, growth, pool, observer, graph);
-  // What is left over buys capsules between spheres that are there.
-  growth.links = true;
-  Grow(objective, spending, growth, pool, observer, graph);
+  Grow(objective, spending, plan.at_first, pool, observer, graph);
+  Grow(objective, spending, plan.for_the_rest, pool, observer, graph);
   objective.Settle(Effort::kFinish, graph);
   RemoveSwallowed(graph);
+  // What has become useless in the end is spent once more.
+  const int used = graph.primitive_count();
+  Grow(objective, spending, {}, pool, observer, graph);
+  if (graph.primitive_count() != used) objective.Settle(Effort::kTighten, graph);
   return graph;
 }
 
+// The best set that one of the starts leads to.
+CapsuleGraph FindBestSet(const Objective& objective, const Spending& spending,
+                         const GrowthPlan& plan, const ThreadPool& pool,
+                         const FitObserver& observer, std::vector<CapsuleGraph> starts) {
+  CapsuleGraph best;
+  double least = std::numeric_limits<double>::max();
+  for (CapsuleGraph& start : starts) {
+    CapsuleGraph graph = FindSet(objective, spending, plan, pool, observer, std::move(start));
+    // Over the spending only where a cancellation cut the search short.
+    const double value = objective.Value(graph) + Excess(spending, graph);
+    if (value < least) {
+      least = value;
+      best = std::move(graph);
+    }
+  }
+  return best;
+}
+
 // Until all vertices are inside and no triangle sticks out: adds the points of triangles that do,
-// and settles again.
+// and settles again; in the last rounds only grows, which puts nothing out again.
 void CloseGaps(const body::Body& body, const RefineOptions& options, double volume_m3,
                std::vector<CoverPoint> points, CapsuleGraph& graph) {
   for (int round = 0; round < kClosingRounds; ++round) {
     const std::vector<CoverPoint> between =
         StickingPoints(body, options.parts, options.tolerance_m, graph);
+    if (round > 0 && between.empty()) return;
     points.insert(points.end(), between.begin(), between.end());
     const CoverPoints all = MakeCoverPoints(points);
-    EnclosingObjective(all, volume_m3).Settle(round == 0 ? Effort::kFinish : Effort::kTouch, graph);
+    if (round < kSettledRounds) {
+      const Effort effort = round == 0 ? Effort::kTighten : Effort::kTouch;
+      EnclosingObjective(all, volume_m3).Settle(effort, graph);
+    }
     CloseLastGaps(all, graph);
-    if (round > 0 && between.empty()) return;
   }
 }
 
@@ -143,19 +196,22 @@ capsule::PrimitiveSet ToPrimitives(const body::Body& body, const CapsuleGraph& g
 capsule::PrimitiveSet RefineSet(const body::Body& body, const RefineOptions& options,
                                 const ThreadPool& pool, const FitObserver& observer) {
   const Spending spending = SpendingOf(options.budget);
-  CapsuleGraph graph = StartingGraph(body, options, spending);
+  const GrowthPlan plan = PlanGrowth(options.enclose, spending);
+  CapsuleGraph graph;
+  std::vector<CapsuleGraph> starts = StartingGraphs(body, options, spending);
   OccupancyGrid grid = MakeOccupancyGrid(body, options.parts, kCellM, body.is_symmetric);
   const double volume_m3 = std::max(1e-9, grid.volume_m3);
   const std::vector<CoverPoint> points = SelectedPoints(body, options);
   CoverPoints thinned = MakeCoverPoints(ThinOut(points, kThinnedCellM));
   if (options.enclose) {
     const EnclosingObjective objective(std::move(thinned), volume_m3);
-    // Capsules between present spheres seldom pay here, and trying them takes most of the time.
-    graph = FindSet(objective, spending, false, pool, observer, std::move(graph));
+    // Capsules between present spheres seldom pay here, and trying them takes
+    // most of the time.
+    graph = FindBestSet(objective, spending, plan, pool, observer, std::move(starts));
     CloseGaps(body, options, volume_m3, points, graph);
   } else {
     const BestFitObjective objective(std::move(grid), std::move(thinned), options.seed);
-    graph = FindSet(objective, spending, true, pool, observer, std::move(graph));
+    graph = FindBestSet(objective, spending, plan, pool, observer, std::move(starts));
   }
   return ToPrimitives(body, graph, pool);
 }
