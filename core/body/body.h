@@ -42,7 +42,7 @@ struct MedialCurve {
 // Body frame: metres, +Y up, facing +Z, the body's left at +X, the symmetry plane at x = 0 and the
 // lowest point at y = 0.
 struct Body {
-  mesh::BodyMesh mesh;                    // in the body frame
+  mesh::BodyMesh mesh;                    // in the body frame, in an order of its own
   geometry::Similarity body_from_caller;  // caller's coordinates to the body frame
   double height_m = 0.0;                  // extent along Y
   bool is_symmetric = false;  // surface and pose mirror each other within 1 % of the height

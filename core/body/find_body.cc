@@ -118,15 +118,23 @@ absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const Work
   return ways;
 }
 
+// In the order of the working copy: every room that follows gets the same numbers in the same
+// order, whatever file and frame the body came in.
 mesh::BodyMesh MeshInBodyFrame(const mesh::BodyMesh& mesh, const WorkingCopy& copy,
                                const geometry::Similarity& body_from_copy) {
-  std::vector<Eigen::Vector3d> vertices(copy.points.size());
+  std::vector<Eigen::Vector3d> vertices;
+  vertices.reserve(copy.points.size());
+  std::vector<std::int32_t> place(copy.points.size());
   for (std::size_t i = 0; i < copy.points.size(); ++i) {
-    vertices[copy.mesh_vertex[i]] = body_from_copy.Apply(copy.points[i]);
+    vertices.push_back(body_from_copy.Apply(copy.points[i]));
+    place[copy.mesh_vertex[i]] = static_cast<std::int32_t>(i);
   }
-  return mesh::BodyMesh(
-      std::move(vertices), std::vector(mesh.triangles().begin(), mesh.triangles().end()),
-      std::vector(mesh.vertex_of_source().begin(), mesh.vertex_of_source().end()));
+  std::vector<std::int32_t> vertex_of_source;
+  vertex_of_source.reserve(mesh.vertex_of_source().size());
+  for (const std::int32_t v : mesh.vertex_of_source()) {
+    vertex_of_source.push_back(v < 0 ? -1 : place[static_cast<std::size_t>(v)]);
+  }
+  return mesh::BodyMesh(std::move(vertices), copy.triangles, std::move(vertex_of_source));
 }
 
 // Turns the limbs found into left and right ones.
@@ -194,9 +202,10 @@ class Anatomist {
  public:
   Anatomist(const BodyOptions& options, const WorkingCopy& copy, const SurfaceGraph& graph,
             const Extremities& extremities, Body& body)
-      : options_(options), copy_(copy), extremities_(extremities), body_(body) {
-    points_.reserve(copy.points.size());
-    for (const std::uint32_t v : copy.mesh_vertex) points_.push_back(body.mesh.vertices()[v]);
+      : options_(options),
+        extremities_(extremities),
+        body_(body),
+        points_(body.mesh.vertices().begin(), body.mesh.vertices().end()) {
     surface_.emplace(points_, copy.triangles);
     shape_.points = points_;
     shape_.triangles = copy.triangles;
@@ -222,7 +231,7 @@ class Anatomist {
       Symmetrise(body_.landmarks);
       Symmetrise(shape_);
     }
-    Label();
+    body_.vertex_segments = LabelVertices(shape_, body_.landmarks);
     body_.chains = BuildChains(shape_, body_.landmarks);
     if (body_.is_symmetric) Symmetrise(body_.chains);
     return CheckRequired(body_, options_.required);
@@ -235,19 +244,10 @@ class Anatomist {
     });
   }
 
-  void Label() {
-    const std::vector<Segment> segments = LabelVertices(shape_, body_.landmarks);
-    body_.vertex_segments.resize(segments.size());
-    for (std::size_t v = 0; v < segments.size(); ++v) {
-      body_.vertex_segments[copy_.mesh_vertex[v]] = segments[v];
-    }
-  }
-
   const BodyOptions& options_;
-  const WorkingCopy& copy_;
   const Extremities& extremities_;
   Body& body_;
-  std::vector<Eigen::Vector3d> points_;  // of the copy, in the body frame
+  std::vector<Eigen::Vector3d> points_;  // of the body's mesh
   std::optional<CutSurface> surface_;
   Shape shape_;
 };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/body/snap.h"
+#include "core/mesh/canonical_order.h"
 
 namespace capfit::body {
 namespace {
@@ -58,15 +59,15 @@ std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points)
   return keys;
 }
 
-// Triangles in the order of their first corners.
-std::vector<mesh::Triangle> SortedTriangles(const mesh::BodyMesh& mesh,
-                                            const std::vector<std::uint32_t>& mesh_vertex) {
-  std::vector<std::uint32_t> rank(mesh_vertex.size());
-  for (std::uint32_t i = 0; i < rank.size(); ++i) rank[mesh_vertex[i]] = i;
+// Triangles of vertices in a new order, by their first corners in it.
+std::vector<mesh::Triangle> SortedTriangles(const std::vector<mesh::Triangle>& triangles,
+                                            const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> rank(order.size());
+  for (std::uint32_t i = 0; i < rank.size(); ++i) rank[order[i]] = i;
   std::vector<std::uint32_t> start(rank.size() + 1, 0);
   std::vector<mesh::Triangle> renamed;
-  renamed.reserve(mesh.triangles().size());
-  for (const mesh::Triangle& t : mesh.triangles()) {
+  renamed.reserve(triangles.size());
+  for (const mesh::Triangle& t : triangles) {
     renamed.push_back({rank[t[0]], rank[t[1]], rank[t[2]]});
     ++start[*std::min_element(renamed.back().begin(), renamed.back().end()) + 1];
   }
@@ -139,10 +140,19 @@ WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh) {
     points.push_back((v - copy.centroid) / copy.unit);
   copy.axes = PrincipalAxes(points);
   for (Eigen::Vector3d& p : points) p = Snap(copy.axes * p, kCoordinateGrid);
-  copy.mesh_vertex = SortByKey(CurveKeys(points));
-  copy.triangles = SortedTriangles(mesh, copy.mesh_vertex);
+  // First an order in which the mesh's own has no say, then along the curve, where equals keep it.
+  std::vector<mesh::Triangle> triangles(mesh.triangles().begin(), mesh.triangles().end());
+  const std::vector<std::uint32_t> place = mesh::PutInCanonicalOrder(points, triangles);
+  std::vector<std::uint32_t> came_from(place.size());
+  for (std::uint32_t v = 0; v < place.size(); ++v) came_from[place[v]] = v;
+  const std::vector<std::uint32_t> order = SortByKey(CurveKeys(points));
+  copy.triangles = SortedTriangles(triangles, order);
   copy.points.reserve(points.size());
-  for (const std::uint32_t v : copy.mesh_vertex) copy.points.push_back(points[v]);
+  copy.mesh_vertex.reserve(points.size());
+  for (const std::uint32_t v : order) {
+    copy.points.push_back(points[v]);
+    copy.mesh_vertex.push_back(came_from[v]);
+  }
   AddAreas(copy);
   return copy;
 }

@@ -17,7 +17,7 @@ namespace capfit::body {
 // in files of few digits, stays.)
 //
 // Vertices and triangles are sorted along a space-filling curve, which makes everything that
-// follows several times as fast.
+// follows several times as fast; the order in which a file lists them has no say in it.
 struct WorkingCopy {
   std::vector<Eigen::Vector3d> points;
   std::vector<double> vertex_areas;        // a third of the triangles around; they sum to 1

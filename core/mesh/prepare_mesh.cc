@@ -11,7 +11,6 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/base/status.h"
-#include "core/mesh/canonical_order.h"
 #include "core/mesh/close_holes.h"
 #include "core/mesh/edge_mates.h"
 #include "core/mesh/join_triangles.h"
@@ -317,11 +316,10 @@ class MeshMender {
     for (auto merge = merged_.rbegin(); merge != merged_.rend(); ++merge) {
       new_index[merge->first] = new_index[merge->second];
     }
-    const std::vector<std::uint32_t> place = PutInCanonicalOrder(vertices, surface_.triangles);
     std::vector<std::int32_t> vertex_of_source(positions_.size());
     for (std::size_t v = 0; v < positions_.size(); ++v) {
       const std::uint32_t index = new_index[stand_in_.empty() ? v : stand_in_[v]];
-      vertex_of_source[v] = index == kNone ? -1 : static_cast<std::int32_t>(place[index]);
+      vertex_of_source[v] = index == kNone ? -1 : static_cast<std::int32_t>(index);
     }
     BodyMesh mesh(std::move(vertices), std::move(surface_.triangles), std::move(vertex_of_source));
     WarnOfOverlap(mesh);

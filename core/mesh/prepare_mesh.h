@@ -25,10 +25,9 @@ struct PreparedMesh {
 };
 
 // From any arrays to a mesh that keeps the promises of BodyMesh. A mesh that keeps them already
-// passes through without a warning. The vertices and triangles of the result have an order of their
-// own (see canonical_order.h), so that the same surface gives the same bits from any file;
-// `vertex_of_source` leads back to the caller's. Coordinates that are decimals rounded to floats
-// are taken as the decimals (see recover_decimals.h). O(n log n).
+// passes through without a warning; `vertex_of_source` leads back to the caller's vertices.
+// Coordinates that are decimals rounded to floats are taken as the decimals (see
+// recover_decimals.h). O(n log n).
 //
 // Steps, each of which warns with a count of what it changed:
 //   1. Sizes, finite positions, indices; unused vertices are ignored.          UNUSED_VERTICES

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/random.h"
 #include "core/base/status.h"
 #include "core/mannequin/random_mannequin.h"
 #include "core/mesh/prepare_mesh.h"
@@ -64,6 +65,56 @@ void ExpectSameBody(const Body& a, const Body& b) {
                  b.chains[c]->PointAt(share * b.chains[c]->length_m()))
                     .norm(),
                 tolerance);
+    }
+  }
+}
+
+// The same surface with vertices and faces in another order, faces begun at another corner.
+mesh::PolygonSoup Shuffled(const mesh::PolygonSoup& soup, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<std::uint32_t> place(soup.positions.size());
+  for (std::uint32_t v = 0; v < place.size(); ++v) place[v] = v;
+  for (std::size_t v = place.size(); v > 1; --v) {
+    std::swap(place[v - 1], place[random.NextBelow(v)]);
+  }
+  mesh::PolygonSoup shuffled = soup;
+  for (std::size_t v = 0; v < place.size(); ++v) shuffled.positions[place[v]] = soup.positions[v];
+  const std::size_t faces = soup.face_vertices.size() / 3;
+  for (std::size_t f = 0; f < faces; ++f) {
+    const std::size_t from = 3 * (faces - 1 - f);
+    for (std::size_t k = 0; k < 3; ++k) {
+      shuffled.face_vertices[3 * f + k] = place[soup.face_vertices[from + (k + f) % 3]];
+    }
+  }
+  return shuffled;
+}
+
+TEST(FindBody, TheOrderOfTheFileLeavesNoTrace) {
+  mannequin::MannequinOptions options;
+  options.faces = 4000;
+  options.quads = false;
+  const auto soup = mannequin::MakeMannequin(options);
+  ASSERT_TRUE(soup.ok());
+  const ThreadPool pool(1);
+  const auto find = [&](const mesh::PolygonSoup& some) {
+    const auto prepared = mesh::PrepareMesh(some);
+    return *FindBody(prepared->mesh, {}, pool, NullObserver());
+  };
+  const Body expected = find(*soup);
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const mesh::PolygonSoup other = Shuffled(*soup, seed);
+    const Body body = find(other);
+    EXPECT_TRUE(std::equal(body.mesh.vertices().begin(), body.mesh.vertices().end(),
+                           expected.mesh.vertices().begin(), expected.mesh.vertices().end()));
+    EXPECT_TRUE(std::equal(body.mesh.triangles().begin(), body.mesh.triangles().end(),
+                           expected.mesh.triangles().begin(), expected.mesh.triangles().end()));
+    EXPECT_EQ(body.vertex_segments, expected.vertex_segments);
+    // And the caller's numbers still lead to their places.
+    for (std::size_t v = 0; v < other.positions.size(); v += 97) {
+      const auto mine = static_cast<std::size_t>(body.mesh.vertex_of_source()[v]);
+      EXPECT_LE(
+          (body.body_from_caller.Apply(other.positions[v]) - body.mesh.vertices()[mine]).norm(),
+          1e-6);
     }
   }
 }
