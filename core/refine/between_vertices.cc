@@ -11,8 +11,8 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 
-constexpr float kNoticedM = 5e-4f;
-constexpr float kAllowedM = 3e-4f;
+constexpr float kNoticedM = 7e-4f;
+constexpr float kAllowedM = 5e-4f;
 constexpr int kMaxDepth = 6;
 
 struct Piece {

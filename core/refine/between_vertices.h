@@ -10,8 +10,8 @@
 
 namespace capfit::refine {
 
-// Points inside triangles of the selected parts that stick out by more than 0.5 mm beyond
-// `tolerance_m`, with what is allowed them (0.3 mm beyond it). A triangle whose corners share a
+// Points inside triangles of the selected parts that stick out by more than 0.7 mm beyond
+// `tolerance_m`, with what is allowed them (0.5 mm beyond it). A triangle whose corners share a
 // capsule is inside (capsules are convex); the others are cut finer until each piece is certain.
 // With symmetry the points are folded to x >= 0.
 [[nodiscard]] std::vector<CoverPoint> StickingPoints(const body::Body& body,

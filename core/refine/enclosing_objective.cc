@@ -117,6 +117,8 @@ void EnclosingObjective::Settle(Effort effort, CapsuleGraph& graph) const {
     CapsuleGraph next = i == 0 ? start : graph;
     Loosen(kLooseness[U(i)], next);
     DescendEnclosing(points_, volume_m3_, tight, next);
+    // Small sets may leave points far out at any price: compare what encloses.
+    CloseLastGaps(points_, next);
     const double value = Value(next);
     if (value >= least) continue;
     least = value;
