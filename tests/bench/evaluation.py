@@ -168,6 +168,7 @@ def main():
     pictures_folder = os.path.join(docs, "evaluation")
     os.makedirs(pictures_folder, exist_ok=True)
 
+    told_version = version(arguments.capfit)  # now: the tree may change while this runs
     judge = os.environ.get("CAPFIT_JUDGE")
     if not judge:
         print("CAPFIT_JUDGE names no program: `capfit evaluate` measures")
@@ -194,7 +195,7 @@ def main():
     text = page.write(errors=errors, times=times, ratios=ratios, budgets=budgets, runs=runs,
                       pictures=pictures, are_real=are_real, is_judged=bool(judge),
                       time_body=stem(time_body), figure_10_budget=FIGURE_10_BUDGET,
-                      version=version(arguments.capfit))
+                      version=told_version)
     path = os.path.join(docs, "evaluation.md")
     with open(path, "w") as file:
         file.write(text)

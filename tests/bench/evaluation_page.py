@@ -206,7 +206,7 @@ def load_words(times, ratios):
     if max(loads, default=0) < 1.5 * os.cpu_count():
         return "nothing else to speak of was running"
     return (f"**other programs were running** (load average {min(loads):.0f} to {max(loads):.0f} on "
-            f"{os.cpu_count()} cores), so that these times are several times too long, and uneven; a "
+            f"{os.cpu_count()} cores), so that these times are too long, and uneven; a "
             "run on a calm machine takes them anew")
 
 
