@@ -31,7 +31,8 @@ struct AnimateArguments {
 
 using Centers = std::vector<Eigen::Vector3d>;
 
-absl::Status CheckVertexCount(const AnimateArguments& arguments, const skinning::DenseWeights& weights) {
+absl::Status CheckVertexCount(const AnimateArguments& arguments,
+                              const skinning::DenseWeights& weights) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string file, ReadFileBytes(arguments.body));
   CAPFIT_ASSIGN_OR_RETURN(
       const mesh::PolygonSoup soup,

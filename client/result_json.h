@@ -11,7 +11,8 @@
 // unit and axes of the mesh file; E_M and hausdorff in percent; the rest of the metrics are shares
 // and counts. Those of a part are "spheres", "capsules", "volume", "E_r", "outside", "uncovered",
 // "E_M", "volume_ratio", "gap", "surface_out", "vertices_out" and "max_out"; what they mean, and by
-// which rule volumes are shared out among the parts: metrics::Metrics and metrics::Volumes. Where feature polygons were asked for there is also
+// which rule volumes are shared out among the parts: metrics::Metrics and metrics::Volumes. Where
+// feature polygons were asked for there is also
 //   "polygons": [{"name": "hip", "part": "torso", "outline": [[x, y, z], ...],
 //                 "circles": [[x, y, z, r], ...], "outside_area_ratio": ..}, ...].
 // Later versions may add members; readers ignore those that they do not know.

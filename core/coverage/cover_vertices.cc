@@ -46,9 +46,6 @@ constexpr TightenPhase kLastPhase{.steps = 2,
                                   .first_penalty = 600.0,
                                   .last_penalty = 600.0,
                                   .row_spacing = 0.01};
-// A set that tightening leaves so much larger than it came is compared with the paper's growing
-// alone; on sound layouts tightening has won by far wherever the two were compared.
-constexpr double kSuspectGrowth = 1.25;
 constexpr int kRounds = 3;
 constexpr double kVolumeSpacing = 0.015;  // of samples, relative to the body's size
 
@@ -88,6 +85,7 @@ class Coverer {
       Grow();
     }
     report_.max_vertex_distance_m = MaxVertexDistance();
+    report_.volume_m3 = Volume();
     report_.certified_gap_m = CertifiedGap(target_, set_, 0.05 * options_.max_gap_m, pool_);
     // Growing ends with a proof for every triangle, which may be sharper by the tolerance.
     if (!observer_.IsCancelled()) {
@@ -109,7 +107,7 @@ class Coverer {
     const double volume_before = Volume();
     Tighten();
     Grow();
-    if (Volume() <= kSuspectGrowth * volume_before || observer_.IsCancelled()) return;
+    if (Volume() <= options_.suspect_growth * volume_before || observer_.IsCancelled()) return;
     const capsule::PrimitiveSet tightened = std::exchange(set_, before);
     const std::vector<Eigen::Vector3d> between = std::exchange(between_, {});
     const CoverReport report = std::exchange(report_, {});

@@ -10,8 +10,8 @@
 #include "core/pipeline/engines.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
+#include "core/pipeline/tight_set.h"
 #include "core/pipeline/to_caller_frame.h"
-#include "core/refine/refine.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -115,6 +115,10 @@ class BodyFit {
       CAPFIT_RETURN_IF_ERROR(CheckFound());
       if (Profile() == capsule::CapsuleProfile::kUniformRadius) {
         set_ = capsule::WithUniformRadii(set_);
+        if (alternative_.has_value()) alternative_ = capsule::WithUniformRadii(*alternative_);
+      }
+      if (alternative_.has_value() && ExcessCapsules(asked_, *alternative_) > 0) {
+        alternative_.reset();
       }
       const int excess = ExcessCapsules(asked_, set_);
       if (excess <= 0) return absl::OkStatus();
@@ -130,7 +134,17 @@ class BodyFit {
   // The tight fit needs them only to be shown, or to count what an error threshold asks for.
   bool NeedsPolygons() const {
     return options_.quality == Quality::kPaper || options_.want_polygons ||
-           options_.polygon_error.has_value();
+           options_.polygon_error.has_value() || ComparesWithPaper();
+  }
+
+  // With few primitives the published method is at times the better one, and it is quick: then the
+  // smaller of the two sets is taken.
+  bool ComparesWithPaper() const {
+    if (options_.quality != Quality::kTight || options_.fit != FitMode::kEnclose) return false;
+    const circle::Budget budget = TotalBudget(options_);
+    return Profile() == capsule::CapsuleProfile::kUniformRadius ||
+           budget.max_primitives < kFewPrimitives || budget.max_spheres < kFewPrimitives / 2 ||
+           budget.max_capsules < kFewPrimitives / 2;
   }
 
   absl::Status Approximate() {
@@ -161,20 +175,15 @@ class BodyFit {
 
   absl::Status Refine() {
     clock_.Begin(Stage::kRefine);
-    refine::RefineOptions refine_options;
-    refine_options.enclose = options_.fit == FitMode::kEnclose;
-    refine_options.budget = TotalBudget(options_);
-    if (options_.polygon_error.has_value()) {
-      refine_options.budget.max_primitives = set_.primitive_count();
-    }
+    circle::Budget budget = TotalBudget(options_);
+    if (options_.polygon_error.has_value()) budget.max_primitives = set_.primitive_count();
     if (Profile() == capsule::CapsuleProfile::kUniformRadius) {
       // A tree: spheres without a capsule would be shapes of their own.
-      refine_options.budget.max_spheres = refine_options.budget.max_capsules + 1;
+      budget.max_spheres = budget.max_capsules + 1;
     }
-    refine_options.tolerance_m = options_.tolerance_m;
-    refine_options.parts = options_.parts;
-    refine_options.seed = options_.seed;
-    set_ = refine::RefineSet(*body_, refine_options, pool_, observer_);
+    if (ComparesWithPaper()) alternative_ = std::move(set_);
+    set_ = TightSet(*body_, options_, budget, coverage::TargetOf(*body_, options_.parts), pool_,
+                    observer_);
     return CheckCancelled(observer_);
   }
 
@@ -193,13 +202,26 @@ class BodyFit {
       max_gap_m_ = coverage::CertifiedGap(target, set_, kGapAccuracyM, pool_);
       return CheckCancelled(observer_);
     }
-    coverage::CoverOptions cover_options;
-    cover_options.tolerance_m = options_.tolerance_m;
-    cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
-    cover_options.tighten = options_.quality == Quality::kPaper || cover_options.uniform_radius;
-    max_gap_m_ = coverage::CoverBody(target, cover_options, pool_, observer_, set_).certified_gap_m;
+    coverage::CoverReport report = Enclose(target, set_);
+    if (alternative_.has_value()) {
+      const coverage::CoverReport other = Enclose(target, *alternative_);
+      if (other.volume_m3 < report.volume_m3) {
+        set_ = *std::move(alternative_);
+        report = other;
+      }
+    }
+    max_gap_m_ = report.certified_gap_m;
     if (Profile() == capsule::CapsuleProfile::kLerpedRadius) capsule::GrowForLerpedRadius(set_);
     return CheckCancelled(observer_);
+  }
+
+  coverage::CoverReport Enclose(const coverage::CoverTarget& target,
+                                capsule::PrimitiveSet& set) const {
+    coverage::CoverOptions cover_options;
+    if (options_.quality == Quality::kTight) cover_options = CoverTight(options_);
+    cover_options.tolerance_m = options_.tolerance_m;
+    cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
+    return coverage::CoverBody(target, cover_options, pool_, observer_, set);
   }
 
   absl::Status Measure() {
@@ -209,9 +231,8 @@ class BodyFit {
     result_.metrics = metrics::Measure(*body_, set_, measure_options, pool_, observer_);
     result_.metrics.max_gap_m = max_gap_m_;
     if (options_.want_vertex_gaps) {
-      result_.vertex_gaps =
-          VertexGaps(body_->mesh, metrics::SignedGaps(*body_, set_, options_.parts, pool_),
-                     caller_from_body_);
+      result_.vertex_gaps = VertexGaps(
+          body_->mesh, metrics::SignedGaps(*body_, set_, options_.parts, pool_), caller_from_body_);
     }
     return CheckCancelled(observer_);
   }
@@ -230,6 +251,7 @@ class BodyFit {
   static constexpr int kMaxCirclesPerPolygon = 8;
   // Most polygons end up with at most this many circles; the rest is fitted when asked for.
   static constexpr int kCirclesFittedAhead = 4;
+  static constexpr int kFewPrimitives = 48;
   static constexpr double kGapAccuracyM = 1e-3;  // of the best fit's certificate
 
   const FitOptions& asked_;
@@ -241,6 +263,7 @@ class BodyFit {
   std::optional<body::Body> body_;  // set by Understand
   geometry::Similarity caller_from_body_;
   capsule::PrimitiveSet set_;
+  std::optional<capsule::PrimitiveSet> alternative_;
   double max_gap_m_ = 0.0;  // certified
 };
 

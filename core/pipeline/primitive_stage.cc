@@ -101,8 +101,9 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
   }
   const Counts spent = CountsOf(best.set);
   if (Unused(spent, total) > kUnusedAllowed) {
-    SpendRest(total.max_spheres - spent.spheres, total.max_capsules - spent.capsules,
-              total.max_primitives - spent.spheres - spent.capsules, best.set);
+    SpendRest({total.max_spheres - spent.spheres, total.max_capsules - spent.capsules,
+               total.max_primitives - spent.spheres - spent.capsules},
+              best.set);
   }
   return best;
 }

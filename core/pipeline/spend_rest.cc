@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace capfit::pipeline {
 namespace {
@@ -57,25 +58,36 @@ void CutWithImage(std::size_t index, std::optional<std::size_t> image, Primitive
 
 }  // namespace
 
-void SpendRest(int spare_spheres, int spare_capsules, int spare_primitives,
-               capsule::PrimitiveSet& set) {
+void CutWherePromising(Spare spare, std::vector<double> promise, PrimitiveSet& set) {
+  constexpr double kShareOfHalf = 0.25;
   for (;;) {
-    const int cuts = std::min({spare_spheres, spare_capsules, spare_primitives / 2});
+    const int cuts = std::min({spare.spheres, spare.capsules, spare.primitives / 2});
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < set.capsules.size(); ++i) {
       const std::optional<std::size_t> image = MirrorOf(set, i);
       const int cost = image.has_value() && *image != i ? 2 : 1;
       if (cost > cuts) continue;
-      if (!best.has_value() || SideArea(set, i) > SideArea(set, *best)) best = i;
+      if (!best.has_value() || promise[i] > promise[*best]) best = i;
     }
     if (!best.has_value()) return;
     const std::optional<std::size_t> image = MirrorOf(set, *best);
-    const int cost = image.has_value() && *image != *best ? 2 : 1;
+    const bool is_pair = image.has_value() && *image != *best;
+    const double half = kShareOfHalf * promise[*best];
     CutWithImage(*best, image, set);
-    spare_spheres -= cost;
-    spare_capsules -= cost;
-    spare_primitives -= 2 * cost;
+    promise[*best] = half;
+    if (is_pair) promise[*image] = half;
+    promise.resize(set.capsules.size(), half);
+    const int cost = is_pair ? 2 : 1;
+    spare.spheres -= cost;
+    spare.capsules -= cost;
+    spare.primitives -= 2 * cost;
   }
+}
+
+void SpendRest(Spare spare, PrimitiveSet& set) {
+  std::vector<double> surface;
+  for (std::size_t i = 0; i < set.capsules.size(); ++i) surface.push_back(SideArea(set, i));
+  CutWherePromising(spare, std::move(surface), set);
 }
 
 }  // namespace capfit::pipeline

@@ -77,8 +77,8 @@ TEST(RasterTest, CapsuleCoversTheAreaOfItsOutline) {
   const double sine = (ra - rb) / length;
   const double cosine = std::sqrt(1 - sine * sine);
   const double lean = std::asin(sine);
-  const double area =
-      ra * ra * (kHalfTurn / 2 + lean) + rb * rb * (kHalfTurn / 2 - lean) + (ra + rb) * length * cosine;
+  const double area = ra * ra * (kHalfTurn / 2 + lean) + rb * rb * (kHalfTurn / 2 - lean) +
+                      (ra + rb) * length * cosine;
   const View view(0.0, Vector3d::Zero(), 300, 150, 200);
   Raster raster(600, 300);
   raster.DrawCapsules(
