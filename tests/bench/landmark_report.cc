@@ -207,7 +207,7 @@ void WriteMarkdown(const Report& report, std::ostream& out) {
   out << "## Walking, then raising the arms\n\nEvery sixth frame of an animation of 10,000 "
          "triangles.\n\n";
   WriteTable(report.at("animation"), "frame", out);
-  out << "## Poses that nothing was tuned for\n\nThe eleven bodies at rest, posed by the report "
+  out << "## Poses made by the report\n\nThe eleven bodies at rest, posed by the report "
          "itself (plain skinning, so skin folds more than it should).\n\n";
   WritePoses(report.at("unseen"), out);
   out << "## Mannequins by lot\n\n"
