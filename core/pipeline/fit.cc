@@ -99,6 +99,7 @@ class BodyFit {
     Append(body_->warnings, result_.warnings);
     result_.body_from_caller = body_->body_from_caller;
     caller_from_body_ = body_->body_from_caller.Inverse();
+    target_ = coverage::TargetOf(*body_, options_.parts);
     result_.landmarks = LandmarkResults(*body_, caller_from_body_);
     return CheckCancelled(observer_);
   }
@@ -182,8 +183,7 @@ class BodyFit {
       budget.max_spheres = budget.max_capsules + 1;
     }
     if (ComparesWithPaper()) alternative_ = std::move(set_);
-    set_ = TightSet(*body_, options_, budget, coverage::TargetOf(*body_, options_.parts), pool_,
-                    observer_);
+    set_ = TightSet(*body_, options_, budget, target_, pool_, observer_);
     return CheckCancelled(observer_);
   }
 
@@ -197,14 +197,13 @@ class BodyFit {
   // fit is only measured.
   absl::Status Cover() {
     if (options_.quality == Quality::kPaper) clock_.Begin(Stage::kCoverage);
-    const coverage::CoverTarget target = coverage::TargetOf(*body_, options_.parts);
     if (options_.fit == FitMode::kBestFit) {
-      max_gap_m_ = coverage::CertifiedGap(target, set_, kGapAccuracyM, pool_);
+      max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
       return CheckCancelled(observer_);
     }
-    coverage::CoverReport report = Enclose(target, set_);
+    coverage::CoverReport report = Enclose(set_);
     if (alternative_.has_value()) {
-      const coverage::CoverReport other = Enclose(target, *alternative_);
+      const coverage::CoverReport other = Enclose(*alternative_);
       if (other.volume_m3 < report.volume_m3) {
         set_ = *std::move(alternative_);
         report = other;
@@ -215,13 +214,12 @@ class BodyFit {
     return CheckCancelled(observer_);
   }
 
-  coverage::CoverReport Enclose(const coverage::CoverTarget& target,
-                                capsule::PrimitiveSet& set) const {
+  coverage::CoverReport Enclose(capsule::PrimitiveSet& set) const {
     coverage::CoverOptions cover_options;
     if (options_.quality == Quality::kTight) cover_options = CoverTight(options_);
     cover_options.tolerance_m = options_.tolerance_m;
     cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
-    return coverage::CoverBody(target, cover_options, pool_, observer_, set);
+    return coverage::CoverBody(target_, cover_options, pool_, observer_, set);
   }
 
   absl::Status Measure() {
@@ -262,6 +260,7 @@ class BodyFit {
   FitResult& result_;
   std::optional<body::Body> body_;  // set by Understand
   geometry::Similarity caller_from_body_;
+  coverage::CoverTarget target_;
   capsule::PrimitiveSet set_;
   std::optional<capsule::PrimitiveSet> alternative_;
   double max_gap_m_ = 0.0;  // certified

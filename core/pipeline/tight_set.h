@@ -19,7 +19,8 @@ namespace capfit::pipeline {
 // 64 primitives, which settles the topology; from there on the capsules with most volume between
 // them and the body are cut in two, two fifths more of them each time, and coverage moves the new
 // spheres to where they serve: half the time of growing in the refine room, and tighter.
-// `target` is what has to be inside. About 0.25 s for 64 primitives, 0.5 s for 128, 1 s for 250.
+// `target` is what has to be inside; what was cut last is not settled yet, so the caller covers the
+// set once more, with CoverTight. About 0.25 s for 64 primitives, 0.5 s for 128, 1 s for 250.
 [[nodiscard]] capsule::PrimitiveSet TightSet(const body::Body& body, const FitOptions& options,
                                              const circle::Budget& budget,
                                              const coverage::CoverTarget& target,

@@ -5,8 +5,10 @@
 namespace capfit::refine {
 namespace {
 
-// Found by tests/core/refine/make_layouts.cc on built-in mannequins of both sexes, slim and heavy.
-// What counts is the topology; places and radii are rounded, everything is optimised for each body.
+// Found by the search of tests/core/refine/make_layouts.cc on built-in mannequins of both sexes,
+// slim and heavy (a run of it gives tables as good, not the same digits), but for the smallest
+// enclosing one, which is by hand. What counts is the topology; places and radii are rounded,
+// everything is optimised for each body.
 
 // 22 + 10 for the best fit, without head, hands and feet.
 constexpr auto kBest32Nodes = std::to_array<LayoutNode>({

@@ -143,8 +143,10 @@ class BrokenInputTest : public testing::TestWithParam<Input> {};
 // As far as the mesh room is concerned: axes, unit and whether it is a body come later.
 TEST_P(BrokenInputTest, DoesWhatItsDescriptionSaysWithinTwoSeconds) {
   CAPFIT_REQUIRE_BODIES();
-  const std::filesystem::path path = test_support::BodiesFolder() / "broken" / GetParam().file;
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "SKIPPED: no " << path;
+  const std::filesystem::path folder = test_support::BodiesFolder() / "broken";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "SKIPPED: no folder " << folder;
+  const std::filesystem::path path = folder / GetParam().file;
+  ASSERT_TRUE(std::filesystem::exists(path)) << path;
   const std::clock_t start = std::clock();  // the processor's time: machines may be busy
   const auto soup = ReadFile(path);
   absl::Status status = soup.status();
