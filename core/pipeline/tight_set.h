@@ -6,6 +6,8 @@
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
+#include "core/capsule/primitive_set.h"
+#include "core/circle/allocation.h"
 #include "core/coverage/cover_vertices.h"
 #include "core/pipeline/fit.h"
 
