@@ -10,6 +10,7 @@
 #include "core/coverage/grow.h"
 #include "core/coverage/point_grid.h"
 #include "core/coverage/set_variables.h"
+#include "core/coverage/sparse_points.h"
 #include "core/coverage/surface_probe.h"
 #include "core/coverage/tighten.h"
 #include "core/coverage/union_volume.h"
@@ -20,9 +21,9 @@ namespace {
 // Vertices end up this deep inside at least, so that writing the result in another unit or with
 // fewer digits does not bring them out again. Metres; a hundredth of what anybody can measure.
 constexpr double kVertexDepth = 1e-6;
-// About so many points are enough to find the shape by: one every two centimetres or so. All have
+// Points this far apart, relative to the body's size, are enough to find the shape by. All have
 // their say in the second phase.
-constexpr std::uint32_t kCoarsePoints = 6000;
+constexpr double kSparseSpacing = 0.016;
 
 // The set finds its shape with points left out at a price, which rises; then they must all come in.
 // Starting with a low price matters most (a fifth of E_r): where everything must be inside from the
@@ -31,21 +32,18 @@ constexpr TightenPhase kLoosePhase{.steps = 14,
                                    .first_trust = 0.012,
                                    .last_trust = 0.006,
                                    .first_penalty = 1.6,
-                                   .last_penalty = 16.0,
-                                   .row_spacing = 0.016};
+                                   .last_penalty = 16.0};
 constexpr TightenPhase kTightPhase{.steps = 3,
                                    .first_trust = 0.004,
                                    .last_trust = 0.001,
-                                   .first_penalty = 600.0,
-                                   .last_penalty = 600.0,
-                                   .row_spacing = 0.01};
+                                   .first_penalty = 0.4,
+                                   .last_penalty = 0.4};
 // Once more, with what was found to stick out between vertices.
 constexpr TightenPhase kLastPhase{.steps = 2,
                                   .first_trust = 0.002,
                                   .last_trust = 0.0005,
-                                  .first_penalty = 600.0,
-                                  .last_penalty = 600.0,
-                                  .row_spacing = 0.01};
+                                  .first_penalty = 0.4,
+                                  .last_penalty = 0.4};
 constexpr int kRounds = 3;
 constexpr double kVolumeSpacing = 0.015;  // of samples, relative to the body's size
 
@@ -124,39 +122,38 @@ class Coverer {
   double Volume() const { return VolumeOf(set_); }
 
   void Tighten() {
-    const std::vector<Eigen::Vector3d> coarse = CoarsePoints();
-    const std::vector<double> coarse_depths(coarse.size(), AllowedAtVertices());
-    RunPhase(kLoosePhase, PointGrid(coarse), coarse_depths, /*seed=*/1);
+    const SparsePoints coarse = MakeSparse(target_.points_m, AreaWeights(), kSparseSpacing * size_);
+    const std::vector<double> coarse_depths(coarse.points_m.size(), AllowedAtVertices());
+    RunPhase(kLoosePhase, PointGrid(coarse.points_m), coarse_depths, coarse.weights, /*seed=*/1);
     std::vector<double> allowed(target_.points_m.size(), AllowedAtVertices());
-    RunPhase(kTightPhase, grid_, allowed, /*seed=*/101);
+    RunPhase(kTightPhase, grid_, allowed, {}, /*seed=*/101);
     // What sticks out between vertices shows only where the vertices are in, and asking for it
     // moves the set on to other such places: a few rounds leave little to growing.
     for (int round = 0; round < kRounds && Collect(); ++round) {
       std::vector<Eigen::Vector3d> points = target_.points_m;
       points.insert(points.end(), between_.begin(), between_.end());
       allowed.resize(points.size(), AllowedBetween());
-      RunPhase(kLastPhase, PointGrid(points), allowed,
+      RunPhase(kLastPhase, PointGrid(points), allowed, {},
                /*seed=*/201 + 10 * static_cast<std::uint64_t>(round));
     }
   }
 
   void RunPhase(TightenPhase phase, const PointGrid& points, const std::vector<double>& allowed_m,
-                std::uint64_t seed) {
+                const std::vector<double>& weights, std::uint64_t seed) {
     phase.uniform_radius = options_.uniform_radius;
-    coverage::Tighten(points, allowed_m, size_, phase, seed, pool_, observer_, set_);
+    coverage::Tighten(points, allowed_m, weights, size_, phase, seed, pool_, observer_, set_);
   }
 
-  // The same share of each block's points.
-  std::vector<Eigen::Vector3d> CoarsePoints() const {
-    const auto total = static_cast<std::uint32_t>(grid_.size());
-    const std::uint32_t stride = std::max(1u, total / kCoarsePoints);
-    std::vector<Eigen::Vector3d> coarse;
-    for (const PointGrid::Block& block : grid_.blocks()) {
-      for (std::uint32_t i = block.begin; i < block.end; i += stride) {
-        coarse.push_back(grid_.point(i));
-      }
+  // A third of the area of the triangles around each point; a little for those without any.
+  std::vector<double> AreaWeights() const {
+    std::vector<double> weights(target_.points_m.size(), 1e-9 * size_ * size_);
+    for (const mesh::Triangle& t : target_.triangles) {
+      const Eigen::Vector3d& origin = target_.points_m[t[0]];
+      const double third =
+          (target_.points_m[t[1]] - origin).cross(target_.points_m[t[2]] - origin).norm() / 6.0;
+      for (const auto corner : t) weights[corner] += third;
     }
-    return coarse;
+    return weights;
   }
 
   double AllowedAtVertices() const {

@@ -23,8 +23,9 @@ constexpr double kSteepnessReach = 0.05;  // capsules this near to the limit get
 constexpr double kSteepnessPenalty = 100.0;
 // Points deeper than this many trust regions cannot get out in one step: both ends move and grow.
 constexpr double kDepthOfInterest = 1.5;
-// The programmes need not be solved better than their rows are true.
-constexpr double kRelativeGap = 0.01;
+// Far better than their rows are true: where a programme is left unfinished, the number of
+// iterations decides, and vertices moved by a millionth can change it.
+constexpr double kRelativeGap = 1e-8;
 // Added curvature, in volumes per body size squared: keeps idle variables where they are.
 constexpr double kIdleCurvature = 1e-3;
 
@@ -35,23 +36,24 @@ double Between(double first, double last, int step, int steps) {
 
 class Tightener {
  public:
-  Tightener(const PointGrid& points, std::span<const double> allowed_m, double body_size_m,
-            const ThreadPool& pool, capsule::PrimitiveSet& set)
+  Tightener(const PointGrid& points, std::span<const double> allowed_m,
+            std::span<const double> weights, double body_size_m, const ThreadPool& pool,
+            capsule::PrimitiveSet& set)
       : points_(points),
         allowed_(allowed_m),
+        weights_(weights),
         size_(body_size_m),
         pool_(pool),
         set_(set),
         variables_(set) {}
 
-  void Step(double trust_m, double penalty, double row_spacing_m, bool uniform_radius,
-            std::uint64_t seed) {
+  void Step(double trust_m, double penalty, bool uniform_radius, std::uint64_t seed) {
     shapes_ = ShapesOf(variables_.solids(), set_);
     distances_ = points_.DistancesTo(shapes_, -kDepthOfInterest * trust_m, pool_);
     PenaltyProgram program;
     AddVolume(seed, program);
     AddBounds(trust_m, program);
-    AddPointRows(kDepthOfInterest * trust_m, row_spacing_m, program);
+    AddPointRows(kDepthOfInterest * trust_m, program);
     SetPenalties(penalty, program);
     if (uniform_radius) {
       AddUniformRows(program);
@@ -112,40 +114,27 @@ class Tightener {
 
   double Allowed(std::uint32_t i) const { return allowed_[points_.order()[i]]; }
 
-  void AddPointRow(std::uint32_t i, PenaltyProgram& program) const {
+  void AddPointRow(std::uint32_t i, double weight, PenaltyProgram& program) const {
     const auto index = static_cast<std::size_t>(distances_.solid[i]);
     const geometry::CapsuleDistance at = shapes_[index].Locate(points_.point(i));
     const Eigen::Vector4d speed(at.normal.x(), at.normal.y(), at.normal.z(), 1.0);
     AddRow(variables_.solids()[index], -(1.0 - at.axis_parameter) * speed,
-           -at.axis_parameter * speed, at.distance_m - Allowed(i), 1.0, program);
+           -at.axis_parameter * speed, at.distance_m - Allowed(i), weight, program);
   }
 
-  // In each block the furthest out first, and none near a chosen one on the same solid.
-  void AddPointRows(double depth_m, double spacing_m, PenaltyProgram& program) const {
+  // All points near the surface: a choice among them could fall out differently for vertices that
+  // differ by rounding alone. For the same reason those just near enough count for nothing yet
+  // where weights are added up; as rows they do not bind.
+  void AddPointRows(double depth_m, PenaltyProgram& program) {
+    near_weight_ = 0.0;
     if (shapes_.empty()) return;
-    std::vector<std::uint32_t> candidates;
-    std::vector<std::uint32_t> chosen;
-    const auto excess = [&](std::uint32_t i) { return distances_.distance_m[i] - Allowed(i); };
-    for (const PointGrid::Block& block : points_.blocks()) {
-      candidates.clear();
-      chosen.clear();
-      for (std::uint32_t i = block.begin; i < block.end; ++i) {
-        if (excess(i) > -depth_m) candidates.push_back(i);
-      }
-      std::sort(candidates.begin(), candidates.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return excess(a) != excess(b) ? excess(a) > excess(b) : a < b;
-      });
-      for (const std::uint32_t i : candidates) {
-        const bool is_spoken_for =
-            std::any_of(chosen.begin(), chosen.end(), [&](std::uint32_t other) {
-              return distances_.solid[i] == distances_.solid[other] &&
-                     (points_.point(i) - points_.point(other)).squaredNorm() <
-                         spacing_m * spacing_m;
-            });
-        if (is_spoken_for) continue;
-        chosen.push_back(i);
-        AddPointRow(i, program);
-      }
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+      const double excess = distances_.distance_m[i] - Allowed(i);
+      if (excess <= -depth_m) continue;
+      const double ramp = std::min(1.0, 2.0 * (1.0 + excess / depth_m));
+      const double weight = weights_.empty() ? 1.0 : weights_[points_.order()[i]];
+      near_weight_ += ramp * weight;
+      AddPointRow(i, weight, program);
     }
   }
 
@@ -153,8 +142,8 @@ class Tightener {
   // moves: so it means the same for any number of points, and below 1 everything would shrink to
   // nothing.
   void SetPenalties(double penalty, PenaltyProgram& program) const {
-    const double each = penalty * growth_rate_ / static_cast<double>(program.rows.size());
-    for (PenaltyRow& row : program.rows) row.penalty = each;
+    const double each = penalty * growth_rate_ / (weights_.empty() ? 1.0 : near_weight_);
+    for (PenaltyRow& row : program.rows) row.penalty *= each;
   }
 
   // |r_a - r_b| <= kMaxSin * length. Where that is broken already it must not get worse.
@@ -186,6 +175,8 @@ class Tightener {
 
   const PointGrid& points_;
   std::span<const double> allowed_;
+  std::span<const double> weights_;
+  double near_weight_ = 0.0;  // of the points near the surface
   double size_;
   const ThreadPool& pool_;
   capsule::PrimitiveSet& set_;
@@ -198,15 +189,16 @@ class Tightener {
 
 }  // namespace
 
-void Tighten(const PointGrid& points, std::span<const double> allowed_m, double body_size_m,
-             const TightenPhase& phase, std::uint64_t seed, const ThreadPool& pool,
-             const FitObserver& observer, capsule::PrimitiveSet& set) {
-  Tightener tightener(points, allowed_m, body_size_m, pool, set);
+void Tighten(const PointGrid& points, std::span<const double> allowed_m,
+             std::span<const double> weights, double body_size_m, const TightenPhase& phase,
+             std::uint64_t seed, const ThreadPool& pool, const FitObserver& observer,
+             capsule::PrimitiveSet& set) {
+  Tightener tightener(points, allowed_m, weights, body_size_m, pool, set);
   for (int i = 0; i < phase.steps && !observer.IsCancelled(); ++i) {
     const double trust = Between(phase.first_trust, phase.last_trust, i, phase.steps);
     const double penalty = Between(phase.first_penalty, phase.last_penalty, i, phase.steps);
-    tightener.Step(trust * body_size_m, penalty, phase.row_spacing * body_size_m,
-                   phase.uniform_radius, seed + static_cast<std::uint64_t>(i));
+    tightener.Step(trust * body_size_m, penalty, phase.uniform_radius,
+                   seed + static_cast<std::uint64_t>(i));
   }
 }
 

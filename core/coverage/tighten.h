@@ -20,14 +20,12 @@ struct TightenPhase {
   int steps = 8;
   double first_trust = 0.01;  // how far a coordinate or radius may go in one step
   double last_trust = 0.01;
-  // What all points together cost when they stick out, relative to what the volume costs when the
-  // whole surface moves by as much. Above 1; small: points may be left out for the while, and the
-  // set finds its shape; hundreds: all points must be inside.
+  // What points cost when they stick out, relative to what the volume costs when the whole surface
+  // moves by as much. With weights: all points together. Above 1; small: points may be left out for
+  // the while, and the set finds its shape. Without weights: each of them; a few tenths: all points
+  // must be inside.
   double first_penalty = 3.0;
   double last_penalty = 3.0;
-  // Points closer together than this, on the same solid, stand for each other: the furthest out of
-  // them counts. Others are heard in the next step, should they stick out then.
-  double row_spacing = 0.015;
   // Pulls the two radii of each capsule together, at a price: nearly equal, not exactly.
   bool uniform_radius = false;
 };
@@ -38,12 +36,14 @@ struct TightenPhase {
 // steeper than sin 0.8 or a radius smaller than 3 thousandths of the body's size, nor such ones
 // worse. Mirrored spheres stay exact images.
 //
-// `allowed_m` is by the caller's index of the point, in metres; negative asks for depth. Costs a
-// millisecond a step and more for thousands of points and some fifty solids; stops early when
+// `allowed_m` is by the caller's index of the point, in metres; negative asks for depth; `weights`
+// too, any unit, or empty. The result depends on the points smoothly but where the nearest solid of
+// one changes. Costs 3 ms a step for ten thousand points and some fifty solids; stops early when
 // cancelled. The result is not feasible by itself: at the last trust region's accuracy only.
-void Tighten(const PointGrid& points, std::span<const double> allowed_m, double body_size_m,
-             const TightenPhase& phase, std::uint64_t seed, const ThreadPool& pool,
-             const FitObserver& observer, capsule::PrimitiveSet& set);
+void Tighten(const PointGrid& points, std::span<const double> allowed_m,
+             std::span<const double> weights, double body_size_m, const TightenPhase& phase,
+             std::uint64_t seed, const ThreadPool& pool, const FitObserver& observer,
+             capsule::PrimitiveSet& set);
 
 }  // namespace capfit::coverage
 

@@ -110,6 +110,24 @@ TEST(CoverBodyProperty, ScalingTheSceneScalesTheResult) {
   EXPECT_NEAR(VolumeOf(child) / VolumeOf(adult), 0.125, 0.125 * 0.02);
 }
 
+// Vertices that differ by rounding alone must not send the steps elsewhere.
+TEST_P(CoverBodyTest, FollowsItsVerticesSmoothly) {
+  TubeBody body = MakeTubeBody(static_cast<std::uint64_t>(GetParam()), 0.0);
+  capsule::PrimitiveSet before = body.set;
+  Cover(body, {}, 1, before);
+  Random random(3);
+  for (Eigen::Vector3d& p : body.target.points_m) {
+    for (double& x : p) x += random.NextIn(-1e-10, 1e-10);
+  }
+  capsule::PrimitiveSet after = body.set;
+  Cover(body, {}, 1, after);
+  ASSERT_EQ(before.capsules, after.capsules);
+  for (std::size_t i = 0; i < before.spheres.size(); ++i) {
+    EXPECT_LT((before.spheres[i].center_m - after.spheres[i].center_m).norm(), 1e-6) << i;
+    EXPECT_NEAR(before.spheres[i].radius_m, after.spheres[i].radius_m, 1e-6) << i;
+  }
+}
+
 TEST(CoverBodyProperty, ASetThatCoversAlreadyOnlyShrinks) {
   const TubeBody body = MakeTubeBody(11, 0.0);
   capsule::PrimitiveSet set = body.set;
