@@ -7,72 +7,73 @@
 namespace capfit::body {
 namespace {
 
-// Union-find over vertices; each set knows its farthest vertex.
-class Pieces {
- public:
-  explicit Pieces(std::size_t count) : parent_(count), tip_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-    std::iota(tip_.begin(), tip_.end(), 0u);
-  }
-  std::uint32_t Find(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  [[nodiscard]] std::uint32_t Tip(std::uint32_t root) const { return tip_[root]; }
-  // `child` joins `root` and takes over its tip.
-  void Join(std::uint32_t child, std::uint32_t root) { parent_[child] = root; }
-
- private:
-  std::vector<std::uint32_t> parent_;
-  std::vector<std::uint32_t> tip_;
-};
-
 struct Merge {
   std::uint32_t tip = 0;
   std::uint32_t survivor = 0;  // tip of the piece it joined
   double level = 0.0;
 };
 
-// Into as many buckets as there are vertices, then in order within each.
-std::vector<std::uint32_t> FarthestFirst(std::span<const double> distance) {
-  const std::size_t count = distance.size();
-  const double farthest = *std::max_element(distance.begin(), distance.end());
-  const double per_unit = farthest > 0.0 ? static_cast<double>(count - 1) / farthest : 0.0;
-  const auto bucket_of = [&](std::size_t v) {
-    return count - 1 - static_cast<std::size_t>(distance[v] * per_unit);
-  };
-  std::vector<std::uint32_t> start(count + 1, 0);
-  for (std::size_t v = 0; v < count; ++v) ++start[bucket_of(v) + 1];
-  for (std::size_t k = 1; k <= count; ++k) start[k] += start[k - 1];
-  std::vector<std::uint32_t> order(count);
-  std::vector<std::uint32_t> free_slot(start.begin(), start.end() - 1);
-  for (std::uint32_t v = 0; v < count; ++v) order[free_slot[bucket_of(v)]++] = v;
-  for (std::size_t k = 0; k < count; ++k) {
-    std::sort(order.begin() + start[k], order.begin() + start[k + 1],
-              [&](std::uint32_t a, std::uint32_t b) {
-                return distance[a] != distance[b] ? distance[a] > distance[b] : a < b;
-              });
+// A vertex next to one that lies farther out and belongs to another tip.
+struct Saddle {
+  std::uint32_t vertex = 0;
+  std::uint32_t other_tip = 0;
+};
+
+// The farthest vertices come first, of equals the first.
+class FarthestFirst {
+ public:
+  explicit FarthestFirst(std::span<const double> distance) : distance_(distance) {}
+  bool operator()(std::uint32_t a, std::uint32_t b) const {
+    return distance_[a] != distance_[b] ? distance_[a] > distance_[b] : a < b;
   }
-  return order;
+
+ private:
+  std::span<const double> distance_;
+};
+
+// Follows the links to where they end, and shortens them on the way.
+std::uint32_t FollowLinks(std::vector<std::uint32_t>& link, std::uint32_t v) {
+  while (link[v] != v) v = link[v] = link[link[v]];
+  return v;
 }
 
-// Lets the level sink from the farthest vertex down and notes every junction.
-std::vector<Merge> MergesFromTheTop(const SurfaceGraph& graph, std::span<const double> distance,
-                                    const std::vector<std::uint32_t>& order) {
-  std::vector<std::uint32_t> rank(order.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
-  Pieces pieces(order.size());
-  std::vector<Merge> merges;
-  for (const std::uint32_t v : order) {
+// The tip that each vertex comes to when it always climbs to its farthest neighbour.
+std::vector<std::uint32_t> NearestTips(const SurfaceGraph& graph, const FarthestFirst& is_farther) {
+  std::vector<std::uint32_t> tip(graph.vertex_count());
+  for (std::uint32_t v = 0; v < tip.size(); ++v) {
+    tip[v] = v;
     for (const std::uint32_t n : graph.Neighbours(v)) {
-      if (rank[n] > rank[v]) continue;
-      std::uint32_t a = pieces.Find(v);
-      std::uint32_t b = pieces.Find(n);
-      if (a == b) continue;
-      if (rank[pieces.Tip(a)] > rank[pieces.Tip(b)]) std::swap(a, b);  // a has the farther tip
-      if (pieces.Tip(b) != v) merges.push_back({pieces.Tip(b), pieces.Tip(a), distance[v]});
-      pieces.Join(b, a);
+      if (is_farther(n, tip[v])) tip[v] = n;
     }
+  }
+  for (std::uint32_t v = 0; v < tip.size(); ++v) tip[v] = FollowLinks(tip, v);
+  return tip;
+}
+
+// Lets the level sink from the farthest vertex down and notes every junction. Only where the slopes
+// of two tips meet can there be one.
+std::vector<Merge> MergesFromTheTop(const SurfaceGraph& graph, std::span<const double> distance) {
+  const FarthestFirst is_farther(distance);
+  const std::vector<std::uint32_t> tip = NearestTips(graph, is_farther);
+  std::vector<Saddle> saddles;
+  for (std::uint32_t v = 0; v < tip.size(); ++v) {
+    for (const std::uint32_t n : graph.Neighbours(v)) {
+      if (tip[n] != tip[v] && is_farther(n, v)) saddles.push_back({v, tip[n]});
+    }
+  }
+  std::stable_sort(saddles.begin(), saddles.end(), [&](const Saddle& a, const Saddle& b) {
+    return is_farther(a.vertex, b.vertex);
+  });
+  std::vector<std::uint32_t> survivor(tip.size());  // of each tip
+  std::iota(survivor.begin(), survivor.end(), 0u);
+  std::vector<Merge> merges;
+  for (const Saddle& saddle : saddles) {
+    std::uint32_t a = FollowLinks(survivor, tip[saddle.vertex]);
+    std::uint32_t b = FollowLinks(survivor, saddle.other_tip);
+    if (a == b) continue;
+    if (is_farther(b, a)) std::swap(a, b);
+    merges.push_back({b, a, distance[saddle.vertex]});
+    survivor[b] = a;
   }
   return merges;
 }
@@ -82,14 +83,15 @@ std::vector<Merge> MergesFromTheTop(const SurfaceGraph& graph, std::span<const d
 std::vector<Branch> FindBranches(const SurfaceGraph& graph, std::span<const double> distance,
                                  double min_persistence) {
   if (distance.empty()) return {};
-  const std::vector<std::uint32_t> order = FarthestFirst(distance);
-  std::vector<Branch> branches = {{order.front(), distance[order.front()], 0.0, -1}};
-  std::vector<Merge> merges = MergesFromTheTop(graph, distance, order);
+  const auto farthest = static_cast<std::uint32_t>(
+      std::max_element(distance.begin(), distance.end()) - distance.begin());
+  std::vector<Branch> branches = {{farthest, distance[farthest], 0.0, -1}};
+  std::vector<Merge> merges = MergesFromTheTop(graph, distance);
   std::erase_if(merges,
                 [&](const Merge& m) { return distance[m.tip] - m.level < min_persistence; });
-  // The order of FarthestFirst, so that survivors come before what they swallow, ties included.
-  std::sort(merges.begin(), merges.end(), [&](const Merge& a, const Merge& b) {
-    return distance[a.tip] != distance[b.tip] ? distance[a.tip] > distance[b.tip] : a.tip < b.tip;
+  // So that survivors come before what they swallow.
+  std::sort(merges.begin(), merges.end(), [is_farther = FarthestFirst(distance)](auto& a, auto& b) {
+    return is_farther(a.tip, b.tip);
   });
   for (const Merge& m : merges) {
     // A survivor has the farther tip and goes on longer, so it is in the list already.

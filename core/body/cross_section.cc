@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -13,6 +14,7 @@ namespace {
 using EdgeKey = std::uint64_t;
 
 constexpr std::size_t kGroupSize = 8;
+constexpr std::size_t kUsualPieces = 256;
 // Rounding must not lose a triangle that just touches the plane.
 constexpr double kBoxSlack = 1.000001;
 constexpr double kRounding = 1e-12;
@@ -32,23 +34,20 @@ void CutTriangle(std::span<const Eigen::Vector3d> points, const mesh::Triangle& 
                  const CutPlane& plane, std::vector<Piece>& pieces) {
   const double height[3] = {plane.Height(points[t[0]]), plane.Height(points[t[1]]),
                             plane.Height(points[t[2]])};
-  const bool above[3] = {height[0] >= 0.0, height[1] >= 0.0, height[2] >= 0.0};
-  if (above[0] == above[1] && above[1] == above[2]) return;
-  Piece piece;
-  for (int k = 0; k < 3; ++k) {
-    int a = k;
-    int b = (k + 1) % 3;
-    if (above[a] == above[b]) continue;
-    // Outward normals: the outline comes in where the triangle's edge goes down.
-    const bool comes_in = above[k];
-    // From the lower index, so that both triangles at the edge get the same bits.
-    if (t[a] > t[b]) std::swap(a, b);
-    const Eigen::Vector3d crossing =
-        points[t[a]] + (height[a] / (height[a] - height[b])) * (points[t[b]] - points[t[a]]);
-    (comes_in ? piece.from : piece.to) = KeyOf(t[a], t[b]);
-    if (comes_in) piece.start = crossing;
-  }
-  pieces.push_back(piece);
+  const int above = (height[0] >= 0.0) + 2 * (height[1] >= 0.0) + 4 * (height[2] >= 0.0);
+  if (above == 0 || above == 7) return;
+  // Outward normals: the outline comes in where the triangle's edge goes down, from corner `in` to
+  // the next, and goes out where it rises from corner `out`.
+  constexpr std::array<int, 8> kIn = {0, 0, 1, 1, 2, 0, 2, 0};
+  constexpr std::array<int, 8> kOut = {0, 2, 0, 2, 1, 1, 0, 0};
+  const auto edge = [&](int k) { return std::minmax(t[k], t[(k + 1) % 3]); };
+  const auto [low, high] = edge(kIn[above]);
+  // From the lower index, so that both triangles at the edge get the same bits.
+  const bool is_swapped = low != t[kIn[above]];
+  const double from = height[is_swapped ? (kIn[above] + 1) % 3 : kIn[above]];
+  const double to = height[is_swapped ? kIn[above] : (kIn[above] + 1) % 3];
+  pieces.push_back({KeyOf(low, high), KeyOf(t[kOut[above]], t[(kOut[above] + 1) % 3]),
+                    points[low] + (from / (from - to)) * (points[high] - points[low])});
 }
 
 // Fan around the first point: exact for any simple outline.
@@ -78,24 +77,51 @@ void Measure(SectionLoop& loop, const Eigen::Vector3d& normal) {
   }
 }
 
+// The pieces by the edge they come in over: a hash table with open addresses.
+class PiecesByEdge {
+ public:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+  explicit PiecesByEdge(const std::vector<Piece>& pieces) : pieces_(pieces) {
+    while ((std::size_t{1} << bits_) < 2 * pieces.size()) ++bits_;
+    slots_.assign(std::size_t{1} << bits_, kNone);
+    for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+      std::size_t slot = SlotOf(pieces[i].from);
+      while (slots_[slot] != kNone) slot = (slot + 1) & (slots_.size() - 1);
+      slots_[slot] = i;
+    }
+  }
+  [[nodiscard]] std::uint32_t Find(EdgeKey edge) const {
+    std::size_t slot = SlotOf(edge);
+    while (slots_[slot] != kNone && pieces_[slots_[slot]].from != edge) {
+      slot = (slot + 1) & (slots_.size() - 1);
+    }
+    return slots_[slot];
+  }
+
+ private:
+  // The upper bits of a product with the golden ratio.
+  [[nodiscard]] std::size_t SlotOf(EdgeKey edge) const {
+    return (edge * 0x9E3779B97F4A7C15u) >> (64 - bits_);
+  }
+
+  const std::vector<Piece>& pieces_;
+  int bits_ = 4;
+  std::vector<std::uint32_t> slots_;
+};
+
 std::vector<SectionLoop> Link(const std::vector<Piece>& pieces) {
   std::vector<SectionLoop> loops;
   std::vector<char> used(pieces.size(), 0);
-  const auto next_of = [&](EdgeKey edge) {
-    const auto at =
-        std::lower_bound(pieces.begin(), pieces.end(), edge,
-                         [](const Piece& piece, EdgeKey key) { return piece.from < key; });
-    const std::size_t index = static_cast<std::size_t>(std::distance(pieces.begin(), at));
-    return at != pieces.end() && at->from == edge ? index : pieces.size();
-  };
-  for (std::size_t first = 0; first < pieces.size(); ++first) {
+  const PiecesByEdge by_edge(pieces);
+  for (std::uint32_t first = 0; first < pieces.size(); ++first) {
     if (used[first]) continue;
     SectionLoop loop;
-    std::size_t at = first;
-    while (at < pieces.size() && !used[at]) {
+    std::uint32_t at = first;
+    while (at != PiecesByEdge::kNone && !used[at]) {
       used[at] = 1;
       loop.outline.push_back(pieces[at].start);
-      at = next_of(pieces[at].to);
+      at = by_edge.Find(pieces[at].to);
     }
     loop.is_closed = at == first;
     loops.push_back(std::move(loop));
@@ -143,6 +169,7 @@ CutSurface::CutSurface(std::span<const Eigen::Vector3d> points,
 
 std::vector<SectionLoop> CutSurface::Cut(const CutPlane& plane) const {
   std::vector<Piece> pieces;
+  pieces.reserve(kUsualPieces);
   const Eigen::Vector3d steepness = kBoxSlack * plane.normal.cwiseAbs();
   const double offset = plane.normal.dot(plane.origin);
   const auto touches = [&](const Box& box) {
@@ -159,8 +186,6 @@ std::vector<SectionLoop> CutSurface::Cut(const CutPlane& plane) const {
       }
     }
   }
-  std::sort(pieces.begin(), pieces.end(),
-            [](const Piece& a, const Piece& b) { return a.from < b.from; });
   std::vector<SectionLoop> loops = Link(pieces);
   for (SectionLoop& loop : loops) Measure(loop, plane.normal);
   std::stable_sort(loops.begin(), loops.end(), [](const SectionLoop& a, const SectionLoop& b) {

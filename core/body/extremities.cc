@@ -54,6 +54,8 @@ struct Candidate {
   int branch = 0;
   double girth = 0.0;  // mean, from its junction to the tip
   bool is_stump = false;
+  double junction = 0.0;
+  std::vector<std::uint32_t> vertices;  // those farther than the junction
 };
 
 double UsualWay(Tip a, Tip b) {
@@ -197,7 +199,11 @@ std::vector<std::uint32_t> VerticesAbove(const SurfaceGraph& graph,
       vertices.push_back(n);
     }
   }
-  std::sort(vertices.begin(), vertices.end());
+  // In order.
+  auto next = vertices.begin();
+  for (std::uint32_t v = 0; v < seen.size(); ++v) {
+    if (seen[v]) *next++ = v;
+  }
   return vertices;
 }
 
@@ -272,12 +278,13 @@ std::vector<Candidate> Candidates(std::span<const Branch> branches,
   std::vector<Candidate> candidates;
   const auto add = [&](int b, bool is_stump) {
     const double level = FirstJunction(branches, b, tall);
+    std::vector<std::uint32_t> vertices = VerticesAbove(graph, distance, branches[b].tip, level);
     double area = 0.0;
-    for (const std::uint32_t v : VerticesAbove(graph, distance, branches[b].tip, level)) {
-      area += vertex_areas[v];
-    }
+    for (const std::uint32_t v : vertices) area += vertex_areas[v];
     const double girth = area / std::max(branches[b].tip_distance - level, 1e-6);
-    if (is_stump || girth <= kMaxLimbGirth) candidates.push_back({b, girth, is_stump});
+    if (is_stump || girth <= kMaxLimbGirth) {
+      candidates.push_back({b, girth, is_stump, level, std::move(vertices)});
+    }
   };
   for (const int b : tall) add(b, false);
   for (const int b : stumps) add(b, true);
@@ -289,8 +296,7 @@ Extremities FromSources(const std::vector<GeodesicSource>& sources,
   Extremities result;
   result.distance = graph.Distances(sources);
   const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump);
-  const std::vector<Candidate> candidates =
-      Candidates(branches, result.distance, vertex_areas, graph);
+  std::vector<Candidate> candidates = Candidates(branches, result.distance, vertex_areas, graph);
   RoleFinder finder(branches, candidates);
   finder.Run();
   result.misfit = finder.misfit();
@@ -304,7 +310,9 @@ Extremities FromSources(const std::vector<GeodesicSource>& sources,
       limb.junction = std::max(limb.junction, JunctionLevel(branches, candidates[candidate].branch,
                                                             candidates[other].branch));
     }
-    limb.vertices = VerticesAbove(graph, result.distance, limb.tip, limb.junction);
+    limb.vertices = candidates[candidate].junction == limb.junction
+                        ? std::move(candidates[candidate].vertices)
+                        : VerticesAbove(graph, result.distance, limb.tip, limb.junction);
     result.limbs[role] = std::move(limb);
   }
   return result;

@@ -98,7 +98,7 @@ std::vector<mesh::Triangle> LimbTriangles(std::span<const mesh::Triangle> triang
                                           std::span<const char> in_limb) {
   std::vector<mesh::Triangle> own;
   for (const mesh::Triangle& t : triangles) {
-    if (in_limb[t[0]] && in_limb[t[1]] && in_limb[t[2]]) own.push_back(t);
+    if (in_limb[t[0]] & in_limb[t[1]] & in_limb[t[2]]) own.push_back(t);
   }
   return own;
 }
@@ -196,11 +196,9 @@ LimbProfile MakeLimbProfile(std::span<const Eigen::Vector3d> points,
   SmoothLine(line, 4);
   Extend(line, kExtension * stature);
   const Eigen::Vector3d inner_end = line.back();
-  for (const mesh::Triangle& t : triangles) {
-    if ((points[t[0]] - inner_end).squaredNorm() > kTrunkReach * kTrunkReach * stature * stature) {
-      continue;
-    }
-    for (const std::uint32_t v : t) in_limb[v] = 1;
+  const double reach = kTrunkReach * stature;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    in_limb[v] |= (points[v] - inner_end).squaredNorm() <= reach * reach;
   }
   const std::vector<mesh::Triangle> own = LimbTriangles(triangles, in_limb);
   const CutSurface surface(points, own);

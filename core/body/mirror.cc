@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace capfit::body {
@@ -44,16 +43,23 @@ double WordOf(const Landmark& landmark) {
   return landmark.method == LandmarkMethod::kCaller ? 1.0 : 0.0;
 }
 
-double DistanceToOutline(const SectionLoop& loop, const Eigen::Vector3d& p) {
-  double best = std::numeric_limits<double>::infinity();
+bool IsNearOutline(const SectionLoop& loop, const Eigen::Vector3d& p, double tolerance) {
   const std::size_t count = loop.outline.size();
+  const double squared = tolerance * tolerance;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3d& a = loop.outline[i];
     const Eigen::Vector3d step = loop.outline[(i + 1) % count] - a;
-    const double t = std::clamp((p - a).dot(step) / std::max(step.squaredNorm(), 1e-18), 0.0, 1.0);
-    best = std::min(best, (a + t * step - p).squaredNorm());
+    const double along = (p - a).dot(step);
+    const double length_squared = step.squaredNorm();
+    double miss = (p - a).squaredNorm();
+    if (along >= length_squared) {
+      miss = (p - a - step).squaredNorm();
+    } else if (along > 0.0) {
+      miss -= along * along / length_squared;
+    }
+    if (miss <= squared) return true;
   }
-  return std::sqrt(best);
+  return false;
 }
 
 // Level sections against their own mirror images, by outline length.
@@ -68,15 +74,13 @@ bool SurfaceMirrors(const Shape& shape) {
       const std::size_t step = std::max<std::size_t>(1, loop.outline.size() / kDirections);
       for (std::size_t i = 0; i < loop.outline.size(); i += step) {
         const Eigen::Vector3d image = Mirrored(loop.outline[i]);
-        double miss = std::numeric_limits<double>::infinity();
-        for (const SectionLoop& other : loops) {
-          miss = std::min(miss, DistanceToOutline(other, image));
-          if (miss <= tolerance) break;
-        }
+        const bool is_met = std::any_of(loops.begin(), loops.end(), [&](const SectionLoop& other) {
+          return IsNearOutline(other, image, tolerance);
+        });
         const double share =
             loop.girth * static_cast<double>(step) / static_cast<double>(loop.outline.size());
         length += share;
-        if (miss > tolerance) missing += share;
+        if (!is_met) missing += share;
       }
     }
   }

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr float kNone = std::numeric_limits<float>::infinity();
+// Width of a bucket as a share of the mean edge: wider ones take vertices up again more often.
+constexpr double kBucketShare = 1.0 / 3.0;
 
 // Length of the straight line from p to q over the edge b-c once the triangles (p, b, c) and
 // (q, c, b) lie flat; infinity when it would miss the edge.
@@ -18,16 +20,17 @@ double UnfoldedLength(const Eigen::Vector3d& p, const Eigen::Vector3d& b, const 
   const Eigen::Vector3d bp = p - b;
   const Eigen::Vector3d bq = q - b;
   const double edge_squared = edge.squaredNorm();
-  if (edge_squared <= 0.0) return kInfinity;
-  // Along the edge as a share of it; heights over it in the same unit.
-  const double px = bp.dot(edge) / edge_squared;
-  const double qx = bq.dot(edge) / edge_squared;
-  const double py = std::sqrt(std::max(0.0, bp.squaredNorm() / edge_squared - px * px));
-  const double qy = std::sqrt(std::max(0.0, bq.squaredNorm() / edge_squared - qx * qx));
+  // Along the edge and over it, times the edge's length.
+  const double px = bp.dot(edge);
+  const double qx = bq.dot(edge);
+  const double py = std::sqrt(std::max(0.0, bp.squaredNorm() * edge_squared - px * px));
+  const double qy = std::sqrt(std::max(0.0, bq.squaredNorm() * edge_squared - qx * qx));
   const double rise = py + qy;
   const double crossing = px * qy + qx * py;
-  if (crossing < 0.0 || crossing > rise || rise <= 0.0) return kInfinity;
-  return std::sqrt(((qx - px) * (qx - px) + rise * rise) * edge_squared);
+  const double length = std::sqrt(((qx - px) * (qx - px) + rise * rise) / edge_squared);
+  const bool is_over_the_edge =
+      (crossing >= 0.0) & (crossing <= rise * edge_squared) & (rise > 0.0);
+  return is_over_the_edge ? length : kInfinity;
 }
 
 }  // namespace
@@ -47,7 +50,7 @@ void SurfaceGraph::AddEdges(std::span<const Eigen::Vector3d> points,
   for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
   next_.resize(offsets_.back());
   after_.resize(offsets_.back());
-  links_.resize(2 * next_.size());
+  links_.resize(next_.size());
   std::vector<std::uint32_t> free_slot(offsets_.begin(), offsets_.end() - 1);
   double total_length = 0.0;
   for (const mesh::Triangle& t : triangles) {
@@ -57,46 +60,66 @@ void SurfaceGraph::AddEdges(std::span<const Eigen::Vector3d> points,
       const double length = (points[to] - points[t[k]]).norm();
       next_[slots[k]] = to;
       after_[slots[k]] = slots[(k + 1) % 3];
-      links_[2 * slots[k]] = {to, static_cast<float>(length)};
-      links_[2 * slots[k] + 1] = {t[k], -1.0f};
+      links_[slots[k]] = {t[k], static_cast<float>(length), -1.0f};
       total_length += length;
     }
   }
-  if (total_length > 0.0) bucket_width_ = total_length / static_cast<double>(next_.size());
+  if (total_length > 0.0) {
+    bucket_width_ = kBucketShare * total_length / static_cast<double>(next_.size());
+  }
+}
+
+// The slot at `from` of the triangle that runs the edge to `to`; the number of slots where there is
+// none. Looked for at the end with fewer triangles: the hub of a wheel may have as many as the
+// mesh.
+std::uint32_t SurfaceGraph::SlotOfEdge(std::uint32_t from, std::uint32_t to) const {
+  const bool from_has_fewer =
+      offsets_[from + 1] - offsets_[from] <= offsets_[to + 1] - offsets_[to];
+  const std::uint32_t end = from_has_fewer ? from : to;
+  for (std::uint32_t s = offsets_[end]; s < offsets_[end + 1]; ++s) {
+    if (from_has_fewer) {
+      if (next_[s] == to) return s;
+    } else if (next_[after_[s]] == from) {
+      return after_[after_[s]];
+    }
+  }
+  return offsets_.back();
 }
 
 // Each shortcut is measured once, from the end that comes first, and entered at both.
 void SurfaceGraph::AddShortcuts(std::span<const Eigen::Vector3d> points) {
   for (std::uint32_t v = 0; v + 1 < offsets_.size(); ++v) {
     for (std::uint32_t s = offsets_[v]; s < offsets_[v + 1]; ++s) {
-      Link& shortcut = links_[2 * s + 1];
-      if (shortcut.length >= 0.0f) continue;
-      shortcut.length = kNone;
+      Link& link = links_[s];
+      if (link.across_length >= 0.0f) continue;
+      link.across_length = kNone;
       const std::uint32_t b = next_[s];
       const std::uint32_t c = next_[after_[s]];
       // The triangle on the other side of b-c starts at c and goes on to b.
-      std::uint32_t o = offsets_[c];
-      while (o < offsets_[c + 1] && next_[o] != b) ++o;
-      if (o == offsets_[c + 1]) continue;
+      const std::uint32_t o = SlotOfEdge(c, b);
+      if (o == offsets_.back()) continue;
       const std::uint32_t across = next_[after_[o]];
       const std::uint32_t opposite_slot = after_[after_[o]];
       const float length =
           static_cast<float>(UnfoldedLength(points[v], points[b], points[c], points[across]));
-      shortcut = {across, length};
-      links_[2 * opposite_slot + 1] = {v, length};
+      link.across = across;
+      link.across_length = length;
+      links_[opposite_slot].across = v;
+      links_[opposite_slot].across_length = length;
     }
   }
 }
 
-// A queue of buckets as wide as the mean edge. Inside a bucket the order is free and a vertex may
-// come up again; what counts is that nothing can be improved when the bucket is empty.
+// A queue of buckets narrower than the mean edge. Inside a bucket the order is free and a vertex
+// may come up again; what counts is that nothing can be improved when the bucket is empty.
 std::vector<double> SurfaceGraph::Distances(std::span<const GeodesicSource> sources) const {
   std::vector<double> distance(vertex_count(), kInfinity);
   std::vector<std::vector<std::uint32_t>> buckets(1);
+  const double buckets_per_unit = 1.0 / bucket_width_;
   const auto offer = [&](std::uint32_t vertex, double candidate) {
     if (candidate >= distance[vertex]) return;
     distance[vertex] = candidate;
-    const std::size_t bucket = static_cast<std::size_t>(candidate / bucket_width_);
+    const std::size_t bucket = static_cast<std::size_t>(candidate * buckets_per_unit);
     if (bucket >= buckets.size()) buckets.resize(bucket + 1);
     buckets[bucket].push_back(vertex);
   };
@@ -106,9 +129,10 @@ std::vector<double> SurfaceGraph::Distances(std::span<const GeodesicSource> sour
       const std::uint32_t vertex = buckets[k].back();
       buckets[k].pop_back();
       const double here = distance[vertex];
-      if (static_cast<std::size_t>(here / bucket_width_) != k) continue;  // went up earlier
-      for (std::uint32_t s = 2 * offsets_[vertex]; s < 2 * offsets_[vertex + 1]; ++s) {
-        offer(links_[s].target, here + links_[s].length);
+      if (static_cast<std::size_t>(here * buckets_per_unit) != k) continue;  // went up earlier
+      for (std::uint32_t s = offsets_[vertex]; s < offsets_[vertex + 1]; ++s) {
+        offer(next_[s], here + links_[s].edge_length);
+        offer(links_[s].across, here + links_[s].across_length);
       }
     }
   }

@@ -38,16 +38,18 @@ class SurfaceGraph {
 
  private:
   struct Link {
-    std::uint32_t target = 0;
-    float length = 0.0f;
+    std::uint32_t across = 0;    // where the shortcut leads
+    float edge_length = 0.0f;    // to the slot's corner
+    float across_length = 0.0f;  // infinite where there is none
   };
   void AddEdges(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles);
   void AddShortcuts(std::span<const Eigen::Vector3d> points);
+  [[nodiscard]] std::uint32_t SlotOfEdge(std::uint32_t from, std::uint32_t to) const;
 
   std::vector<std::uint32_t> offsets_;  // into next_, one slot per corner at the vertex
   std::vector<std::uint32_t> next_;     // the corner after the vertex in that triangle
   std::vector<std::uint32_t> after_;    // that corner's slot of the same triangle
-  std::vector<Link> links_;             // two per slot: the edge to next_, the shortcut or none
+  std::vector<Link> links_;             // one per slot
   double bucket_width_ = 1.0;
 };
 

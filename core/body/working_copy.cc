@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "core/body/snap.h"
-#include "core/mesh/canonical_order.h"
 
 namespace capfit::body {
 namespace {
@@ -24,8 +23,9 @@ std::uint32_t Spread(std::uint32_t x) {
   return (x | (x << 2)) & 0x00249249u;
 }
 
-// Index order by key, equal keys in their old order (two passes of 12 bits).
-std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys) {
+// Index order by key, equal keys by place (two passes of 12 bits).
+std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys,
+                                     const std::vector<Eigen::Vector3d>& points) {
   std::vector<std::uint32_t> order(keys.size());
   std::vector<std::uint32_t> next(keys.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -35,6 +35,19 @@ std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys) {
     for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
     for (const std::uint32_t i : order) next[start[(keys[i] >> shift) & 0xFFFu]++] = i;
     order.swap(next);
+  }
+  const auto comes_first = [&](std::uint32_t a, std::uint32_t b) {
+    const Eigen::Vector3d& p = points[a];
+    const Eigen::Vector3d& q = points[b];
+    if (p.y() != q.y()) return p.y() < q.y();
+    if (p.z() != q.z()) return p.z() < q.z();
+    return p.x() < q.x();
+  };
+  for (auto first = order.begin(); first != order.end();) {
+    auto last = first + 1;
+    while (last != order.end() && keys[*last] == keys[*first]) ++last;
+    if (last - first > 1) std::stable_sort(first, last, comes_first);
+    first = last;
   }
   return order;
 }
@@ -59,22 +72,24 @@ std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points)
   return keys;
 }
 
-// Triangles of vertices in a new order, by their first corners in it.
-std::vector<mesh::Triangle> SortedTriangles(const std::vector<mesh::Triangle>& triangles,
+// Triangles of vertices in a new order, sorted by their corners in it, the lowest corner first.
+std::vector<mesh::Triangle> SortedTriangles(std::span<const mesh::Triangle> triangles,
                                             const std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> rank(order.size());
   for (std::uint32_t i = 0; i < rank.size(); ++i) rank[order[i]] = i;
-  std::vector<std::uint32_t> start(rank.size() + 1, 0);
-  std::vector<mesh::Triangle> renamed;
-  renamed.reserve(triangles.size());
+  std::vector<std::uint32_t> end(rank.size() + 1, 0);
+  for (const mesh::Triangle& t : triangles) ++end[std::min({rank[t[0]], rank[t[1]], rank[t[2]]})];
+  for (std::size_t k = 1; k < end.size(); ++k) end[k] += end[k - 1];
+  std::vector<mesh::Triangle> sorted(triangles.size());
+  // From the back, so that the ends become the starts.
   for (const mesh::Triangle& t : triangles) {
-    renamed.push_back({rank[t[0]], rank[t[1]], rank[t[2]]});
-    ++start[*std::min_element(renamed.back().begin(), renamed.back().end()) + 1];
+    mesh::Triangle renamed = {rank[t[0]], rank[t[1]], rank[t[2]]};
+    std::rotate(renamed.begin(), std::min_element(renamed.begin(), renamed.end()), renamed.end());
+    sorted[--end[renamed[0]]] = renamed;
   }
-  for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
-  std::vector<mesh::Triangle> sorted(renamed.size());
-  for (const mesh::Triangle& t : renamed)
-    sorted[start[*std::min_element(t.begin(), t.end())]++] = t;
+  for (std::size_t v = 0; v < rank.size(); ++v) {
+    std::sort(sorted.begin() + end[v], sorted.begin() + end[v + 1]);
+  }
   return sorted;
 }
 
@@ -140,19 +155,10 @@ WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh) {
     points.push_back((v - copy.centroid) / copy.unit);
   copy.axes = PrincipalAxes(points);
   for (Eigen::Vector3d& p : points) p = Snap(copy.axes * p, kCoordinateGrid);
-  // First an order in which the mesh's own has no say, then along the curve, where equals keep it.
-  std::vector<mesh::Triangle> triangles(mesh.triangles().begin(), mesh.triangles().end());
-  const std::vector<std::uint32_t> place = mesh::PutInCanonicalOrder(points, triangles);
-  std::vector<std::uint32_t> came_from(place.size());
-  for (std::uint32_t v = 0; v < place.size(); ++v) came_from[place[v]] = v;
-  const std::vector<std::uint32_t> order = SortByKey(CurveKeys(points));
-  copy.triangles = SortedTriangles(triangles, order);
+  copy.mesh_vertex = SortByKey(CurveKeys(points), points);
+  copy.triangles = SortedTriangles(mesh.triangles(), copy.mesh_vertex);
   copy.points.reserve(points.size());
-  copy.mesh_vertex.reserve(points.size());
-  for (const std::uint32_t v : order) {
-    copy.points.push_back(points[v]);
-    copy.mesh_vertex.push_back(came_from[v]);
-  }
+  for (const std::uint32_t v : copy.mesh_vertex) copy.points.push_back(points[v]);
   AddAreas(copy);
   return copy;
 }
