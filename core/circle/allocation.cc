@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/base/ties.h"
 #include "core/circle/allocation_search.h"
 
 namespace capfit::circle {
@@ -94,7 +95,7 @@ class Allocator {
         for (int raise = 1; raise <= 2; ++raise) {
           const std::optional<double> score = Score(g, raise);
           if (!score) break;
-          if (*score > highest) {
+          if (ClearlyLess(highest, *score)) {
             highest = *score;
             best = g;
             best_raise = raise;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/base/ties.h"
+
 namespace capfit::circle {
 namespace {
 
@@ -69,7 +71,8 @@ class ChainTable {
     for (std::size_t choice = 0; choice < chain.polygons.back().waste.size(); ++choice) {
       for (std::size_t cost = 0; cost < best_.size(); ++cost) {
         const double waste = stages_.back()[choice][cost].waste;
-        if (waste < best_[cost].waste) best_[cost] = {waste, static_cast<int>(choice), 0};
+        if (ClearlyLess(waste, best_[cost].waste))
+          best_[cost] = {waste, static_cast<int>(choice), 0};
       }
     }
   }
@@ -124,7 +127,7 @@ class ChainTable {
       if (next < 0) continue;
       Cell& cell = to[static_cast<std::size_t>(next)];
       const double sum = from[cost].waste + waste;
-      if (sum < cell.waste) cell = {sum, before, static_cast<int>(cost)};
+      if (ClearlyLess(sum, cell.waste)) cell = {sum, before, static_cast<int>(cost)};
     }
   }
 
@@ -153,7 +156,7 @@ class Joined {
       if (waste == kImpossible) continue;
       // From the dearest down: past the slack only the first one counts.
       if (costs_.total_only() && best >= 0 && costs_.Unused(cost) > slack) break;
-      if (best < 0 || waste < last[static_cast<std::size_t>(best)].waste) best = cost;
+      if (best < 0 || ClearlyLess(waste, last[static_cast<std::size_t>(best)].waste)) best = cost;
     }
     return best;
   }
@@ -187,7 +190,7 @@ class Joined {
         if (cost < 0) continue;
         Cell& cell = after[static_cast<std::size_t>(cost)];
         const double sum = waste + table.Waste(b);
-        if (sum < cell.waste) cell = {sum, b, a};
+        if (ClearlyLess(sum, cell.waste)) cell = {sum, b, a};
       }
     }
     stages_.push_back(std::move(after));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/ties.h"
 #include "core/circle/circle_outside_area.h"
 
 namespace capfit::circle {
@@ -14,6 +15,8 @@ namespace {
 // Radii in a table, evenly spaced up to the farthest point. Costs only rank circles against each
 // other; halving the spacing changes no result noticeably, and each entry costs one exact area.
 constexpr int kTableRadii = 20;
+
+double Rounded(double value, double quantum) { return std::round(value / quantum) * quantum; }
 
 // Outside area of circles around one centre as a function of the radius.
 class AreaByRadius {
@@ -71,10 +74,12 @@ class Partitioner {
               const section::Polygon& outline)
       : point_count_(points.size()), seed_count_(seeds.size()) {
     distances_.resize(point_count_ * seed_count_);
+    const double quantum = kTie * std::sqrt(outline.area_m2());
+    tie_ = kTie * outline.area_m2();
     for (std::size_t i = 0; i < seed_count_; ++i) {
       double largest = 0.0;
       for (std::size_t p = 0; p < point_count_; ++p) {
-        const double d = (points[p] - seeds[i].center_m).norm();
+        const double d = Rounded((points[p] - seeds[i].center_m).norm(), quantum);
         distances_[p * seed_count_ + i] = d;
         largest = std::max(largest, d);
       }
@@ -115,7 +120,7 @@ class Partitioner {
       Growing& circle = circles_[i];
       const double area = std::max(circle.area, circle.table.At(distances[i]));
       const double cost = circle.weight * (area - circle.area);
-      if (cost > least || (cost == least && distances[i] >= best_distance)) continue;
+      if (cost > least + tie_ || (cost > least - tie_ && distances[i] >= best_distance)) continue;
       best = static_cast<int>(i);
       least = cost;
       best_area = area;
@@ -143,6 +148,7 @@ class Partitioner {
     return best;
   }
 
+  double tie_ = 0.0;  // of costs, m2
   std::size_t point_count_;
   std::size_t seed_count_;
   std::vector<double> distances_;  // point-major

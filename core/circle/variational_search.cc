@@ -1,10 +1,14 @@
 #include "core/circle/variational_search.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 #include "absl/status/statusor.h"
 #include "core/base/random.h"
+#include "core/base/ties.h"
 #include "core/circle/partition.h"
 #include "core/circle/union_area.h"
 
@@ -58,7 +62,7 @@ class Search {
       std::vector<Cluster> next = Descend(Teleport(best));
       const double waste = Waste(next);
       idle = waste < (1.0 - kSignificantGain) * least ? 0 : idle + 1;
-      if (waste < least) {
+      if (ClearlyLess(waste, least)) {
         least = waste;
         best = std::move(next);
       }
@@ -81,7 +85,7 @@ class Search {
     std::vector<Cluster> best = Run(FoldedSeeds(pairs, circle_count - 2 * pairs));
     if (pairs == 0) return best;
     std::vector<Cluster> other = Run(FoldedSeeds(pairs - 1, circle_count - 2 * pairs + 2));
-    return Waste(other) < Waste(best) ? other : best;
+    return ClearlyLess(Waste(other), Waste(best)) ? other : best;
   }
 
   // Evenly on the longest diagonal of the region.
@@ -133,7 +137,7 @@ class Search {
       for (std::size_t i = 0; i < seeds.size(); ++i) {
         seeds[i].center_m = clusters[i].circle.center_m;
       }
-      if (best.empty() || sum < least) {
+      if (best.empty() || ClearlyLess(sum, least)) {
         least = sum;
         best = std::move(clusters);
       }
@@ -221,7 +225,7 @@ class Search {
     double highest = -1.0;
     std::size_t circle = 0;
     for (std::size_t i = 0; i < clusters.size(); ++i) {
-      if (ratios[circle] > highest) {
+      if (ratios[circle] > highest + kTie) {
         highest = ratios[circle];
         most = i;
       }
@@ -230,23 +234,38 @@ class Search {
     return most;
   }
 
-  static std::size_t MostWasteful(std::span<const Cluster> clusters, std::size_t except) {
+  std::size_t MostWasteful(std::span<const Cluster> clusters, std::size_t except) const {
+    const double tie = kTie * outline_.area_m2();
     std::size_t most = except == 0 ? 1 : 0;
     for (std::size_t i = most + 1; i < clusters.size(); ++i) {
-      if (i != except && clusters[i].outside_area_m2 > clusters[most].outside_area_m2) most = i;
+      if (i == except) continue;
+      if (clusters[i].outside_area_m2 > clusters[most].outside_area_m2 + tie) most = i;
     }
     return most;
   }
 
+  // A point of the cluster, an interior one where there are any: the nearest to a place drawn in
+  // the circle. (Drawing from their list would make every later circle depend on the owner of each
+  // single point.)
   Eigen::Vector2d RandomPoint(const Cluster& cluster) {
-    std::vector<int> candidates;
+    const double angle = random_.NextIn(0.0, 2.0 * std::numbers::pi);
+    const double radius = cluster.circle.radius_m * std::sqrt(random_.NextUnit());
+    const Eigen::Vector2d place =
+        cluster.circle.center_m + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    Eigen::Vector2d nearest = cluster.circle.center_m;
+    double least = std::numeric_limits<double>::infinity();
+    bool found_interior = false;
     for (const int p : cluster.points) {
-      if (region_.is_interior[static_cast<std::size_t>(p)]) candidates.push_back(p);
+      const bool is_interior = region_.is_interior[static_cast<std::size_t>(p)] != 0;
+      if (found_interior && !is_interior) continue;
+      const Eigen::Vector2d& point = region_.points_m[static_cast<std::size_t>(p)];
+      const double distance = (point - place).squaredNorm();
+      if (is_interior == found_interior && !ClearlyLess(distance, least)) continue;
+      nearest = point;
+      least = distance;
+      found_interior = is_interior;
     }
-    if (candidates.empty()) candidates = cluster.points;
-    if (candidates.empty()) return cluster.circle.center_m;
-    const auto index = static_cast<std::size_t>(random_.NextBelow(candidates.size()));
-    return region_.points_m[static_cast<std::size_t>(candidates[index])];
+    return nearest;
   }
 
   const Region& region_;
