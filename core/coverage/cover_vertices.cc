@@ -23,16 +23,16 @@ namespace {
 constexpr double kVertexDepth = 1e-6;
 // Points this far apart, relative to the body's size, are enough to find the shape by. All have
 // their say in the second phase.
-constexpr double kSparseSpacing = 0.016;
+constexpr double kSparseSpacing = 0.018;
 
 // The set finds its shape with points left out at a price, which rises; then they must all come in.
 // Starting with a low price matters most (a fifth of E_r): where everything must be inside from the
 // start, each sphere is caught in the circle it came with.
-constexpr TightenPhase kLoosePhase{.steps = 14,
+constexpr TightenPhase kLoosePhase{.steps = 12,
                                    .first_trust = 0.012,
                                    .last_trust = 0.006,
                                    .first_penalty = 1.6,
-                                   .last_penalty = 16.0};
+                                   .last_penalty = 32.0};
 constexpr TightenPhase kTightPhase{.steps = 3,
                                    .first_trust = 0.004,
                                    .last_trust = 0.001,
