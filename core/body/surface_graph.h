@@ -45,6 +45,8 @@ class SurfaceGraph {
   void AddEdges(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles);
   void AddShortcuts(std::span<const Eigen::Vector3d> points);
   [[nodiscard]] std::uint32_t SlotOfEdge(std::uint32_t from, std::uint32_t to) const;
+  void FinishInOrder(const std::vector<std::vector<std::uint32_t>>& open,
+                     std::vector<double>& distance) const;
 
   std::vector<std::uint32_t> offsets_;  // into next_, one slot per corner at the vertex
   std::vector<std::uint32_t> next_;     // the corner after the vertex in that triangle

@@ -10,7 +10,7 @@ namespace {
 
 // An edge with more triangles than this is not matched (pairs grow with the square): its triangles
 // come apart, which the checks that follow report.
-constexpr std::size_t kMostMatched = 32;
+constexpr std::size_t kMostMatched = 16;
 
 // The triangles at crowded edges, ascending, each once.
 std::vector<std::uint32_t> CrowdedTriangles(const EdgeMates& mates) {
@@ -75,12 +75,13 @@ Eigen::Vector3d Wing(std::span<const Eigen::Vector3d> positions,
   return length > 0.0 ? Eigen::Vector3d(wing / length) : Eigen::Vector3d::Zero();
 }
 
-std::vector<Match> PossibleMatches(std::span<const Eigen::Vector3d> positions,
-                                   std::span<const Triangle> triangles,
-                                   std::span<const HalfEdge> edge) {
-  std::vector<Eigen::Vector3d> wings;
+// Into `matches`, the best first; `wings` is scratch space.
+void FindMatches(std::span<const Eigen::Vector3d> positions, std::span<const Triangle> triangles,
+                 std::span<const HalfEdge> edge, std::vector<Eigen::Vector3d>& wings,
+                 std::vector<Match>& matches) {
+  wings.clear();
+  matches.clear();
   for (const HalfEdge h : edge) wings.push_back(Wing(positions, triangles, h));
-  std::vector<Match> matches;
   for (std::size_t i = 0; i < edge.size(); ++i) {
     for (std::size_t k = i + 1; k < edge.size(); ++k) {
       const bool opposite = StartOf(triangles, edge[i]) != StartOf(triangles, edge[k]);
@@ -88,7 +89,6 @@ std::vector<Match> PossibleMatches(std::span<const Eigen::Vector3d> positions,
     }
   }
   std::sort(matches.begin(), matches.end(), IsBetter);
-  return matches;
 }
 
 }  // namespace
@@ -128,9 +128,12 @@ std::vector<std::uint32_t> FindFins(const EdgeMates& mates) {
 
 void MatchCrowdedEdges(std::span<const Eigen::Vector3d> positions,
                        std::span<const Triangle> triangles, EdgeMates& mates) {
+  std::vector<Eigen::Vector3d> wings;
+  std::vector<Match> matches;
   ForEachCrowdedEdge(mates, [&](std::span<const HalfEdge> edge) {
     if (edge.size() > kMostMatched) return;
-    for (const Match& match : PossibleMatches(positions, triangles, edge)) {
+    FindMatches(positions, triangles, edge, wings, matches);
+    for (const Match& match : matches) {
       if (mates.mate[match.a] != kNoMate || mates.mate[match.b] != kNoMate) continue;
       mates.mate[match.a] = match.b;
       mates.mate[match.b] = match.a;

@@ -1,7 +1,6 @@
 #include "core/mesh/glb_file.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -9,6 +8,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/mesh/gltf_json.h"
+#include "core/mesh/text_scanner.h"
 
 namespace capfit::mesh {
 namespace {
@@ -39,25 +40,6 @@ Value Load(const std::byte* bytes) {
 
 std::uint32_t WordAt(std::span<const std::byte> bytes, std::size_t offset) {
   return Load<std::uint32_t>(bytes.data() + offset);
-}
-
-// Only these are kept of the JSON: images, materials and animations may be large.
-bool IsWanted(const json& key) {
-  static constexpr const char* kWanted[] = {"scene",   "scenes",    "nodes",       "meshes",
-                                            "buffers", "accessors", "bufferViews", "skins"};
-  return std::any_of(std::begin(kWanted), std::end(kWanted),
-                     [&](const char* wanted) { return key == wanted; });
-}
-
-absl::StatusOr<json> ParseJson(std::span<const std::byte> chunk) {
-  const char* const text = reinterpret_cast<const char*>(chunk.data());
-  const json::parser_callback_t keep = [](int depth, json::parse_event_t event, json& parsed) {
-    if (event != json::parse_event_t::key) return true;
-    return depth == 1 ? IsWanted(parsed) : parsed != "extras";
-  };
-  json parsed = json::parse(text, text + chunk.size(), keep, /*allow_exceptions=*/false);
-  if (!parsed.is_object()) return InvalidField("file", "has a JSON chunk that is no JSON object");
-  return parsed;
 }
 
 std::optional<std::size_t> SizeOfComponent(int component_type) {
@@ -124,7 +106,11 @@ absl::StatusOr<GlbFile> OpenGlb(std::span<const std::byte> bytes) {
         return InvalidField("file", absl::StrCat("has ", size, " bytes of JSON, must have at most ",
                                                  kMostJsonBytes));
       }
-      CAPFIT_ASSIGN_OR_RETURN(file.json, ParseJson(chunk));
+      std::optional<json> parsed = ParseGltfJson(AsText(chunk));
+      if (!parsed.has_value()) {
+        return InvalidField("file", "has a JSON chunk that is no JSON object");
+      }
+      file.json = *std::move(parsed);
       has_json = true;
     } else if (type == kBinaryChunk && file.binary.empty()) {
       file.binary = chunk;

@@ -13,6 +13,9 @@ namespace {
 
 using nlohmann::json;
 
+// A scene has some thousand; keeps hostile files cheap.
+constexpr std::size_t kMostNodes = 100'000;
+
 // The numbers of json[key] if it is an array of `count` numbers, else nothing.
 std::optional<std::vector<double>> NumbersAt(const json& parent, const char* key,
                                              std::size_t count) {
@@ -58,6 +61,10 @@ class NodeTree {
   explicit NodeTree(const json& gltf) : gltf_(gltf), nodes_(ArrayAt(gltf, "nodes")) {}
 
   absl::StatusOr<GltfNodes> Run() {
+    if (nodes_.size() > kMostNodes) {
+      return InvalidField(
+          "file", absl::StrCat("has ", nodes_.size(), " nodes, must have at most ", kMostNodes));
+    }
     CAPFIT_RETURN_IF_ERROR(FindChildren());
     result_.to_world.assign(nodes_.size(), Eigen::Matrix4d::Identity());
     // What stays unplaced hangs on a ring of nodes.

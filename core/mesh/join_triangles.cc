@@ -11,19 +11,26 @@ namespace {
 
 // Fins that hang on fins are dropped from outside in, a layer a round. No export has many layers.
 constexpr int kMostFinRounds = 16;
+// Triangles that all rounds together may look at: in a million random triangles every round finds
+// more of them.
+constexpr std::size_t kMostFinLooks = 8'000'000;
 
 class TriangleJoiner {
  public:
   TriangleJoiner(std::span<const Eigen::Vector3d> positions, std::vector<Triangle> triangles,
-                 double weld_tolerance)
-      : positions_(positions), weld_tolerance_(weld_tolerance), triangles_(std::move(triangles)) {}
+                 double weld_tolerance, const FitObserver& observer)
+      : positions_(positions),
+        weld_tolerance_(weld_tolerance),
+        observer_(observer),
+        triangles_(std::move(triangles)) {}
 
   JoinedTriangles Run() {
     EdgeMates mates = FindMates();
     if (!mates.IsClosedAndOriented()) {
       mates = DropDuplicates(std::move(mates));
-      if (mates.open > 0) mates = Weld(std::move(mates));
+      if (mates.open > 0 && !observer_.IsCancelled()) mates = Weld(std::move(mates));
       mates = DropFins(std::move(mates));
+      if (observer_.IsCancelled()) return {};
       result_.crowded = mates.crowded_sizes.size();
       MatchCrowdedEdges(positions_, triangles_, mates);
     }
@@ -93,7 +100,10 @@ class TriangleJoiner {
 
   // A dropped fin may leave the next one loose.
   EdgeMates DropFins(EdgeMates mates) {
+    std::size_t looks = 0;
     for (int round = 0; round < kMostFinRounds && !mates.crowded_sizes.empty(); ++round) {
+      looks += triangles_.size();
+      if (looks > kMostFinLooks || observer_.IsCancelled()) break;
       const std::vector<std::uint32_t> fins = FindFins(mates);
       if (fins.empty()) break;
       result_.fins += fins.size();
@@ -119,6 +129,7 @@ class TriangleJoiner {
 
   std::span<const Eigen::Vector3d> positions_;
   double weld_tolerance_;
+  const FitObserver& observer_;
   std::vector<Triangle> triangles_;
   JoinedTriangles result_;
 };
@@ -126,8 +137,9 @@ class TriangleJoiner {
 }  // namespace
 
 JoinedTriangles JoinTriangles(std::span<const Eigen::Vector3d> positions,
-                              std::vector<Triangle> triangles, double weld_tolerance) {
-  return TriangleJoiner(positions, std::move(triangles), weld_tolerance).Run();
+                              std::vector<Triangle> triangles, double weld_tolerance,
+                              const FitObserver& observer) {
+  return TriangleJoiner(positions, std::move(triangles), weld_tolerance, observer).Run();
 }
 
 }  // namespace capfit::mesh

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/mesh/surface.h"
 
 namespace capfit::mesh {
@@ -27,8 +28,11 @@ struct JoinedTriangles {
 // not make one closed, oriented surface at once: drops copies of triangles, welds the vertices of
 // open edges (equal ones first, then those within `weld_tolerance`, if positive), drops fins, and
 // matches what meets at crowded edges. O(n).
+//
+// Where `observer` cancels, what is there so far comes back, of no further use.
 [[nodiscard]] JoinedTriangles JoinTriangles(std::span<const Eigen::Vector3d> positions,
-                                            std::vector<Triangle> triangles, double weld_tolerance);
+                                            std::vector<Triangle> triangles, double weld_tolerance,
+                                            const FitObserver& observer);
 
 }  // namespace capfit::mesh
 

@@ -7,7 +7,8 @@
 namespace capfit::mesh {
 namespace {
 
-// Steps round vertices that one mesh may take: bounds what a wheel of flat triangles can cost.
+// Looks at triangles and steps round vertices that one mesh may take: bounds what a wheel of flat
+// triangles can cost.
 constexpr std::size_t kMostSteps = 20'000'000;
 
 constexpr std::uint32_t kDead = 0xFFFFFFFFu;
@@ -25,13 +26,27 @@ class FlatTriangleMender {
   MendedTriangles Run() {
     for (bool mended = true; mended && steps_left_ > 0;) {
       mended = false;
-      for (const std::uint32_t t : flat_) mended |= IsStillFlat(t) && Mend(t);
+      for (const std::uint32_t t : flat_) mended |= MendFrom(t);
     }
     if (!result_.merged.empty()) RemoveDead();
     return std::move(result_);
   }
 
  private:
+  // The triangle, and what its neighbours make of that: a long row of flat triangles is mended in
+  // one go, from whichever end there is a way.
+  bool MendFrom(std::uint32_t first) {
+    bool mended = false;
+    open_.push_back(first);
+    while (!open_.empty() && steps_left_ > 0) {
+      const std::uint32_t t = open_.back();
+      open_.pop_back();
+      --steps_left_;
+      mended |= IsStillFlat(t) && Mend(t);
+    }
+    return mended;
+  }
+
   [[nodiscard]] bool IsStillFlat(std::uint32_t t) const {
     return surface_.triangles[t][0] != kDead &&
            IsFlat(positions_, surface_.triangles[t], tolerance_);
@@ -60,7 +75,7 @@ class FlatTriangleMender {
       ring.push_back(Start(NextInTriangle(h)));
       h = surface_.mate[PreviousInTriangle(h)];
     } while (h != first && ring.size() < steps_left_);
-    steps_left_ -= ring.size();
+    steps_left_ -= std::min(ring.size(), steps_left_);
     std::sort(ring.begin(), ring.end());
     return ring;
   }
@@ -91,6 +106,9 @@ class FlatTriangleMender {
     Join(t0 + 2, beside_ca);
     Join(m0, beside_db);
     Join(m0 + 1, beside_bc);
+    for (const HalfEdge beside : {beside_ad, beside_db, beside_bc, beside_ca}) {
+      open_.push_back(beside / 3);
+    }
     ++result_.flipped;
     return true;
   }
@@ -114,6 +132,7 @@ class FlatTriangleMender {
     HalfEdge round = m;
     do {
       surface_.triangles[round / 3][round % 3] = kept;
+      open_.push_back(round / 3);
       round = surface_.mate[PreviousInTriangle(round)];
     } while (round != m);
     Join(surface_.mate[NextInTriangle(h)], surface_.mate[PreviousInTriangle(h)]);
@@ -150,6 +169,7 @@ class FlatTriangleMender {
   double tolerance_;
   Surface& surface_;
   std::vector<std::uint32_t> flat_;
+  std::vector<std::uint32_t> open_;  // to be looked at next
   std::size_t steps_left_ = kMostSteps;
   MendedTriangles result_;
 };

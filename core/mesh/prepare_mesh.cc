@@ -70,29 +70,39 @@ std::string PointText(const Eigen::Vector3d& p) {
 class MeshMender {
  public:
   // `positions` stand for the soup's own.
-  MeshMender(const PolygonSoup& soup, const std::vector<Eigen::Vector3d>& positions)
-      : positions_(positions) {
+  MeshMender(const PolygonSoup& soup, const std::vector<Eigen::Vector3d>& positions,
+             const FitObserver& observer)
+      : positions_(positions), observer_(observer) {
     Triangulate(soup);
     MeasureUsed();
   }
 
   absl::StatusOr<PreparedMesh> Run() {
     Join();
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     if (surface_.triangles.empty()) {
       return CannotFit("NO_SURFACE", absl::StrCat("all ", degenerate_,
                                                   " faces are degenerate: none has three "
                                                   "different vertices"));
     }
     CAPFIT_RETURN_IF_ERROR(KeepMainPart());
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     CAPFIT_RETURN_IF_ERROR(CloseAllHoles());
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     CAPFIT_RETURN_IF_ERROR(TurnOutward());
     SplitTouchingVertices();
     MendFlat();
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     CAPFIT_RETURN_IF_ERROR(CheckManifold());
     return Finish();
   }
 
  private:
+  [[nodiscard]] absl::Status CheckCancelled() const {
+    if (!observer_.IsCancelled()) return absl::OkStatus();
+    return absl::CancelledError("cancelled while the mesh was mended");
+  }
+
   void Triangulate(const PolygonSoup& soup) {
     TriangulatedFaces faces = TriangulateFaces(soup, positions_);
     surface_.triangles = std::move(faces.triangles);
@@ -119,7 +129,7 @@ class MeshMender {
 
   void Join() {
     JoinedTriangles joined =
-        JoinTriangles(positions_, std::move(surface_.triangles), kWeldShare * diagonal_);
+        JoinTriangles(positions_, std::move(surface_.triangles), kWeldShare * diagonal_, observer_);
     surface_ = std::move(joined.surface);
     stand_in_ = std::move(joined.stand_in);
     duplicates_ = joined.duplicates;
@@ -355,6 +365,7 @@ class MeshMender {
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
+  const FitObserver& observer_;
   double diagonal_ = 0.0;
   Surface surface_;
   std::vector<std::uint32_t> stand_in_;  // of each vertex after welding; empty: itself
@@ -371,10 +382,11 @@ class MeshMender {
 
 }  // namespace
 
-absl::StatusOr<PreparedMesh> PrepareMesh(const PolygonSoup& soup, const MeshLimits& limits) {
+absl::StatusOr<PreparedMesh> PrepareMesh(const PolygonSoup& soup, const MeshLimits& limits,
+                                         const FitObserver& observer) {
   CAPFIT_RETURN_IF_ERROR(CheckSoup(soup, limits));
   const std::vector<Eigen::Vector3d> decimals = RecoverDecimalsOfFloats(soup.positions);
-  return MeshMender(soup, decimals.empty() ? soup.positions : decimals).Run();
+  return MeshMender(soup, decimals.empty() ? soup.positions : decimals, observer).Run();
 }
 
 }  // namespace capfit::mesh

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/base/fit_observer.h"
 #include "core/base/warning.h"
 #include "core/mesh/body_mesh.h"
 #include "core/mesh/polygon_soup.h"
@@ -17,6 +18,8 @@ struct MeshLimits {
   std::size_t max_vertices = 2'000'000;
   std::size_t max_faces = 2'000'000;
   std::size_t max_corners_per_face = 64;
+  // A face of n corners becomes n - 2 triangles; all of them together. (Enough for quads.)
+  [[nodiscard]] std::size_t max_triangles() const { return 2 * max_faces; }
 };
 
 struct PreparedMesh {
@@ -27,7 +30,8 @@ struct PreparedMesh {
 // From any arrays to a mesh that keeps the promises of BodyMesh. A mesh that keeps them already
 // passes through without a warning; `vertex_of_source` leads back to the caller's vertices.
 // Coordinates that are decimals rounded to floats are taken as the decimals (see
-// recover_decimals.h). O(n log n).
+// recover_decimals.h). O(n log n), whatever the faces do: a second or two for two million of any
+// kind (docs/mesh_repair.md has a table). Between the steps `observer` may cancel.
 //
 // Steps, each of which warns with a count of what it changed:
 //   1. Sizes, finite positions, indices; unused vertices are ignored.          UNUSED_VERTICES
@@ -51,9 +55,10 @@ struct PreparedMesh {
 // INVALID_ARGUMENT names the first offender: "triangle_indices[17] is 90210, must be below 6890".
 // FAILED_PRECONDITION says why there is no body in it: NO_SURFACE, NO_VOLUME, TWO_BODIES (a second
 // part of half the volume or more), NOT_ORIENTABLE, HOLE_NOT_CLOSED, OPEN_SURFACE (the holes are
-// larger than a third of the surface), NOT_MANIFOLD.
-[[nodiscard]] absl::StatusOr<PreparedMesh> PrepareMesh(const PolygonSoup& soup,
-                                                       const MeshLimits& limits = {});
+// larger than a third of the surface), NOT_MANIFOLD. CANCELLED where the observer says so.
+[[nodiscard]] absl::StatusOr<PreparedMesh> PrepareMesh(
+    const PolygonSoup& soup, const MeshLimits& limits = {},
+    const FitObserver& observer = NullObserver());
 
 }  // namespace capfit::mesh
 

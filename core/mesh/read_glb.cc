@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>  // homogeneous
 #include <Eigen/LU>        // determinant, inverse
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,12 +28,21 @@ constexpr std::size_t kTriangleFan = 6;
 
 // A skeleton of a human has some 70 joints, with every finger and hair strand some hundred.
 constexpr std::size_t kMostJoints = 4096;
+// A longer name is none of a bone.
+constexpr std::size_t kLongestName = 256;
+// Few kilobytes of JSON may ask for the same primitives again and again: nodes share meshes.
+constexpr std::size_t kMostPrimitives = 100'000;
 
 // Half the distance of two floats, at most, as a share of their size.
 constexpr double kFloatShare = 0x1p-24;
 
 Eigen::Vector3d Apply(const Eigen::Matrix4d& transform, const Eigen::Vector3d& point) {
   return (transform * point.homogeneous()).head<3>();
+}
+
+// Whether it leaves a body a body: zeros are common where an exporter knew no bind pose.
+bool IsTransform(const Eigen::Matrix4d& matrix) {
+  return matrix.allFinite() && std::abs(matrix.topLeftCorner<3, 3>().determinant()) > 0.0;
 }
 
 class GlbReader {
@@ -49,7 +58,13 @@ class GlbReader {
       if (!mesh.has_value()) continue;
       CAPFIT_ASSIGN_OR_RETURN(const Eigen::Matrix4d to_world, Place(nodes[n], n));
       base_of_positions_.clear();
-      for (const json& primitive : ArrayAt(meshes[*mesh], "primitives")) {
+      const json& primitives = ArrayAt(meshes[*mesh], "primitives");
+      if (primitives.size() > primitives_left_) {
+        return InvalidField("file",
+                            absl::StrCat("draws more than ", kMostPrimitives, " primitives"));
+      }
+      primitives_left_ -= primitives.size();
+      for (const json& primitive : primitives) {
         CAPFIT_RETURN_IF_ERROR(AddPrimitive(primitive, to_world));
       }
     }
@@ -65,26 +80,32 @@ class GlbReader {
   }
 
  private:
-  // Where a node's mesh stands. A skinned mesh follows its joints, not its node: at the bind pose
-  // each joint moves it by the same matrix, so the first joint's will do.
+  // Where a node's mesh stands. A skinned mesh follows its joints, not its node.
   absl::StatusOr<Eigen::Matrix4d> Place(const json& node, std::size_t index) {
     const json& skins = ArrayAt(file_.json, "skins");
     const std::optional<std::size_t> skin_index = IndexAt(node, "skin", skins.size());
     if (!skin_index.has_value()) return nodes_.to_world[index];
-    const json& skin = skins[*skin_index];
+    auto read = skins_read_.find(*skin_index);
+    if (read == skins_read_.end()) {
+      CAPFIT_ASSIGN_OR_RETURN(const std::optional<Eigen::Matrix4d> bound,
+                              ReadSkin(skins[*skin_index]));
+      read = skins_read_.emplace(*skin_index, bound).first;
+    }
+    return read->second.value_or(nodes_.to_world[index]);
+  }
+
+  // Adds the skin's joints. Where the meshes stand that it binds: at the bind pose each joint moves
+  // them by the same matrix, so the first joint's will do; nothing where it does not say.
+  absl::StatusOr<std::optional<Eigen::Matrix4d>> ReadSkin(const json& skin) {
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<std::size_t> joints, JointsOf(skin));
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<Eigen::Matrix4d> to_joint,
                             InverseBindMatrices(skin, joints.size()));
-    if (joints.empty()) return nodes_.to_world[index];
-    const bool has_bind_pose = !to_joint.empty();
-    const Eigen::Matrix4d to_world = has_bind_pose
-                                         ? Eigen::Matrix4d(nodes_.to_world[joints[0]] * to_joint[0])
-                                         : nodes_.to_world[index];
-    if (skins_read_.insert(*skin_index).second) {
-      for (std::size_t j = 0; j < joints.size(); ++j) {
-        AddJoint(joints[j], has_bind_pose ? Eigen::Matrix4d(to_world * to_joint[j].inverse())
-                                          : nodes_.to_world[joints[j]]);
-      }
+    std::optional<Eigen::Matrix4d> to_world;
+    if (!joints.empty() && !to_joint.empty()) to_world = nodes_.to_world[joints[0]] * to_joint[0];
+    if (to_world.has_value() && !IsTransform(*to_world)) to_world.reset();
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      AddJoint(joints[j], to_world.has_value() ? Eigen::Matrix4d(*to_world * to_joint[j].inverse())
+                                               : nodes_.to_world[joints[j]]);
     }
     return to_world;
   }
@@ -95,7 +116,9 @@ class GlbReader {
     if (!node.is_object() || !position.allFinite()) return;
     const auto name = node.find("name");
     if (name == node.end() || !name->is_string()) return;  // says nothing without a name
-    soup_.joints.push_back({name->get<std::string>(), position});
+    const auto& text = name->get_ref<const std::string&>();
+    if (text.size() > kLongestName || soup_.joints.size() >= kMostJoints) return;
+    soup_.joints.push_back({text, position});
   }
 
   absl::StatusOr<std::vector<std::size_t>> JointsOf(const json& skin) const {
@@ -244,8 +267,9 @@ class GlbReader {
   const GltfNodes& nodes_;
   const MeshLimits& limits_;
   PolygonSoup soup_;
-  std::map<std::size_t, std::size_t> base_of_positions_;  // of the mesh being read
-  std::set<std::size_t> skins_read_;
+  std::map<std::size_t, std::size_t> base_of_positions_;              // of the mesh being read
+  std::map<std::size_t, std::optional<Eigen::Matrix4d>> skins_read_;  // where they put meshes
+  std::size_t primitives_left_ = kMostPrimitives;
   double rounding_ = 0.0;  // of transformed positions, from their storage as floats
 };
 

@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/mesh/soup_checks.h"
 #include "core/mesh/text_scanner.h"
 
 namespace capfit::mesh {
@@ -22,7 +23,8 @@ std::string Quoted(std::string_view word) {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const MeshLimits& limits) : lines_(text), limits_(limits) {}
+  ObjReader(std::string_view text, const MeshLimits& limits)
+      : lines_(text), limits_(limits), triangles_(limits) {}
 
   absl::StatusOr<PolygonSoup> Run() {
     while (!lines_.AtEnd()) CAPFIT_RETURN_IF_ERROR(ReadLine(NextStatement()));
@@ -88,6 +90,7 @@ class ObjReader {
       CAPFIT_RETURN_IF_ERROR(ReadCorner(word));
     }
     if (corners < 3) return FaceError(absl::StrCat("has ", corners, " corners, must have 3"));
+    if (!triangles_.Add(corners)) return Error("the faces " + TooManyTriangles(limits_));
     soup_.face_sizes.push_back(corners);
     return absl::OkStatus();
   }
@@ -125,6 +128,7 @@ class ObjReader {
 
   LineScanner lines_;
   const MeshLimits& limits_;
+  TriangleCounter triangles_;
   std::string joined_;
   PolygonSoup soup_;
   std::size_t highest_index_ = 0;

@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/mesh/soup_checks.h"
 #include "core/mesh/text_scanner.h"
 
 namespace capfit::mesh {
@@ -15,7 +16,8 @@ namespace {
 
 class OffReader {
  public:
-  OffReader(std::string_view text, const MeshLimits& limits) : lines_(text), limits_(limits) {}
+  OffReader(std::string_view text, const MeshLimits& limits)
+      : lines_(text), limits_(limits), triangles_(limits) {}
 
   absl::StatusOr<PolygonSoup> Run() {
     CAPFIT_RETURN_IF_ERROR(ReadHeader());
@@ -100,6 +102,7 @@ class OffReader {
       return Error(absl::StrCat("face ", index, " has ", *corners, " corners, must have at most ",
                                 limits_.max_corners_per_face));
     }
+    if (!triangles_.Add(*corners)) return Error("the faces " + TooManyTriangles(limits_));
     for (std::uint32_t k = 0; k < *corners; ++k) {
       const std::optional<std::uint32_t> vertex = ParseNumber<std::uint32_t>(words.NextWord());
       if (!vertex.has_value() || *vertex >= vertices_) {
@@ -117,6 +120,7 @@ class OffReader {
 
   LineScanner lines_;
   const MeshLimits& limits_;
+  TriangleCounter triangles_;
   std::size_t vertices_ = 0;
   std::size_t faces_ = 0;
   PolygonSoup soup_;

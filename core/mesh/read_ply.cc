@@ -13,6 +13,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "core/mesh/ply_header.h"
+#include "core/mesh/soup_checks.h"
 #include "core/mesh/text_scanner.h"
 
 namespace capfit::mesh {
@@ -80,7 +81,7 @@ template <typename Values>
 class BodyReader {
  public:
   BodyReader(const PlyHeader& header, Values values, const MeshLimits& limits)
-      : header_(header), values_(std::move(values)), limits_(limits) {}
+      : header_(header), values_(std::move(values)), limits_(limits), triangles_(limits) {}
 
   absl::StatusOr<PolygonSoup> Run() {
     for (const PlyElement& element : header_.elements) {
@@ -183,11 +184,15 @@ class BodyReader {
                            std::uint64_t face) {
     const std::optional<double> corners = values_.Next(property.count_type);
     if (!corners.has_value()) return EndsEarly(element, face);
-    if (!(*corners >= 0.0) || *corners > static_cast<double>(limits_.max_corners_per_face)) {
+    if (!(*corners >= 0.0) || *corners > static_cast<double>(limits_.max_corners_per_face) ||
+        *corners != std::floor(*corners)) {
       return FaceError(face, absl::StrCat("has ", *corners, " corners, must have at most ",
                                           limits_.max_corners_per_face));
     }
     const auto count = static_cast<std::uint32_t>(*corners);
+    if (!triangles_.Add(count)) {
+      return InvalidField("file", "has faces that " + TooManyTriangles(limits_));
+    }
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::optional<double> index = values_.Next(property.type);
       if (!index.has_value()) return EndsEarly(element, face);
@@ -225,6 +230,7 @@ class BodyReader {
   const PlyHeader& header_;
   Values values_;
   const MeshLimits& limits_;
+  TriangleCounter triangles_;
   PolygonSoup soup_;
 };
 

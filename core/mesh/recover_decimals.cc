@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 namespace capfit::mesh {
@@ -45,14 +46,26 @@ class DecimalGrid {
   double tolerance_;
 };
 
-bool AllOnGrid(std::span<const Eigen::Vector3d> positions, const DecimalGrid& grid) {
+bool IsOnGrid(const Eigen::Vector3d& position, const DecimalGrid& grid, double& evidence) {
+  for (const double x : position) {
+    const std::optional<double> more = grid.EvidenceOf(x);
+    if (!more.has_value()) return false;
+    evidence += *more;
+  }
+  return true;
+}
+
+// `doubtful` is the position that lay on no grid last; it is asked first, so that one position that
+// is no decimal costs one pass over the others and not one for each grid.
+bool AllOnGrid(std::span<const Eigen::Vector3d> positions, const DecimalGrid& grid,
+               std::size_t& doubtful) {
   double evidence = 0.0;
-  for (const Eigen::Vector3d& position : positions) {
-    for (const double x : position) {
-      const std::optional<double> more = grid.EvidenceOf(x);
-      if (!more.has_value()) return false;
-      evidence += *more;
-    }
+  if (!IsOnGrid(positions[doubtful], grid, evidence)) return false;
+  evidence = 0.0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (IsOnGrid(positions[i], grid, evidence)) continue;
+    doubtful = i;
+    return false;
   }
   return evidence >= kEnoughEvidence;
 }
@@ -78,12 +91,13 @@ std::vector<Eigen::Vector3d> RecoverDecimals(std::span<const Eigen::Vector3d> po
                                              double tolerance) {
   const double largest = LargestCoordinate(positions);
   if (!(largest > 1e-12) || largest > 1e12) return {};
+  std::size_t doubtful = 0;
   // From the coarsest step to the one that lies within the rounding of the largest coordinate.
   for (int digits = -static_cast<int>(std::floor(std::log10(largest))); digits <= kMostDigits;
        ++digits) {
     const DecimalGrid grid(digits, tolerance);
     if (largest / grid.step() > kLargestInteger || grid.step() < grid.Reach(largest)) break;
-    if (!AllOnGrid(positions, grid)) continue;
+    if (!AllOnGrid(positions, grid, doubtful)) continue;
     std::vector<Eigen::Vector3d> decimals(positions.begin(), positions.end());
     for (Eigen::Vector3d& position : decimals) {
       for (double& x : position) x = grid.Nearest(x) + 0.0;  // no negative zero

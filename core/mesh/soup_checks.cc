@@ -42,12 +42,16 @@ absl::Status CheckFaceSizes(const PolygonSoup& soup, const MeshLimits& limits) {
     return InvalidField("triangle_indices", absl::StrCat("has ", soup.face_vertices.size(),
                                                          " entries, must have 3 per triangle"));
   }
+  TriangleCounter triangles(limits);
   std::size_t corners = 0;
   for (std::size_t f = 0; f < soup.face_sizes.size(); ++f) {
     if (soup.face_sizes[f] > limits.max_corners_per_face) {
       return InvalidField(absl::StrCat("face_sizes[", f, "]"),
                           absl::StrCat("is ", soup.face_sizes[f], ", must be at most ",
                                        limits.max_corners_per_face));
+    }
+    if (!triangles.Add(soup.face_sizes[f])) {
+      return InvalidField("face_sizes", TooManyTriangles(limits));
     }
     corners += soup.face_sizes[f];
   }
@@ -82,6 +86,11 @@ absl::Status CheckIndices(const PolygonSoup& soup) {
 }
 
 }  // namespace
+
+std::string TooManyTriangles(const MeshLimits& limits) {
+  return absl::StrCat("come to too many triangles: faces of n corners make n - 2 each, must be at ",
+                      "most ", limits.max_triangles(), " together");
+}
 
 absl::Status CheckSoup(const PolygonSoup& soup, const MeshLimits& limits) {
   CAPFIT_RETURN_IF_ERROR(CheckLimits(soup, limits));

@@ -274,7 +274,7 @@ absl::StatusOr<FitResult> Fit(const mesh::PolygonSoup& soup, const FitOptions& o
   FitResult result;
   StageClock clock(observer, result);
   clock.Begin(Stage::kMesh);
-  CAPFIT_ASSIGN_OR_RETURN(mesh::PreparedMesh prepared, mesh::PrepareMesh(soup));
+  CAPFIT_ASSIGN_OR_RETURN(mesh::PreparedMesh prepared, mesh::PrepareMesh(soup, {}, observer));
   Append(std::move(prepared.warnings), result.warnings);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   CAPFIT_RETURN_IF_ERROR(

@@ -240,6 +240,50 @@ TEST(PrepareMeshTest, MergesNeighboursInOnePlace) {
   EXPECT_EQ(prepared.mesh.vertices()[pole], ball.positions.back());
 }
 
+// A row of faces without area that can only be mended from its far end, one after the other.
+TEST(PrepareMeshTest, MendsLongRowsOfFacesWithoutArea) {
+  constexpr std::uint32_t kCount = 100'000;
+  PolygonSoup soup;
+  soup.positions = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+  for (std::uint32_t i = 0; i <= kCount; ++i) soup.positions.emplace_back(1.0 + i / 1e5, 0, 0);
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    for (const std::uint32_t v : {0u, 3 + i, 4 + i, 3 + i, 2u, 4 + i}) {
+      soup.face_vertices.push_back(v);
+    }
+  }
+  for (const std::uint32_t v : {0u, 2u, 3u, 0u, 3 + kCount, 1u, 3 + kCount, 2u, 1u, 0u, 1u, 2u}) {
+    soup.face_vertices.push_back(v);
+  }
+  const absl::StatusOr<PreparedMesh> prepared = PrepareMesh(soup);
+  ASSERT_TRUE(prepared.ok()) << prepared.status();
+  EXPECT_EQ(CountOf(*prepared, "FLAT_FACES"), kCount);
+  EXPECT_NEAR(prepared->mesh.volume(), 2.0 / 6.0, 1e-12);
+}
+
+// Cancels when it has been asked that often.
+class ImpatientObserver final : public FitObserver {
+ public:
+  explicit ImpatientObserver(int patience) : left_(patience) {}
+  void OnStage(Stage, double) override {}
+  [[nodiscard]] bool IsCancelled() const override { return left_-- <= 0; }
+
+ private:
+  mutable int left_;
+};
+
+TEST(PrepareMeshTest, StopsBetweenStepsWhenCancelled) {
+  const PolygonSoup open = WithoutFaces(SplitApart(Ball(12, 7)), 3, 2);
+  int patience = 0;
+  absl::StatusOr<PreparedMesh> prepared = absl::CancelledError();
+  for (; !prepared.ok(); ++patience) {
+    const ImpatientObserver observer(patience);
+    prepared = PrepareMesh(open, {}, observer);
+    if (!prepared.ok()) EXPECT_EQ(prepared.status().code(), absl::StatusCode::kCancelled);
+    ASSERT_LT(patience, 30);
+  }
+  EXPECT_GE(patience, 5);
+}
+
 TEST(PrepareMeshTest, DropsFins) {
   PolygonSoup soup = Cube();
   soup.positions.emplace_back(2.0, 2.0, 0.0);

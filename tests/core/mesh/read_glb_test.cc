@@ -178,6 +178,46 @@ TEST(ReadGlbTest, ReadsJointsAtTheBindPose) {
   EXPECT_TRUE(Read(gltf)->joints[1].position.isApprox(Eigen::Vector3d(0, 1.5, 0), 1e-6));
 }
 
+// Few bytes may ask for much: the same mesh, skin or name again and again.
+TEST(ReadGlbTest, RefusesOrSharesWhatRepeatsItself) {
+  json gltf = Tetrahedron();
+  gltf["scenes"][0]["nodes"] = json::array();
+  for (int i = 0; i < 400; ++i) {
+    gltf["nodes"][i] = {{"mesh", 0}};
+    gltf["scenes"][0]["nodes"].push_back(i);
+  }
+  for (int i = 0; i < 400; ++i) gltf["meshes"][0]["primitives"][i] = {{"mode", 0}};
+  EXPECT_THAT(ProblemOf(gltf), HasSubstr("draws more than 100000 primitives"));
+  gltf["meshes"][0] = Tetrahedron()["meshes"][0];
+  gltf["skins"] = {{{"joints", {0, 0, 0, 1}}}};
+  for (int i = 0; i < 400; ++i) gltf["nodes"][i]["skin"] = 0;
+  gltf["nodes"][0]["name"] = "hips";
+  gltf["nodes"][1]["name"] = std::string(300, 'n');
+  const auto soup = Read(gltf);
+  ASSERT_TRUE(soup.ok()) << soup.status();
+  EXPECT_EQ(soup->positions.size(), 1600u);
+  EXPECT_EQ(soup->joints.size(), 3u);  // once per entry, not per node, and no endless name
+  gltf["nodes"] = json::array();
+  for (int i = 0; i <= 100'000; ++i) gltf["nodes"].push_back(json::object());
+  EXPECT_THAT(ProblemOf(gltf), HasSubstr("has 100001 nodes, must have at most 100000"));
+}
+
+// Some exporters leave zeros where they know no bind pose: then the nodes are all there is.
+TEST(ReadGlbTest, LeavesTheBodyABodyWhereTheBindPoseIsNone) {
+  json gltf = Tetrahedron();
+  gltf["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {1, 0, 0}}},
+                   {{"name", "hips"}, {"translation", {0, 9, 0}}}};
+  gltf["skins"] = {{{"joints", {1}}, {"inverseBindMatrices", 2}}};
+  gltf["accessors"].push_back(
+      {{"bufferView", 2}, {"componentType", 5126}, {"count", 1}, {"type", "MAT4"}});
+  gltf["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 72}, {"byteLength", 64}});
+  const auto soup = Read(gltf, kBinary + std::string(64, '\0'));
+  ASSERT_TRUE(soup.ok()) << soup.status();
+  EXPECT_EQ(soup->positions[0], Eigen::Vector3d(1, 0, 0));
+  ASSERT_EQ(soup->joints.size(), 1u);
+  EXPECT_EQ(soup->joints[0].position, Eigen::Vector3d(0, 9, 0));
+}
+
 struct BadGltf {
   const char* name;
   const char* pointer;  // where in the JSON

@@ -133,6 +133,25 @@ TEST(ReadObjTest, RefusesMoreThanTheLimits) {
               HasSubstr("more than 3 corners"));
 }
 
+// Faces of many corners are few bytes in a file and many triangles in memory.
+TEST(ReadMeshTest, RefusesFacesOfTooManyTriangles) {
+  MeshLimits limits;
+  limits.max_faces = 2;  // four triangles
+  const std::string six = "1 2 3 1 2 3";
+  EXPECT_EQ(ProblemOf(kObjVertices + "f " + six + "\n", MeshFormat::kObj, limits), "accepted");
+  EXPECT_THAT(ProblemOf(kObjVertices + "f " + six + "\nf 1 2 3\n", MeshFormat::kObj, limits),
+              HasSubstr("line 5: the faces come to too many triangles"));
+  const std::string seven = " 7 0 1 2 0 1 2 0\n";
+  EXPECT_THAT(ProblemOf("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + seven, MeshFormat::kOff, limits),
+              HasSubstr("must be at most 4 together"));
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_THAT(ProblemOf(ply + seven, MeshFormat::kPly, limits), HasSubstr("too many triangles"));
+  EXPECT_THAT(ProblemOf(ply + "3.5 0 1 2\n", MeshFormat::kPly), HasSubstr("has 3.5 corners"));
+}
+
 constexpr char kPlyBody[] =
     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n";

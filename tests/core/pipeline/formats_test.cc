@@ -14,6 +14,7 @@
 
 #include "core/mesh/read_mesh.h"
 #include "core/pipeline/fit.h"
+#include "tests/core/pipeline/glb_bytes.h"
 #include "tests/support/bodies.h"
 
 namespace capfit::pipeline {
@@ -131,11 +132,6 @@ TEST(Formats, OtherDigitsOrDiagonalsGiveAsGoodAFit) {
   }
 }
 
-template <typename Value>
-void AppendValue(Value value, std::string& bytes) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
 void AppendFloats(const Eigen::Vector3d& p, std::string& bytes) {
   for (const double x : p) AppendValue(static_cast<float>(x), bytes);
 }
@@ -197,15 +193,7 @@ std::string Glb(const PolygonSoup& soup, bool under_nodes) {
                         {"componentType", 5125},
                         {"count", soup.face_vertices.size()},
                         {"type", "SCALAR"}}};
-  std::string text = gltf.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  std::string bytes = "glTF";
-  AppendValue<std::uint32_t>(2, bytes);
-  AppendValue(static_cast<std::uint32_t>(28 + text.size() + binary.size()), bytes);
-  AppendValue(static_cast<std::uint32_t>(text.size()), bytes);
-  bytes += "JSON" + text;
-  AppendValue(static_cast<std::uint32_t>(binary.size()), bytes);
-  return bytes + std::string("BIN\0", 4) + binary;
+  return GlbBytes(gltf, binary);
 }
 
 // What a user's converter does with a text file: the decimals become the floats nearest to them.

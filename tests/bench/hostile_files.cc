@@ -1,0 +1,167 @@
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "tests/bench/hostile_cases.h"
+
+namespace capfit::bench {
+namespace {
+
+using mesh::MeshFormat;
+
+constexpr std::size_t kFileBytes = std::size_t{127} << 20;
+
+template <typename Value>
+std::string Bytes(Value value) {
+  std::string bytes(sizeof value, '\0');
+  std::memcpy(bytes.data(), &value, sizeof value);
+  return bytes;
+}
+
+std::string Repeated(const std::string& text, std::size_t count) {
+  std::string repeated;
+  repeated.reserve(text.size() * count);
+  for (std::size_t i = 0; i < count; ++i) repeated += text;
+  return repeated;
+}
+std::string Filled(const std::string& begin, const std::string& text) {
+  return begin + Repeated(text, (kFileBytes - begin.size()) / text.size());
+}
+
+HostileInput Obj(std::string bytes) { return {std::move(bytes), MeshFormat::kObj, {}}; }
+
+HostileInput NegativeIndices() {
+  std::string text;
+  for (int i = 0; i < 900'000; ++i) {
+    text += "v " + std::to_string(i % 1000) + " " + std::to_string(i / 1000) + " 0\n";
+    if (i > 1001) text += "f -1 -2 -1001 -1000\n";
+  }
+  return Obj(std::move(text));
+}
+
+HostileInput Ply(const std::string& header, std::string body) {
+  return {"ply\nformat " + header + "end_header\n" + std::move(body), MeshFormat::kPly, {}};
+}
+
+// A list of a length that takes the rest of the file, and one more.
+HostileInput LongLists() {
+  std::string body = "0 0 0\n";
+  return Ply(
+      "ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\nproperty double z\n"
+      "element other 20000000\nproperty list uint int l\n",
+      Filled(body, "0 0 1 9 "));
+}
+
+HostileInput CountsAtTheLimit() {
+  return Ply(
+      "binary_little_endian 1.0\nelement vertex 2000000\nproperty char x\nproperty char y\n"
+      "property char z\nelement face 2000000\nproperty list uchar uchar vertex_indices\n",
+      std::string(6'000'000, '\1') + Repeated(std::string("\2\1\1", 3), 2'000'000));
+}
+
+HostileInput LyingCounts() {
+  return Ply(
+      "binary_little_endian 1.0\nelement vertex 1999999\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1999999\nproperty list uint uint vertex_indices\n",
+      std::string(60'000'000, '\xff'));
+}
+
+HostileInput TextStl() {
+  std::string text = "solid s\n";
+  while (text.size() + 200 < kFileBytes) {
+    const std::string x = std::to_string(text.size() % 1000) + "." + std::to_string(text.size());
+    text += "facet normal 0 0 1\nouter loop\nvertex 0 0 " + x + "\nvertex 1 0 " + x +
+            "\nvertex 0 1 " + x + "\nendloop\nendfacet\n";
+  }
+  return {text + "endsolid s\n", MeshFormat::kStl, {}};
+}
+
+HostileInput NanStl() {
+  const std::uint32_t count = 2'000'000;
+  return {std::string(80, ' ') + Bytes(count) + std::string(std::size_t{50} * count, '\xff'),
+          MeshFormat::kStl,
+          {}};
+}
+
+HostileInput Glb(std::string json, std::string binary = {}) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  const auto word = [](std::size_t value) { return Bytes(static_cast<std::uint32_t>(value)); };
+  return {"glTF" + word(2) + word(28 + json.size() + binary.size()) + word(json.size()) + "JSON" +
+              json + word(binary.size()) + std::string("BIN\0", 4) + binary,
+          MeshFormat::kGlb,
+          {}};
+}
+
+constexpr const char* kArrays =
+    R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+    R"({"bufferView":1,"componentType":5126,"count":4096,"type":"MAT4"}],)"
+    R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":262144}],)"
+    R"("buffers":[{"byteLength":262180}])";
+
+std::string NodesOf(const std::string& node, std::size_t count) {
+  return absl::StrCat(R"("nodes":[)", Repeated(absl::StrCat(node, ","), count), "{}]");
+}
+
+HostileInput ManyDraws() {
+  return Glb("{" + NodesOf(R"({"mesh":0})", 90'000) + R"(,"meshes":[{"primitives":[)" +
+             Repeated(R"({"mode":0},)", 90'000) + R"({}]}]})");
+}
+
+HostileInput ManySkins() {
+  return Glb("{" + NodesOf(R"({"mesh":0,"skin":0})", 90'000) +
+                 R"(,"meshes":[{}],"skins":[{"inverseBindMatrices":1,"joints":[)" +
+                 Repeated("0,", 4095) + "0]}]," + kArrays + "}",
+             std::string(262'180, '\0'));
+}
+
+HostileInput ManyNodes() { return Glb("{" + NodesOf("{}", 2'700'000) + "}"); }
+
+HostileInput LongNames() {
+  return Glb(R"({"nodes":[{"name":")" + std::string(4 << 20, 'n') + R"(","mesh":0,"skin":0}],)" +
+                 R"("meshes":[{}],"skins":[{"inverseBindMatrices":1,"joints":[)" +
+                 Repeated("0,", 4095) + "0]}]," + kArrays + "}",
+             std::string(262'180, '\0'));
+}
+
+HostileInput NestedJson() {
+  const std::size_t depth = 4'000'000;
+  return Glb(R"({"nodes":)" + std::string(depth, '[') + std::string(depth, ']') + "}");
+}
+
+HostileInput SmallJsonValues() { return Glb(R"({"nodes":[)" + Repeated("[],", 2'700'000) + "1]}"); }
+
+}  // namespace
+
+std::vector<HostileCase> HostileFiles() {
+  return {{"OBJ: one line of 127 MB", [] { return Obj(Filled("v 0 0 0\n# ", "word ")); }},
+          {"OBJ: continued line of 127 MB", [] { return Obj(Filled("v 0 0 0\nf ", "1 \\\n")); }},
+          {"OBJ: 64 corners in each of a million faces",
+           [] { return Obj(Filled("v 0 0 0\n", "f " + Repeated("1 ", 64) + "\n")); }},
+          {"OBJ: a face of 127 MB", [] { return Obj(Filled("v 0 0 0\nf ", "1 ")); }},
+          {"OBJ: a number of 127 MB", [] { return Obj(Filled("v 0.", "1")); }},
+          {"OBJ: negative indices", NegativeIndices},
+          {"PLY: lists without end", LongLists},
+          {"PLY: counts at the limit, faces of two corners", CountsAtTheLimit},
+          {"PLY: 0xff where numbers should be", LyingCounts},
+          {"STL: text of 127 MB", TextStl},
+          {"STL: NaN only", NanStl},
+          {"OFF: comments only",
+           [] {
+             return HostileInput{Filled("OFF\n", "#\n"), MeshFormat::kOff, {}};
+           }},
+          {"unknown format, 127 MB of line ends",
+           [] {
+             return HostileInput{Filled("", "\n"), MeshFormat::kUnknown, {}};
+           }},
+          {"GLB: 90,000 nodes draw 90,000 primitives", ManyDraws},
+          {"GLB: 90,000 nodes with 4096 joints", ManySkins},
+          {"GLB: 2,700,000 nodes", ManyNodes},
+          {"GLB: a name of 4 MB, 4096 times", LongNames},
+          {"GLB: nested 4,000,000 deep", NestedJson},
+          {"GLB: 2,700,000 lists", SmallJsonValues}};
+}
+
+}  // namespace capfit::bench

@@ -1,0 +1,134 @@
+#include "core/mesh/triangulate_faces.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/mesh/edge_mates.h"
+#include "tests/core/mesh/soups.h"
+
+namespace capfit::mesh {
+namespace {
+
+// A ball of uneven triangles, as scans and decimated meshes have them.
+PolygonSoup UnevenBall(std::uint64_t seed) {
+  PolygonSoup ball = Ball(40, 40);
+  Random random(seed);
+  for (Eigen::Vector3d& p : ball.positions) {
+    const double reach = 0.05 * p.head<2>().norm();  // meridians come close at the poles
+    for (double& x : p) x += random.NextIn(-reach, reach);
+    p.normalize();
+  }
+  return ball;
+}
+
+std::vector<Triangle> TrianglesOf(const PolygonSoup& soup) {
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 0; i + 2 < soup.face_vertices.size(); i += 3) {
+    triangles.push_back(
+        {soup.face_vertices[i], soup.face_vertices[i + 1], soup.face_vertices[i + 2]});
+  }
+  return triangles;
+}
+
+// Neighbours become quads at random, each beginning anywhere.
+PolygonSoup Joined(const PolygonSoup& soup, std::uint64_t seed) {
+  const std::vector<Triangle> triangles = TrianglesOf(soup);
+  const EdgeMates mates = FindEdgeMates(triangles, soup.positions.size());
+  Random random(seed);
+  PolygonSoup joined;
+  joined.positions = soup.positions;
+  std::vector<bool> is_used(triangles.size(), false);
+  for (HalfEdge t = 0; t < triangles.size(); ++t) {
+    if (is_used[t]) continue;
+    is_used[t] = true;
+    const HalfEdge h = 3 * t + static_cast<HalfEdge>(random.NextBelow(3));
+    const HalfEdge mate = mates.mate[h];
+    if (mate == kNoMate || is_used[mate / 3]) {
+      joined.face_sizes.push_back(3);
+      joined.face_vertices.insert(joined.face_vertices.end(), triangles[t].begin(),
+                                  triangles[t].end());
+      continue;
+    }
+    is_used[mate / 3] = true;
+    const std::array<std::uint32_t, 4> quad = {
+        StartOf(triangles, h), StartOf(triangles, PreviousInTriangle(mate)), EndOf(triangles, h),
+        StartOf(triangles, PreviousInTriangle(h))};
+    const std::size_t first = random.NextBelow(4);
+    joined.face_sizes.push_back(4);
+    for (std::size_t k = 0; k < 4; ++k) joined.face_vertices.push_back(quad[(first + k) % 4]);
+  }
+  return joined;
+}
+
+Eigen::Vector3d NormalOf(const PolygonSoup& soup, const Triangle& t) {
+  const Eigen::Vector3d& a = soup.positions[t[0]];
+  return (soup.positions[t[1]] - a).cross(soup.positions[t[2]] - a);
+}
+
+// Triangles that face into the ball: an uneven ball has none, a fold over makes one.
+std::size_t Inward(const PolygonSoup& soup, const std::vector<Triangle>& triangles) {
+  std::size_t inward = 0;
+  for (const Triangle& t : triangles) inward += NormalOf(soup, t).dot(soup.positions[t[0]]) < 0.0;
+  return inward;
+}
+
+// What a fan from the first corner folds over.
+double FoldedShare(const PolygonSoup& soup) {
+  std::vector<Triangle> fans;
+  std::size_t at = 0;
+  for (const std::uint32_t size : soup.face_sizes) {
+    for (std::size_t k = 2; k < size; ++k) {
+      fans.push_back(
+          {soup.face_vertices[at], soup.face_vertices[at + k - 1], soup.face_vertices[at + k]});
+    }
+    at += size;
+  }
+  return static_cast<double>(Inward(soup, fans)) / static_cast<double>(soup.face_sizes.size());
+}
+
+// Joining without looking makes quads with inward corners by the dozen, not by the hundredth: the
+// threshold lies well below.
+TEST(TriangulateFacesTest, QuadsJoinedFromTrianglesDoNotFold) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const PolygonSoup ball = UnevenBall(seed);
+    ASSERT_EQ(Inward(ball, TrianglesOf(ball)), 0u);
+    const PolygonSoup joined = Joined(ball, seed);
+    EXPECT_GT(FoldedShare(joined), 0.03);
+    const TriangulatedFaces faces = TriangulateFaces(joined, joined.positions);
+    EXPECT_EQ(faces.triangles.size(), TrianglesOf(ball).size());
+    EXPECT_EQ(Inward(joined, faces.triangles), 0u);
+  }
+}
+
+// A model of quads with a crumpled one here and there is cut as other programs cut it.
+TEST(TriangulateFacesTest, ModelledQuadsKeepTheDiagonalFromTheirFirstCorner) {
+  PolygonSoup sheet;
+  const std::uint32_t side = 30;
+  for (std::uint32_t i = 0; i <= side; ++i) {
+    for (std::uint32_t k = 0; k <= side; ++k) sheet.positions.emplace_back(i, k, 0.0);
+  }
+  for (std::uint32_t i = 0; i < side; ++i) {
+    for (std::uint32_t k = 0; k < side; ++k) {
+      const std::uint32_t a = i * (side + 1) + k;
+      for (const std::uint32_t v : {a, a + side + 1, a + side + 2, a + 1}) {
+        sheet.face_vertices.push_back(v);
+      }
+      sheet.face_sizes.push_back(4);
+    }
+  }
+  sheet.positions[sheet.face_vertices[4 * 400 + 1]] += Eigen::Vector3d(-0.8, 0.8, 0.0);
+  const TriangulatedFaces faces = TriangulateFaces(sheet, sheet.positions);
+  ASSERT_EQ(faces.triangles.size(), 2 * sheet.face_sizes.size());
+  for (std::size_t f = 0; f < sheet.face_sizes.size(); ++f) {
+    EXPECT_EQ(faces.triangles[2 * f][0], sheet.face_vertices[4 * f]);
+    EXPECT_EQ(faces.triangles[2 * f + 1][0], sheet.face_vertices[4 * f]);
+  }
+}
+
+}  // namespace
+}  // namespace capfit::mesh
