@@ -104,29 +104,33 @@ TEST(Formats, TheSameNumbersGiveTheSameFitInEveryFormat) {
   }
 }
 
-// Text rounded to five digits moves vertices by up to 5 um, 3e-6 of the height, and the STL of the
-// muscular body and the exporter's OBJ have other diagonals: here the fit is as good, the landmarks
-// stay where they are, but coverage may settle elsewhere.
+// Floats round vertices by a tenth of a micrometre, and the fit follows them smoothly. Text rounded
+// to five digits moves them by up to 5 um, 3e-6 of the height, and the STL of the muscular body and
+// the exporter's OBJ have other diagonals: here the fit is as good, the landmarks stay where they
+// are, but coverage may settle elsewhere.
 TEST(Formats, OtherDigitsOrDiagonalsGiveAsGoodAFit) {
   CAPFIT_REQUIRE_BODIES();
   struct Twin {
     const char* file;
     const char* twin;
     double landmark_mm;
+    double sphere_mm;
   };
   for (const Twin& pair :
-       {Twin{"formats/female_average.ply", "female_average_rest.obj", 0.1},
-        Twin{"formats/male_muscular_quads_big_endian_double.ply", "male_muscular_rest.obj", 0.1},
+       {Twin{"formats/female_average.ply", "female_average_rest.obj", 0.1, HUGE_VAL},
+        Twin{"formats/male_muscular_quads_big_endian_double.ply", "male_muscular_rest.obj", 0.1,
+             HUGE_VAL},
         Twin{"formats/male_muscular_under_nodes.glb",
-             "formats/male_muscular_quads_big_endian_double.ply", 0.1},
-        Twin{"formats/male_muscular.stl", "formats/male_muscular_quads_big_endian_double.ply", 1.0},
+             "formats/male_muscular_quads_big_endian_double.ply", 1e-3, 0.02},
+        Twin{"formats/male_muscular.stl", "formats/male_muscular_quads_big_endian_double.ply", 1.0,
+             HUGE_VAL},
         Twin{"formats/female_average_5k_exporter_style.obj", "formats/female_average_5k_ascii.ply",
-             5.0}}) {
+             5.0, HUGE_VAL}}) {
     const FitResult expected = FitSoup(ReadBody(pair.twin));
     const FitResult result = FitSoup(ReadBody(pair.file));
     PrintRow(pair.file, pair.twin, expected, result);
     EXPECT_LE(1e3 * WorstLandmark(expected, result), pair.landmark_mm) << pair.file;
-    EXPECT_EQ(expected.primitives.spheres.size(), result.primitives.spheres.size()) << pair.file;
+    EXPECT_LE(1e3 * WorstSphere(expected, result), pair.sphere_mm) << pair.file;
     EXPECT_NEAR(result.metrics.E_r, expected.metrics.E_r, 0.1 * expected.metrics.E_r) << pair.file;
     EXPECT_TRUE(result.warnings.empty()) << pair.file;
   }
