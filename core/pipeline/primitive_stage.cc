@@ -8,6 +8,7 @@
 #include "core/capsule/build_primitives.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/spend_rest.h"
+#include "core/refine/best_fit_settle.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -15,6 +16,9 @@ namespace {
 // Primitives that may stay unused: what the cheapest mirrored pair of circles costs.
 constexpr int kUnusedAllowed = 3;
 constexpr int kMaxRounds = 6;
+constexpr int kMaxSettlings = 3;
+constexpr double kRateFromCirclesM = 0.008;
+constexpr double kRateFromCutsM = 0.003;
 
 struct Counts {
   int spheres = 0;
@@ -37,6 +41,11 @@ int Unused(const Counts& counts, const circle::Budget& budget) {
   const Wide each = std::max(Wide{0}, Wide{budget.max_spheres} - counts.spheres) +
                     std::max(Wide{0}, Wide{budget.max_capsules} - counts.capsules);
   return static_cast<int>(std::min(primitives, each));
+}
+
+Spare SpareOf(const Counts& spent, const circle::Budget& budget) {
+  return {budget.max_spheres - spent.spheres, budget.max_capsules - spent.capsules,
+          budget.max_primitives - spent.spheres - spent.capsules};
 }
 
 PrimitiveStage Build(const body::Body& body, const FitOptions& options,
@@ -69,9 +78,24 @@ circle::Budget Raised(circle::Budget budget, int more) {
   return budget;
 }
 
-}  // namespace
+// Centres and radii with the smallest E_r, and what becomes useless by that spent elsewhere.
+capsule::PrimitiveSet SettledForBestFit(const body::Body& body, const FitOptions& options,
+                                        const circle::Budget& total, capsule::PrimitiveSet set) {
+  const refine::OccupancyGrid grid = refine::BestFitGrid(body, options.parts);
+  double rate_m = kRateFromCirclesM;
+  for (int round = 0; round < kMaxSettlings; ++round) {
+    set = refine::SettleBestFit(grid, rate_m, options.seed, std::move(set));
+    capsule::RemoveCoveredCapsules(set);
+    const Counts spent = CountsOf(set);
+    if (Unused(spent, total) <= kUnusedAllowed) break;
+    SpendRest(SpareOf(spent, total), set);
+    rate_m = kRateFromCutsM;
+  }
+  return set;
+}
 
-PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
+// The stage without the settling of a best fit.
+PrimitiveStage BuildAsPublished(const body::Body& body, const FitOptions& options,
                                 std::span<const section::FeaturePolygon> polygons,
                                 const circle::ErrorCurves& curves) {
   if (options.polygon_error.has_value()) {
@@ -101,11 +125,22 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
   }
   const Counts spent = CountsOf(best.set);
   if (Unused(spent, total) > kUnusedAllowed) {
-    SpendRest({total.max_spheres - spent.spheres, total.max_capsules - spent.capsules,
-               total.max_primitives - spent.spheres - spent.capsules},
-              best.set);
+    SpendRest(SpareOf(spent, total), best.set);
   }
   return best;
+}
+
+}  // namespace
+
+PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
+                                std::span<const section::FeaturePolygon> polygons,
+                                const circle::ErrorCurves& curves) {
+  PrimitiveStage stage = BuildAsPublished(body, options, polygons, curves);
+  if (options.quality != Quality::kPaper || options.fit != FitMode::kBestFit) return stage;
+  circle::Budget total = TotalBudget(options);
+  if (options.polygon_error.has_value()) total.max_primitives = stage.set.primitive_count();
+  stage.set = SettledForBestFit(body, options, total, std::move(stage.set));
+  return stage;
 }
 
 }  // namespace capfit::pipeline

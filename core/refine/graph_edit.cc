@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/refine/cone.h"
 #include "core/refine/internal.h"
@@ -153,6 +154,49 @@ std::vector<char> Neighbourhood(const CapsuleGraph& graph, const std::vector<int
   return in;
 }
 
+LocalGraph LocalGraphIn(const CapsuleGraph& graph, const Eigen::AlignedBox3d& box) {
+  const auto ball = [&graph](int v) {
+    const Node& node = graph.nodes[U(v)];
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(node.radius_m);
+    return Eigen::AlignedBox3d(node.center_m - reach, node.center_m + reach);
+  };
+  std::vector<char> keep_node(graph.nodes.size(), 0), keep_edge(graph.edges.size(), 0);
+  const auto keep = [&](int v) {
+    keep_node[U(v)] = 1;
+    if (graph.symmetric) keep_node[U(graph.nodes[U(v)].mirror)] = 1;
+  };
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const Edge& edge = graph.edges[e];
+    if (!box.intersects(ball(edge.a).merged(ball(edge.b)))) continue;
+    keep_edge[e] = 1;
+    if (graph.symmetric) keep_edge[U(edge.mirror)] = 1;
+    keep(edge.a);
+    keep(edge.b);
+  }
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (box.intersects(ball(v))) keep(v);
+  }
+  LocalGraph local;
+  local.graph.symmetric = graph.symmetric;
+  std::vector<int> index(graph.nodes.size(), -1);
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (!keep_node[U(v)]) continue;
+    index[U(v)] = static_cast<int>(local.nodes.size());
+    local.nodes.push_back(v);
+  }
+  for (const int v : local.nodes) {
+    local.graph.nodes.push_back(graph.nodes[U(v)]);
+    int& mirror = local.graph.nodes.back().mirror;
+    if (mirror >= 0) mirror = index[U(mirror)];
+  }
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    if (!keep_edge[e]) continue;
+    local.graph.edges.push_back({index[U(graph.edges[e].a)], index[U(graph.edges[e].b)], -1});
+  }
+  local.graph.LinkEdges();
+  return local;
+}
+
 std::vector<Edit> LeavesAt(const CapsuleGraph& graph, const Eigen::Vector3d& point_m) {
   const std::vector<Cone> cones = ConesOf(graph);
   const Eigen::Vector3f p = point_m.cast<float>();
@@ -177,7 +221,44 @@ std::vector<Edit> LeavesAt(const CapsuleGraph& graph, const Eigen::Vector3d& poi
   return leaves;
 }
 
-void RemoveSwallowed(CapsuleGraph& graph) {
+int ComponentCount(const CapsuleGraph& graph) {
+  std::vector<int> root(graph.nodes.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&root](int v) {
+    while (root[U(v)] != v) v = root[U(v)] = root[U(root[U(v)])];
+    return v;
+  };
+  int count = graph.sphere_count();
+  for (const Edge& e : graph.edges) {
+    const int a = find(e.a), b = find(e.b);
+    if (a == b) continue;
+    root[U(a)] = b;
+    --count;
+  }
+  return count;
+}
+
+void MergeSwallowed(CapsuleGraph& graph) {
+  for (int e = 0; e < graph.capsule_count();) {
+    const Cone cone = MakeCone(graph, graph.edges[U(e)].a, graph.edges[U(e)].b);
+    const int large = cone.node_a, small = cone.node_b;
+    const bool is_own_image = graph.symmetric && graph.nodes[U(small)].mirror == large;
+    if (!cone.is_sphere || is_own_image) {
+      ++e;
+      continue;
+    }
+    for (const int n : NeighboursOf(graph, small)) {
+      const bool is_image = graph.symmetric && graph.nodes[U(small)].mirror == n;
+      graph.AddEdge(large, is_image ? graph.nodes[U(large)].mirror : n);
+    }
+    std::vector<char> removed(graph.nodes.size(), 0);
+    removed[U(small)] = 1;
+    graph.RemoveNodes(removed);
+    e = 0;
+  }
+}
+
+std::vector<int> RemoveSwallowed(CapsuleGraph& graph) {
   for (int e = 0; e < graph.capsule_count();) {
     if (MakeCone(graph, graph.edges[U(e)].a, graph.edges[U(e)].b).is_sphere) {
       graph.RemoveEdge(e);
@@ -201,7 +282,7 @@ void RemoveSwallowed(CapsuleGraph& graph) {
       }
     }
   }
-  if (std::find(removed.begin(), removed.end(), 1) != removed.end()) graph.RemoveNodes(removed);
+  return graph.RemoveNodes(removed);
 }
 
 }  // namespace capfit::refine

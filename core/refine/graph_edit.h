@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_REFINE_GRAPH_EDIT_H_
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "core/refine/capsule_graph.h"
@@ -42,13 +43,27 @@ struct EditedGraph {
 [[nodiscard]] std::vector<char> Neighbourhood(const CapsuleGraph& graph,
                                               const std::vector<int>& nodes, int radius);
 
+// The part of a graph that reaches into a box, with the images of what does.
+struct LocalGraph {
+  CapsuleGraph graph;
+  std::vector<int> nodes;  // index in the whole graph of each node; increasing
+};
+[[nodiscard]] LocalGraph LocalGraphIn(const CapsuleGraph& graph, const Eigen::AlignedBox3d& box);
+
 // A leaf that touches the body's surface at `point_m` from inside, at half the radius of the
 // nearest capsule there; one for each end of that capsule.
 [[nodiscard]] std::vector<Edit> LeavesAt(const CapsuleGraph& graph, const Eigen::Vector3d& point_m);
 
+// How many pieces the graph falls into when only capsules tie spheres.
+[[nodiscard]] int ComponentCount(const CapsuleGraph& graph);
+
+// Where the smaller end of a capsule lies within the larger one and other capsules hang on it, ties
+// those to the larger end: then nothing falls off when RemoveSwallowed takes the capsule.
+void MergeSwallowed(CapsuleGraph& graph);
+
 // Removes what does nothing: capsules swallowed by an end, spheres without a capsule inside
-// another primitive.
-void RemoveSwallowed(CapsuleGraph& graph);
+// another primitive. Returns the new index of each old node, -1 for the removed.
+std::vector<int> RemoveSwallowed(CapsuleGraph& graph);
 
 }  // namespace capfit::refine
 

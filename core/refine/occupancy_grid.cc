@@ -17,11 +17,13 @@ constexpr int kColumnsPerCell = 2;  // in x and in y
 constexpr double kColumnShiftX = 0.5123;
 constexpr double kColumnShiftY = 0.4871;
 constexpr int kMargin = 2;  // cells around the body
+constexpr float kFullCost = 127.0f;
 
 OccupancyGrid EmptyGrid(const mesh::BodyMesh& mesh, double cell_m, bool folded) {
   OccupancyGrid grid;
   grid.cell_m = static_cast<float>(cell_m);
   grid.folded = folded;
+  grid.first_x = folded ? kMargin : 0;
   const double half_x = std::max(mesh.box_max().x(), -mesh.box_min().x());
   const Vec3 low(folded ? 0.0 : mesh.box_min().x(), mesh.box_min().y(), mesh.box_min().z());
   const Vec3 high(folded ? half_x : mesh.box_max().x(), mesh.box_max().y(), mesh.box_max().z());
@@ -147,6 +149,14 @@ std::vector<char> SelectedCells(const body::Body& body, const body::PartSelectio
   return label;
 }
 
+void FillCost(OccupancyGrid& grid) {
+  grid.cost.resize(grid.inside.size());
+  for (std::size_t i = 0; i < grid.cost.size(); ++i) {
+    const float cost = 1.0f - grid.fitted[i] - grid.inside[i];
+    grid.cost[i] = static_cast<std::int8_t>(std::lround(kFullCost * cost));
+  }
+}
+
 bool LeavesOutSomething(const body::Body& body, const body::PartSelection& parts) {
   return std::any_of(body.vertex_segments.begin(), body.vertex_segments.end(),
                      [&](body::Segment s) { return !parts.Includes(body::PartOf(s)); });
@@ -167,7 +177,7 @@ CellRange RangeOf(const OccupancyGrid& grid, const Box& box) {
     range.high[U(k)] = std::clamp(static_cast<int>(std::ceil((box[1][k] - origin) / grid.cell_m)),
                                   range.low[U(k)], count[U(k)]);
   }
-  if (grid.folded) range.low[0] = std::max(range.low[0], kMargin);
+  range.low[0] = std::max(range.low[0], grid.first_x);
   range.high[0] = std::max(range.high[0], range.low[0]);
   return range;
 }
@@ -284,9 +294,10 @@ OccupancyGrid MakeOccupancyGrid(const body::Body& body, const body::PartSelectio
       if (!selected[i]) grid.fitted[i] = 0.0f;
     }
   }
+  FillCost(grid);
   double cells = 0.0;
   for (int j = 0; j < grid.ny; ++j) {
-    for (int i = folded ? kMargin : 0; i < grid.nx; ++i) {
+    for (int i = grid.first_x; i < grid.nx; ++i) {
       for (int k = 0; k < grid.nz; ++k) cells += grid.fitted[grid.ColumnOf(i, j) + U(k)];
     }
   }
@@ -294,31 +305,57 @@ OccupancyGrid MakeOccupancyGrid(const body::Body& body, const body::PartSelectio
   return grid;
 }
 
+OccupancyGrid CoarserGrid(const OccupancyGrid& grid) {
+  OccupancyGrid coarse;
+  coarse.cell_m = 2.0f * grid.cell_m;
+  coarse.nx = (grid.nx + 1) / 2;
+  coarse.ny = (grid.ny + 1) / 2;
+  coarse.nz = (grid.nz + 1) / 2;
+  coarse.origin_m = grid.origin_m;
+  coarse.folded = grid.folded;
+  coarse.first_x = grid.first_x / 2;
+  coarse.volume_m3 = grid.volume_m3;
+  const std::size_t cells = U(coarse.nx) * U(coarse.ny) * U(coarse.nz);
+  coarse.fitted.assign(cells, 0.0f);
+  coarse.inside.assign(cells, 0.0f);
+  for (int j = 0; j < grid.ny; ++j) {
+    for (int i = 0; i < grid.nx; ++i) {
+      const std::size_t from = grid.ColumnOf(i, j), to = coarse.ColumnOf(i / 2, j / 2);
+      for (std::size_t k = 0; k < U(grid.nz); ++k) {
+        coarse.fitted[to + k / 2] += 0.125f * grid.fitted[from + k];
+        coarse.inside[to + k / 2] += 0.125f * grid.inside[from + k];
+      }
+    }
+  }
+  FillCost(coarse);
+  return coarse;
+}
+
 void SampleCost(const OccupancyGrid& grid, const float* x, const float* y, const float* z,
                 int count, float* cost) {
   const float inverse = 1.0f / grid.cell_m;
-  const std::size_t row = U(grid.nz), layer = U(grid.nz) * U(grid.nx);
+  const std::ptrdiff_t row = grid.nz, layer = row * grid.nx;
+  // The outermost cells are empty, so that points off the grid may be moved onto them.
+  const float last_x = static_cast<float>(grid.nx) - 1.001f,
+              last_y = static_cast<float>(grid.ny) - 1.001f,
+              last_z = static_cast<float>(grid.nz) - 1.001f;
+  const auto clamped = [](float g, float last) { return std::min(std::max(g, 0.0f), last); };
   for (int n = 0; n < count; ++n) {
     const float px = grid.folded ? std::abs(x[n]) : x[n];
-    const float gx = (px - grid.origin_m.x()) * inverse - 0.5f;
-    const float gy = (y[n] - grid.origin_m.y()) * inverse - 0.5f;
-    const float gz = (z[n] - grid.origin_m.z()) * inverse - 0.5f;
+    const float gx = clamped((px - grid.origin_m.x()) * inverse - 0.5f, last_x);
+    const float gy = clamped((y[n] - grid.origin_m.y()) * inverse - 0.5f, last_y);
+    const float gz = clamped((z[n] - grid.origin_m.z()) * inverse - 0.5f, last_z);
     const int i = static_cast<int>(gx), j = static_cast<int>(gy), k = static_cast<int>(gz);
-    cost[n] = 1.0f;
-    if (gx < 0.0f || gy < 0.0f || gz < 0.0f) continue;
-    if (i >= grid.nx - 1 || j >= grid.ny - 1 || k >= grid.nz - 1) continue;
-    const std::size_t at = grid.ColumnOf(i, j) + U(k);
     const float fx = gx - static_cast<float>(i), fy = gy - static_cast<float>(j),
                 fz = gz - static_cast<float>(k);
-    const auto trilinear = [&](const std::vector<float>& values) {
-      const float* p = values.data() + at;
-      const auto along_z = [fz](const float* q) { return q[0] + fz * (q[1] - q[0]); };
-      const float v00 = along_z(p), v10 = along_z(p + row);
-      const float v01 = along_z(p + layer), v11 = along_z(p + layer + row);
-      const float v0 = v00 + fx * (v10 - v00), v1 = v01 + fx * (v11 - v01);
-      return v0 + fy * (v1 - v0);
+    const std::int8_t* p = grid.cost.data() + j * layer + i * row + k;
+    const auto along_z = [fz](const std::int8_t* q) {
+      return static_cast<float>(q[0]) + fz * static_cast<float>(q[1] - q[0]);
     };
-    cost[n] = 1.0f - trilinear(grid.fitted) - trilinear(grid.inside);
+    const float v00 = along_z(p), v10 = along_z(p + row);
+    const float v01 = along_z(p + layer), v11 = along_z(p + layer + row);
+    const float v0 = v00 + fx * (v10 - v00), v1 = v01 + fx * (v11 - v01);
+    cost[n] = (v0 + fy * (v1 - v0)) * (1.0f / kFullCost);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/body/body.h"
@@ -20,10 +21,14 @@ struct OccupancyGrid {
   int nx = 0, ny = 0, nz = 0;
   Eigen::Vector3f origin_m = Eigen::Vector3f::Zero();  // lower corner
   bool folded = false;
+  int first_x = 0;  // the first layer at x >= 0 of a folded grid
   // For each cell, z fastest, then x: the share inside the parts to fit, and the share inside the
   // body (at least the former).
   std::vector<float> fitted;
   std::vector<float> inside;
+  // 1 - fitted - inside, in 127ths: what it costs to fill the cell. Small, because it is read at
+  // random.
+  std::vector<std::int8_t> cost;
   // Volume of the parts to fit, both halves.
   double volume_m3 = 0.0;
 
@@ -40,8 +45,11 @@ struct OccupancyGrid {
                                               const body::PartSelection& parts, double cell_m,
                                               bool folded);
 
+// The grid with cells twice as large, each the mean of eight.
+[[nodiscard]] OccupancyGrid CoarserGrid(const OccupancyGrid& grid);
+
 // What it costs to fill space, at `count` points: +1 in empty space, -1 inside the parts to fit, 0
-// inside the rest of the body; trilinear between cell centres, +1 off the grid.
+// inside the rest of the body; trilinear between cell centres, +1 off the grid. To 1/127.
 void SampleCost(const OccupancyGrid& grid, const float* x, const float* y, const float* z,
                 int count, float* cost);
 

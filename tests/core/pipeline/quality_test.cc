@@ -72,12 +72,32 @@ TEST(TightQuality, BestFitIsTighterStillAndSaysHowFarThingsStickOut) {
   EXPECT_LE(best.metrics.max_gap_m, out + 5e-3);
 }
 
-TEST(PaperQuality, BestFitIsTheSetBeforeItsGrowing) {
+TEST(PaperQuality, BestFitSettlesThePapersPrimitives) {
   const mesh::PolygonSoup soup = Person();
   const FitResult enclosing = MustFit(soup, Of(Quality::kPaper, FitMode::kEnclose, 64));
   const FitResult best = MustFit(soup, Of(Quality::kPaper, FitMode::kBestFit, 64));
   EXPECT_GT(FurthestVertexOut(soup, best), 0.0);
-  EXPECT_EQ(best.primitives.spheres.size(), enclosing.primitives.spheres.size());
+  EXPECT_LT(best.metrics.E_r, 0.5 * enclosing.metrics.E_r);
+  const auto& set = best.primitives;
+  ASSERT_EQ(set.origins.size(), set.spheres.size());
+  for (std::size_t i = 0; i < set.spheres.size(); ++i) {
+    const int image = set.origins[i].mirror;
+    ASSERT_GE(image, 0) << i;
+    EXPECT_EQ(set.spheres[static_cast<std::size_t>(image)].radius_m, set.spheres[i].radius_m);
+  }
+}
+
+TEST(PaperQuality, BestFitGetsBetterWithEveryBudgetAndUsesIt) {
+  const mesh::PolygonSoup soup = Person();
+  double last = 1.0;
+  for (const int budget : {22, 40, 64, 128}) {
+    const FitResult best = MustFit(soup, Of(Quality::kPaper, FitMode::kBestFit, budget));
+    EXPECT_LE(best.metrics.n_p, budget);
+    EXPECT_GE(best.metrics.n_p, budget - 3);
+    EXPECT_LE(best.metrics.E_r, 1.02 * last);
+    last = best.metrics.E_r;
+  }
+  EXPECT_LT(last, 0.15);
 }
 
 TEST(TightQuality, SameBitsForAnyNumberOfThreads) {
