@@ -16,11 +16,15 @@ constexpr double kSpacing = 0.008;
 // Sections stand across the chord from this far before to this far behind them.
 constexpr double kChord = 0.016;
 constexpr double kFirstStation = 0.006;
+// Beyond this it is none: a body pressed flat along its height is all limbs.
+constexpr double kLongestLimb = 2.0;
 // How far past the rings the line goes on, straight, so that it reaches into the trunk.
 constexpr double kExtension = 0.12;
 // Rings near the junction are skew (the way to the armpit is shorter than that over the shoulder):
 // this share of them, next to the trunk, is left out.
 constexpr double kSkewShare = 0.15;
+// Share of the way along the others on which the line is in the limb for sure.
+constexpr double kSureShare = 0.92;
 constexpr int kRings = 40;
 // A section further from the line than this is not the limb's own.
 constexpr double kMaxDrift = 0.035;
@@ -41,14 +45,21 @@ void SmoothLine(Line& line, int times) {
   }
 }
 
-Line Resample(const Line& line, double first, double spacing) {
+// At most `most` points.
+double LengthOf(const Line& line) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
+  return length;
+}
+
+Line Resample(const Line& line, double first, double spacing, std::size_t most) {
   Line out;
   double walked = 0.0;
   double wanted = first;
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Eigen::Vector3d step = line[i] - line[i - 1];
     const double length = step.norm();
-    while (length > 0.0 && wanted <= walked + length) {
+    while (length > 0.0 && wanted <= walked + length && out.size() < most) {
       out.push_back(line[i - 1] + ((wanted - walked) / length) * step);
       wanted += spacing;
     }
@@ -103,10 +114,12 @@ std::vector<mesh::Triangle> LimbTriangles(std::span<const mesh::Triangle> triang
   return own;
 }
 
-// Sections along the line from the tip until they leave the limb.
+// Sections along the line from the tip until they leave the limb. Before `surely_limb` (an arc), a
+// section that does is one across fingers, toes or a sharp bend: it is left out.
 std::vector<Station> CutAlong(const CutSurface& surface, const Line& line, double stature,
-                              double spacing) {
-  const Line at = Resample(line, kFirstStation * stature, spacing * stature);
+                              double spacing, double surely_limb) {
+  const Line at = Resample(line, kFirstStation * stature, spacing * stature,
+                           static_cast<std::size_t>(kLongestLimb / spacing));
   std::vector<Station> stations;
   const int count = static_cast<int>(at.size());
   const int reach = static_cast<int>(std::lround(kChord / spacing));
@@ -116,12 +129,11 @@ std::vector<Station> CutAlong(const CutSurface& surface, const Line& line, doubl
     const CutPlane plane = {at[i], (after - before).normalized()};
     const auto loop = surface.CutNearest(plane, kMinGirth * stature);
     const double arc = (kFirstStation + spacing * i) * stature;
-    const bool is_near_tip = arc < 0.1 * stature;
     if (!loop || (loop->centroid - at[i]).norm() > kMaxDrift * stature) {
-      if (is_near_tip) continue;  // fingers, toes, chin
+      if (arc < surely_limb) continue;
       break;
     }
-    if (!is_near_tip && !stations.empty() &&
+    if (arc >= surely_limb && !stations.empty() &&
         loop->girth > (1.0 + kGrowth * spacing) * stations.back().girth)
       break;
     stations.push_back({arc, loop->centroid, plane.normal, loop->girth, std::abs(loop->area)});
@@ -194,6 +206,7 @@ LimbProfile MakeLimbProfile(std::span<const Eigen::Vector3d> points,
   LimbProfile profile;
   if (line.size() < 8) return profile;
   SmoothLine(line, 4);
+  const double surely_limb = kSureShare * LengthOf(line);
   Extend(line, kExtension * stature);
   const Eigen::Vector3d inner_end = line.back();
   const double reach = kTrunkReach * stature;
@@ -203,13 +216,13 @@ LimbProfile MakeLimbProfile(std::span<const Eigen::Vector3d> points,
   const std::vector<mesh::Triangle> own = LimbTriangles(triangles, in_limb);
   const CutSurface surface(points, own);
   Line centers = {points[limb.tip]};
-  for (const Station& s : CutAlong(surface, line, stature, kDraftSpacing)) {
+  for (const Station& s : CutAlong(surface, line, stature, kDraftSpacing, surely_limb)) {
     centers.push_back(s.center);
   }
   if (centers.size() < 8) return profile;
   SmoothLine(centers, 2);
   Extend(centers, kExtension * stature);
-  profile.stations = CutAlong(surface, centers, stature, kSpacing);
+  profile.stations = CutAlong(surface, centers, stature, kSpacing, surely_limb);
   return profile;
 }
 

@@ -25,11 +25,11 @@ struct TriangulatedFaces {
 // Why a share of the file and not each face by itself: a quad alone does not tell. Modelled quads
 // have an inward corner too, at ears, lips and toes, about one in a thousand, and their
 // triangulated copies are folded there; a rule for single faces (by convexity, or the shorter or
-// flatter diagonal) would give the two another surface. Joining neighbours without looking, on the
-// other hand, makes an inward corner in about one quad of six, whatever the mesh (two triangles
-// join to a convex quad only where both ends of their edge are narrow enough), and half of these
-// begin at the wrong corner. One in a hundred lies between a thousandth and a twelfth; any share
-// from 1/500 to 1/25 decides the same for every file at hand.
+// flatter diagonal) would give the two another surface. Joining uneven triangles without looking,
+// on the other hand, makes an inward corner in one quad of six or so, for two triangles join to a
+// convex quad only where both ends of their edge are narrow enough. One in a hundred lies well
+// between: any share from 1/500 to 1/50 decides the same for every file at hand. (Even triangles
+// join to convex quads, and what is below the share does as little harm as in a modelled mesh.)
 //
 // Larger faces often have inward corners: they get the triangulation of least area. `soup` is
 // checked; `positions` stand for its own. O(corners) for the usual sizes of faces.

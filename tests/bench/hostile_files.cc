@@ -35,14 +35,14 @@ HostileInput Obj(std::string bytes) { return {std::move(bytes), MeshFormat::kObj
 HostileInput NegativeIndices() {
   std::string text;
   for (int i = 0; i < 900'000; ++i) {
-    text += "v " + std::to_string(i % 1000) + " " + std::to_string(i / 1000) + " 0\n";
+    absl::StrAppend(&text, "v ", i % 1000, " ", i / 1000, " 0\n");
     if (i > 1001) text += "f -1 -2 -1001 -1000\n";
   }
   return Obj(std::move(text));
 }
 
 HostileInput Ply(const std::string& header, std::string body) {
-  return {"ply\nformat " + header + "end_header\n" + std::move(body), MeshFormat::kPly, {}};
+  return {absl::StrCat("ply\nformat ", header, "end_header\n", body), MeshFormat::kPly, {}};
 }
 
 // A list of a length that takes the rest of the file, and one more.
@@ -71,9 +71,9 @@ HostileInput LyingCounts() {
 HostileInput TextStl() {
   std::string text = "solid s\n";
   while (text.size() + 200 < kFileBytes) {
-    const std::string x = std::to_string(text.size() % 1000) + "." + std::to_string(text.size());
-    text += "facet normal 0 0 1\nouter loop\nvertex 0 0 " + x + "\nvertex 1 0 " + x +
-            "\nvertex 0 1 " + x + "\nendloop\nendfacet\n";
+    const std::string x = absl::StrCat(text.size() % 1000, ".", text.size());
+    absl::StrAppend(&text, "facet normal 0 0 1\nouter loop\nvertex 0 0 ", x, "\nvertex 1 0 ", x,
+                    "\nvertex 0 1 ", x, "\nendloop\nendfacet\n");
   }
   return {text + "endsolid s\n", MeshFormat::kStl, {}};
 }
@@ -89,8 +89,8 @@ HostileInput Glb(std::string json, std::string binary = {}) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   binary.resize((binary.size() + 3) / 4 * 4, '\0');
   const auto word = [](std::size_t value) { return Bytes(static_cast<std::uint32_t>(value)); };
-  return {"glTF" + word(2) + word(28 + json.size() + binary.size()) + word(json.size()) + "JSON" +
-              json + word(binary.size()) + std::string("BIN\0", 4) + binary,
+  return {absl::StrCat("glTF", word(2), word(28 + json.size() + binary.size()), word(json.size()),
+                       "JSON", json, word(binary.size()), std::string("BIN\0", 4), binary),
           MeshFormat::kGlb,
           {}};
 }
@@ -106,32 +106,35 @@ std::string NodesOf(const std::string& node, std::size_t count) {
 }
 
 HostileInput ManyDraws() {
-  return Glb("{" + NodesOf(R"({"mesh":0})", 90'000) + R"(,"meshes":[{"primitives":[)" +
-             Repeated(R"({"mode":0},)", 90'000) + R"({}]}]})");
+  return Glb(absl::StrCat("{", NodesOf(R"({"mesh":0})", 90'000), R"(,"meshes":[{"primitives":[)",
+                          Repeated(R"({"mode":0},)", 90'000), R"({"mode":0}]}]})"));
 }
 
 HostileInput ManySkins() {
-  return Glb("{" + NodesOf(R"({"mesh":0,"skin":0})", 90'000) +
-                 R"(,"meshes":[{}],"skins":[{"inverseBindMatrices":1,"joints":[)" +
-                 Repeated("0,", 4095) + "0]}]," + kArrays + "}",
+  return Glb(absl::StrCat("{", NodesOf(R"({"mesh":0,"skin":0})", 90'000),
+                          R"(,"meshes":[{}],"skins":[{"inverseBindMatrices":1,"joints":[)",
+                          Repeated("0,", 4095), "0]}],", kArrays, "}"),
              std::string(262'180, '\0'));
 }
 
-HostileInput ManyNodes() { return Glb("{" + NodesOf("{}", 2'700'000) + "}"); }
+HostileInput ManyNodes() { return Glb(absl::StrCat("{", NodesOf("{}", 2'700'000), "}")); }
 
 HostileInput LongNames() {
-  return Glb(R"({"nodes":[{"name":")" + std::string(4 << 20, 'n') + R"(","mesh":0,"skin":0}],)" +
-                 R"("meshes":[{}],"skins":[{"inverseBindMatrices":1,"joints":[)" +
-                 Repeated("0,", 4095) + "0]}]," + kArrays + "}",
+  return Glb(absl::StrCat(R"({"nodes":[{"name":")", std::string(4 << 20, 'n'),
+                          R"(","mesh":0,"skin":0}],"meshes":[{}],)",
+                          R"("skins":[{"inverseBindMatrices":1,"joints":[)", Repeated("0,", 4095),
+                          "0]}],", kArrays, "}"),
              std::string(262'180, '\0'));
 }
 
 HostileInput NestedJson() {
   const std::size_t depth = 4'000'000;
-  return Glb(R"({"nodes":)" + std::string(depth, '[') + std::string(depth, ']') + "}");
+  return Glb(absl::StrCat(R"({"nodes":)", std::string(depth, '['), std::string(depth, ']'), "}"));
 }
 
-HostileInput SmallJsonValues() { return Glb(R"({"nodes":[)" + Repeated("[],", 2'700'000) + "1]}"); }
+HostileInput SmallJsonValues() {
+  return Glb(absl::StrCat(R"({"nodes":[)", Repeated("[],", 2'700'000), "1]}"));
+}
 
 }  // namespace
 
@@ -139,7 +142,7 @@ std::vector<HostileCase> HostileFiles() {
   return {{"OBJ: one line of 127 MB", [] { return Obj(Filled("v 0 0 0\n# ", "word ")); }},
           {"OBJ: continued line of 127 MB", [] { return Obj(Filled("v 0 0 0\nf ", "1 \\\n")); }},
           {"OBJ: 64 corners in each of a million faces",
-           [] { return Obj(Filled("v 0 0 0\n", "f " + Repeated("1 ", 64) + "\n")); }},
+           [] { return Obj(Filled("v 0 0 0\n", absl::StrCat("f ", Repeated("1 ", 64), "\n"))); }},
           {"OBJ: a face of 127 MB", [] { return Obj(Filled("v 0 0 0\nf ", "1 ")); }},
           {"OBJ: a number of 127 MB", [] { return Obj(Filled("v 0.", "1")); }},
           {"OBJ: negative indices", NegativeIndices},
