@@ -45,13 +45,13 @@ void SmoothLine(Line& line, int times) {
   }
 }
 
-// At most `most` points.
 double LengthOf(const Line& line) {
   double length = 0.0;
   for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
   return length;
 }
 
+// At most `most` points.
 Line Resample(const Line& line, double first, double spacing, std::size_t most) {
   Line out;
   double walked = 0.0;
