@@ -12,8 +12,9 @@ namespace {
 using geometry::Sphere;
 using geometry::TaperedCapsule;
 
-// A point this deep inside another solid is hidden; above rounding, below anything that matters.
-constexpr double kHiddenDepth = 1e-9;
+// Samples fade out over this many spacings on either side of the border where another solid begins
+// to hide them. The gradient follows the set smoothly that way: no sample comes or goes at once.
+constexpr double kFade = 0.1;
 constexpr int kMinRings = 2;
 constexpr int kMinRingPoints = 8;
 constexpr int kMinSpherePoints = 24;
@@ -35,7 +36,12 @@ class Sampler {
  public:
   Sampler(const capsule::PrimitiveSet& set, const std::vector<Solid>& solids, double spacing_m,
           std::uint64_t seed)
-      : set_(set), shapes_(ShapesOf(solids, set)), spacing_(spacing_m), seed_(seed) {
+      : set_(set),
+        solids_(solids),
+        shapes_(ShapesOf(solids, set)),
+        spacing_(spacing_m),
+        fade_(kFade * spacing_m),
+        seed_(seed) {
     for (const Sphere& sphere : set.spheres) origin_ += sphere.center_m;
     if (!set.spheres.empty()) origin_ /= static_cast<double>(set.spheres.size());
   }
@@ -61,8 +67,7 @@ class Sampler {
   Share Caps(std::size_t index) const {
     Share share;
     const Sphere& sphere = set_.spheres[index];
-    const std::vector<const TaperedCapsule*> others =
-        Neighbours(sphere.center_m, sphere.radius_m, nullptr);
+    const Surroundings around = SurroundingsOf(index);
     const double area = 4.0 * std::numbers::pi * sphere.radius_m * sphere.radius_m;
     const int count = CountFor(area, spacing_ * spacing_, kMinSpherePoints);
     Random random(seed_ ^ (~index * 0x9E3779B9u));
@@ -72,7 +77,13 @@ class Sampler {
       const double angle = 2.0 * std::numbers::pi * (i / std::numbers::phi + turn);
       const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
       const Eigen::Vector3d normal(r * std::cos(angle), r * std::sin(angle), z);
-      Add(sphere.center_m + sphere.radius_m * normal, normal, area / count, 0.0, others, share);
+      double seen = 1.0;
+      for (const Cut& cut : around.cuts) {
+        seen *= Seen(sphere.radius_m * (cut.sine - normal.dot(cut.axis)));
+      }
+      if (seen == 0.0) continue;
+      Add(sphere.center_m + sphere.radius_m * normal, normal, seen * area / count, 0.0,
+          around.others, share);
     }
     return share;
   }
@@ -96,12 +107,52 @@ class Sampler {
   }
 
  private:
+  // A capsule hides the part of its end sphere beyond the circle where they touch: there both run
+  // on smoothly, so that their distance tells nothing.
+  struct Cut {
+    Eigen::Vector3d axis;  // into the capsule
+    double sine;           // of the normals on the circle
+  };
+  struct Surroundings {
+    std::vector<Cut> cuts;
+    std::vector<const TaperedCapsule*> others;
+  };
+
+  Surroundings SurroundingsOf(std::size_t sphere_index) const {
+    const Sphere& sphere = set_.spheres[sphere_index];
+    const int self = static_cast<int>(sphere_index);
+    Surroundings around;
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      const TaperedCapsule& shape = shapes_[k];
+      const bool is_first = solids_[k].ends[0] == self;
+      if (is_first || solids_[k].ends[1] == self) {
+        const double way = is_first ? 1.0 : -1.0;
+        if (!shape.IsSphere()) {
+          around.cuts.push_back({way * shape.axis(), way * shape.sin_half_angle()});
+          continue;
+        }
+        // Swallowed by this sphere: nothing else is there.
+        if (std::max(shape.a().radius_m, shape.b().radius_m) <= sphere.radius_m) continue;
+      }
+      if (shape.SignedDistance(sphere.center_m) < sphere.radius_m + fade_) {
+        around.others.push_back(&shape);
+      }
+    }
+    return around;
+  }
+
+  // Share of a sample that is seen at a distance from a solid.
+  double Seen(double distance_m) const {
+    const double u = std::clamp(0.5 + 0.5 * distance_m / fade_, 0.0, 1.0);
+    return u * u * (3.0 - 2.0 * u);
+  }
+
   // Solids other than `self` that reach into a ball.
   std::vector<const TaperedCapsule*> Neighbours(const Eigen::Vector3d& center, double reach,
                                                 const TaperedCapsule* self) const {
     std::vector<const TaperedCapsule*> near;
     for (const TaperedCapsule& shape : shapes_) {
-      if (&shape != self && shape.SignedDistance(center) < reach) near.push_back(&shape);
+      if (&shape != self && shape.SignedDistance(center) < reach + fade_) near.push_back(&shape);
     }
     return near;
   }
@@ -113,8 +164,8 @@ class Sampler {
     std::vector<const TaperedCapsule*> near;
     for (const TaperedCapsule* other : others) {
       const double distance = other->SignedDistance(center);
-      if (distance < -radius) return;  // hides the ring
-      if (distance < radius) near.push_back(other);
+      if (distance < -radius - fade_) return;  // hides the ring
+      if (distance < radius + fade_) near.push_back(other);
     }
     const double girth = 2.0 * std::numbers::pi * radius * capsule.cos_half_angle();
     const int count = CountFor(girth, spacing_, kMinRingPoints);
@@ -132,7 +183,8 @@ class Sampler {
   void Add(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double area, double t,
            const std::vector<const TaperedCapsule*>& others, Share& share) const {
     for (const TaperedCapsule* other : others) {
-      if (other->SignedDistance(point) < -kHiddenDepth) return;
+      area *= Seen(other->SignedDistance(point));
+      if (area == 0.0) return;
     }
     const Eigen::Vector4d speed(normal.x(), normal.y(), normal.z(), 1.0);
     share.a += area * (1 - t) * speed;
@@ -142,8 +194,10 @@ class Sampler {
   }
 
   const capsule::PrimitiveSet& set_;
+  const std::vector<Solid>& solids_;
   std::vector<TaperedCapsule> shapes_;
   double spacing_;
+  double fade_;
   std::uint64_t seed_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
 };

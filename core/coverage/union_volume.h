@@ -22,8 +22,9 @@ struct VolumeGradient {
 
 // The volume changes by the normal speed of its surface: a piece dA of slant with normal n at axis
 // parameter t adds dA (1 - t) (n, 1) to one end and dA t (n, 1) to the other, a piece of a cap
-// dA (n, 1) to its sphere. Surface inside another solid does not count. Sampled about every
-// `spacing_m` with rings turned by random angles from `seed`; solids and spheres in parallel.
+// dA (n, 1) to its sphere. Surface inside another solid does not count; the border is softened over
+// a tenth of the spacing to either side, so that the result follows the set smoothly. Sampled about
+// every `spacing_m` with rings turned by random angles from `seed`; solids and spheres in parallel.
 [[nodiscard]] VolumeGradient UnionVolumeGradient(const capsule::PrimitiveSet& set,
                                                  const std::vector<Solid>& solids, double spacing_m,
                                                  std::uint64_t seed, const ThreadPool& pool);
