@@ -13,7 +13,8 @@ namespace capfit::mesh {
 namespace {
 
 // Steps of the search for the least area (n^3 / 6 for a face of n corners, some nanoseconds each)
-// that one mesh may take: a million hexagons. What is beyond gets fans.
+// that one mesh may take: a million hexagons, or one face of 600 corners. What is beyond is filled
+// by cutting ears.
 constexpr std::size_t kMostSteps = 40'000'000;
 
 // Where one face in this many would fold over, the quads were made by joining triangles.
@@ -42,14 +43,12 @@ class FaceTriangulator {
 
  private:
   void AddFace(std::span<const std::uint32_t> face) {
-    const std::size_t steps = face.size() * face.size() * face.size() / 6;
     if (face.size() == 4) {
       AddQuad(face);
-    } else if (face.size() <= 4 || steps > steps_left_) {
+    } else if (face.size() < 4) {
       AddFan(face);
     } else {
-      steps_left_ -= steps;
-      AddSmallest(face);
+      AddFilling(face);
     }
   }
 
@@ -88,11 +87,15 @@ class FaceTriangulator {
     for (std::size_t k = 2; k < face.size(); ++k) Add({face[0], face[k - 1], face[k]});
   }
 
-  void AddSmallest(std::span<const std::uint32_t> face) {
+  void AddFilling(std::span<const std::uint32_t> face) {
     points_.clear();
     for (const std::uint32_t v : face) points_.push_back(positions_[v]);
-    const auto any = [](std::uint32_t, std::uint32_t) { return true; };
-    const std::optional<std::vector<Triangle>> filling = FillBySmallestArea(points_, any);
+    const MayJoin any = [](std::uint32_t, std::uint32_t) { return true; };
+    const std::size_t steps = face.size() * face.size() * face.size() / 6;
+    const bool is_small = steps <= steps_left_;
+    if (is_small) steps_left_ -= steps;
+    const std::optional<std::vector<Triangle>> filling =
+        is_small ? FillBySmallestArea(points_, any) : FillByCuttingEars(points_, any);
     for (const Triangle& t : *filling) Add({face[t[0]], face[t[1]], face[t[2]]});
   }
 

@@ -31,7 +31,8 @@ struct TriangulatedFaces {
 // between: any share from 1/500 to 1/50 decides the same for every file at hand. (Even triangles
 // join to convex quads, and what is below the share does as little harm as in a modelled mesh.)
 //
-// Larger faces often have inward corners: they get the triangulation of least area. `soup` is
+// Larger faces often have inward corners: they get the triangulation of least area
+// (beyond some millions of corners or some hundreds in one face, one by cutting ears). `soup` is
 // checked; `positions` stand for its own. O(corners) for the usual sizes of faces.
 [[nodiscard]] TriangulatedFaces TriangulateFaces(const PolygonSoup& soup,
                                                  std::span<const Eigen::Vector3d> positions);

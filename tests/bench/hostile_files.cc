@@ -141,7 +141,7 @@ HostileInput SmallJsonValues() {
 std::vector<HostileCase> HostileFiles() {
   return {{"OBJ: one line of 127 MB", [] { return Obj(Filled("v 0 0 0\n# ", "word ")); }},
           {"OBJ: continued line of 127 MB", [] { return Obj(Filled("v 0 0 0\nf ", "1 \\\n")); }},
-          {"OBJ: 64 corners in each of a million faces",
+          {"OBJ: a million faces of 64 corners",
            [] { return Obj(Filled("v 0 0 0\n", absl::StrCat("f ", Repeated("1 ", 64), "\n"))); }},
           {"OBJ: a face of 127 MB", [] { return Obj(Filled("v 0 0 0\nf ", "1 ")); }},
           {"OBJ: a number of 127 MB", [] { return Obj(Filled("v 0.", "1")); }},

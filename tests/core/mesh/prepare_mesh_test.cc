@@ -278,7 +278,7 @@ TEST(PrepareMeshTest, StopsBetweenStepsWhenCancelled) {
   for (; !prepared.ok(); ++patience) {
     const ImpatientObserver observer(patience);
     prepared = PrepareMesh(open, {}, observer);
-    if (!prepared.ok()) EXPECT_EQ(prepared.status().code(), absl::StatusCode::kCancelled);
+    EXPECT_TRUE(prepared.ok() || prepared.status().code() == absl::StatusCode::kCancelled);
     ASSERT_LT(patience, 30);
   }
   EXPECT_GE(patience, 5);
@@ -469,8 +469,8 @@ TEST(PrepareMeshTest, RefusesBadArraysNamingTheFirstOffender) {
   PolygonSoup sizes = Cube();
   sizes.face_sizes[1] = 5;
   EXPECT_THAT(RefusalOf(sizes), HasSubstr("face_sizes adds up to 25, must add up to the 24"));
-  sizes.face_sizes[1] = 65;
-  EXPECT_THAT(RefusalOf(sizes), HasSubstr("face_sizes[1] is 65, must be at most 64"));
+  sizes.face_sizes[1] = 1001;
+  EXPECT_THAT(RefusalOf(sizes), HasSubstr("face_sizes[1] is 1001, must be at most 1000"));
 }
 
 TEST(PrepareMeshTest, RefusesSizesBeyondTheLimits) {

@@ -238,8 +238,10 @@ INSTANTIATE_TEST_SUITE_P(
                 kLittle + std::string(36, '\0') + "\3" + std::string(11, '\0'),
                 "ends early or has a bad value in record 0 of 1 of element 'face'"},
         BadFile{"ManyCorners", MeshFormat::kPly,
-                kLittle + std::string(36, '\0') + "\xff" + std::string(1020, '\0'),
-                "face 0 has 255 corners, must have at most 64"},
+                "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                "property float z\nelement face 1\nproperty list int int vertex_indices\n"
+                "end_header\n0 0 0\n1001 0 0 0\n",
+                "face 0 has 1001 corners, must have at most 1000"},
         BadFile{"NegativeIndex", MeshFormat::kPly,
                 kLittle + std::string(36, '\0') + "\3" + std::string(12, '\xff'),
                 "face 0 names vertex -1"},

@@ -5,7 +5,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -134,6 +136,32 @@ TEST(TriangulateFacesTest, QuadsJoinedFromTrianglesDoNotFold) {
     // (Slivers that bend round the ball fold over either way.)
     EXPECT_LT(static_cast<double>(Inward(joined, faces.triangles)),
               0.5 * folded * static_cast<double>(joined.face_sizes.size()));
+  }
+}
+
+// The flat end of a cut: a star of many corners, half of them inward.
+TEST(TriangulateFacesTest, FacesOfManyCornersAreFilledWithoutFolds) {
+  for (const std::size_t corners : {std::size_t{100}, std::size_t{400}, std::size_t{1000}}) {
+    PolygonSoup star;
+    double twice_area = 0.0;
+    for (std::size_t k = 0; k < corners; ++k) {
+      const double angle =
+          2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(corners);
+      const double radius = k % 2 == 0 ? 1.0 : 0.97;
+      star.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+      star.face_vertices.push_back(static_cast<std::uint32_t>(k));
+      twice_area += 0.97 * std::sin(2.0 * std::numbers::pi / static_cast<double>(corners));
+    }
+    star.face_sizes = {static_cast<std::uint32_t>(corners)};
+    const TriangulatedFaces faces = TriangulateFaces(star, star.positions);
+    EXPECT_EQ(faces.triangles.size(), corners - 2);
+    double twice_filled = 0.0;
+    for (const Triangle& t : faces.triangles) {
+      const Eigen::Vector3d normal = NormalOf(star, t);
+      EXPECT_GT(normal.z(), -1e-12);
+      twice_filled += normal.norm();
+    }
+    EXPECT_NEAR(twice_filled, twice_area, 1e-9) << corners;
   }
 }
 
