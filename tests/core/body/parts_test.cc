@@ -113,6 +113,37 @@ TEST(SurfaceGraph, NoEdgeCanShortenADistanceAndSourcesKeepTheirHeadStart) {
   }
 }
 
+// A wedge whose edge is a row of vertices a thousand times closer than the mean edge is long, all
+// of them joined to two hubs: neither the row nor the hubs may cost the square of their number.
+TEST(SurfaceGraph, DenseRowsAndHubsAreNoTrap) {
+  constexpr std::uint32_t kCount = 60'000;
+  Surface wedge;
+  wedge.points = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+  for (std::uint32_t i = 0; i <= kCount; ++i) {
+    wedge.points.emplace_back(1.0 + i / static_cast<double>(kCount), 0.0, 0.0);
+  }
+  for (std::uint32_t i = 3; i < 3 + kCount; ++i) {
+    wedge.triangles.push_back({1, i, i + 1});
+    wedge.triangles.push_back({i, 2, i + 1});
+  }
+  wedge.triangles.push_back({0, 3, 1});
+  wedge.triangles.push_back({0, 2, 3});
+  wedge.triangles.push_back({3 + kCount, 2, 1});
+  wedge.triangles.push_back({0, 1, 2});
+  const SurfaceGraph graph(wedge.points, wedge.triangles);
+  for (const std::uint32_t source : {0u, 3u, 3 + kCount}) {
+    const auto distance = graph.Distances(std::vector<GeodesicSource>{{source, 0.0}});
+    for (std::uint32_t v = 3; v <= 3 + kCount; v += 500) {
+      EXPECT_NEAR(distance[v], std::abs(wedge.points[v].x() - wedge.points[source].x()), 1e-3);
+    }
+    for (std::uint32_t v = 0; v < wedge.points.size(); v += 100) {
+      for (const std::uint32_t n : graph.Neighbours(v)) {
+        EXPECT_LE(distance[n], distance[v] + (wedge.points[n] - wedge.points[v]).norm() + 1e-6);
+      }
+    }
+  }
+}
+
 TEST(Branches, TheEndsOfATubeStandOutFromItsMiddle) {
   const int around = 24;
   const Surface tube = Tube(around, 40, 8.0);
