@@ -44,8 +44,14 @@ constexpr double kLegGirth = 0.31;
 constexpr double kGirthCost = 0.25;
 constexpr double kMaxLimbGirth = 0.85;
 
-// A result worse than this is not trusted before other middles of the body have been tried.
-constexpr double kGoodMisfit = 0.30;
+// A result worse than the first is not trusted before the middle that no pose moves has been tried,
+// one worse than the second before still others have.
+constexpr double kGoodMisfit = 0.17;
+constexpr double kFairMisfit = 0.30;
+// That middle is sought from this many tips, and is this much wide.
+constexpr int kSweeps = 4;
+constexpr int kFewestForMiddle = 3;
+constexpr double kMiddleWidth = 0.03;
 // At most this many other middles.
 constexpr int kMaxMiddles = 4;
 
@@ -219,8 +225,33 @@ std::vector<GeodesicSource> MiddleOfTheBody(std::span<const Eigen::Vector3d> poi
   return sources;
 }
 
-// The same, patch by patch, the largest first: a hand that sinks into the hips is near the centroid
-// too, but it is a patch of its own.
+// The vertices that are nearest to the farthest tips along the surface: near the waist in any pose,
+// where the centroid may be at a thigh that is lifted, or a hand that rests on a hip. `distance` is
+// from any place on the trunk.
+std::vector<GeodesicSource> MiddleOfTheSurface(std::span<const double> distance,
+                                               const SurfaceGraph& graph) {
+  std::vector<double> nearest_tip(distance.begin(), distance.end());
+  std::vector<double> farthest_tip(distance.size(), 0.0);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    const auto tip = static_cast<std::uint32_t>(
+        std::max_element(nearest_tip.begin(), nearest_tip.end()) - nearest_tip.begin());
+    const std::vector<double> from_tip = graph.Distances(std::array{GeodesicSource{tip, 0.0}});
+    for (std::size_t v = 0; v < from_tip.size(); ++v) {
+      nearest_tip[v] = sweep == 0 ? from_tip[v] : std::min(nearest_tip[v], from_tip[v]);
+      farthest_tip[v] = std::max(farthest_tip[v], from_tip[v]);
+    }
+  }
+  const double least = *std::min_element(farthest_tip.begin(), farthest_tip.end());
+  std::vector<GeodesicSource> sources;
+  for (std::uint32_t v = 0; v < farthest_tip.size(); ++v) {
+    const double more = farthest_tip[v] - least;
+    if (more <= kMiddleWidth) sources.push_back({v, more});
+  }
+  return sources;
+}
+
+// The same as MiddleOfTheBody, patch by patch, the largest first: a hand that sinks into the hips
+// is near the centroid too, but it is a patch of its own.
 std::vector<std::vector<GeodesicSource>> PatchesOf(const std::vector<GeodesicSource>& sources,
                                                    std::span<const Eigen::Vector3d> points,
                                                    std::span<const double> vertex_areas,
@@ -329,7 +360,15 @@ Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
                             std::span<const double> vertex_areas, const SurfaceGraph& graph) {
   const std::vector<GeodesicSource> sources = MiddleOfTheBody(points);
   Extremities best = FromSources(sources, vertex_areas, graph);
-  if (best.misfit <= kGoodMisfit) return best;
+  if (best.misfit <= kGoodMisfit && best.found() == kTipCount) return best;
+  if (best.found() >= kFewestForMiddle) {
+    Extremities other = FromSources(MiddleOfTheSurface(best.distance, graph), vertex_areas, graph);
+    const int more = other.found() - best.found();
+    // A body of which a part is cut off stays one.
+    const bool is_whole = more == 0 && best.found() == kTipCount;
+    if (other.misfit < best.misfit && (more > 0 || is_whole)) best = std::move(other);
+  }
+  if (best.misfit <= kFairMisfit) return best;
   const auto patches = PatchesOf(sources, points, vertex_areas, graph);
   for (std::size_t i = 0; i < patches.size() && i < kMaxMiddles; ++i) {
     Extremities other = FromSources(patches[i], vertex_areas, graph);

@@ -1,7 +1,10 @@
 #include "core/body/landmarks.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
@@ -19,6 +22,10 @@ constexpr double kHeadLength = 0.135;
 // The section that stands for the lower end of a trunk without legs is taken this far above it, as
 // a share of the stature.
 constexpr double kAboveTrunkEnd = 0.02;
+// A body whose parts add up to this much more than it stands high sits or squats.
+constexpr double kClearlyFolded = 1.06;
+// Along the surface a leg is about 1.65 times as long as an arm.
+constexpr double kLeastLegOfArm = 1.5;
 // Shares of the stature that are gone where head or feet are cut off at mid-neck and ankle.
 constexpr double kHeadShare = 0.122;
 constexpr double kFootShare = 0.055;
@@ -35,10 +42,57 @@ void MakeProfile(const Shape& shape, const Extremities& extremities, std::option
   profile.reset();
 }
 
-void MakeProfiles(const Extremities& extremities, Shape& shape) {
+// The distance fields that limbs are measured by.
+struct Fields {
+  const Extremities* body = nullptr;
+  std::array<Extremities, 2> legs;  // empty but for legs that begin too far down
+};
+
+void MakeProfiles(const Fields& fields, Shape& shape) {
   for (const int side : {kLeft, kRight}) {
-    MakeProfile(shape, extremities, shape.legs[side], shape.leg_profiles[side]);
-    MakeProfile(shape, extremities, shape.arms[side], shape.arm_profiles[side]);
+    const Extremities& leg = fields.legs[side].distance.empty() ? *fields.body : fields.legs[side];
+    MakeProfile(shape, leg, shape.legs[side], shape.leg_profiles[side]);
+    MakeProfile(shape, *fields.body, shape.arms[side], shape.arm_profiles[side]);
+  }
+}
+
+double MeanLength(const std::array<std::optional<Limb>, 2>& limbs) {
+  double sum = 0.0;
+  for (const auto& limb : limbs) sum += 0.5 * (limb->tip_distance - limb->junction);
+  return sum;
+}
+
+// On a lap the way from the waist to the knees is short, and the legs seem to begin there.
+bool LegsBeginTooFarDown(const Shape& shape) {
+  for (const int side : {kLeft, kRight}) {
+    if (!shape.legs[side] || !shape.arms[side]) return false;
+  }
+  return MeanLength(shape.legs) < kLeastLegOfArm * MeanLength(shape.arms);
+}
+
+// Instead, all that is nearer to a foot than where the ways from both feet meet: the inner sides of
+// the legs lead to the crotch however they are lifted.
+void MeasureLegsFromFeet(Shape& shape, Fields& fields) {
+  std::array<std::vector<double>, 2> from_foot;
+  for (const int side : {kLeft, kRight}) {
+    from_foot[side] = shape.graph->Distances(
+        std::array<GeodesicSource, 1>{GeodesicSource{shape.legs[side]->tip, 0.0}});
+  }
+  double meeting = std::numeric_limits<double>::infinity();
+  for (std::size_t v = 0; v < shape.points.size(); ++v) {
+    meeting = std::min(meeting, std::max(from_foot[kLeft][v], from_foot[kRight][v]));
+  }
+  for (const int side : {kLeft, kRight}) {
+    Limb limb = {shape.legs[side]->tip, 0.0, meeting, {}};
+    std::vector<double>& distance = fields.legs[side].distance;
+    distance.resize(shape.points.size());
+    for (std::uint32_t v = 0; v < distance.size(); ++v) {
+      distance[v] = meeting - from_foot[side][v];
+      if (distance[v] > 0.0 && from_foot[side][v] < from_foot[1 - side][v]) {
+        limb.vertices.push_back(v);
+      }
+    }
+    shape.legs[side] = std::move(limb);
   }
 }
 
@@ -142,33 +196,31 @@ void FindTrunkBase(Shape& shape, Landmarks& landmarks) {
   }
 }
 
-}  // namespace
+// Height of a body that stood up from what it sits or squats on; its extent where it stands.
+double UnfoldedStature(const Shape& shape, const Landmarks& landmarks) {
+  const auto& crotch = landmarks[Index(LandmarkId::kCrotch)];
+  if (!shape.legs[kLeft] || !shape.legs[kRight] || !crotch) return shape.stature_m;
+  double legs = std::numeric_limits<double>::infinity();
+  for (const int side : {kLeft, kRight}) {
+    legs = std::min(legs, LegLength(shape, side, landmarks));
+  }
+  const double trunk = shape.crown_m - crotch->position_m.y();
+  const double head = shape.has_head ? 0.0 : kHeadShare * shape.stature_m;
+  const double unfolded = (trunk + legs + head) / (1.0 - kFootShare);
+  return shape.stature_m + std::max(0.0, unfolded - kClearlyFolded * shape.stature_m);
+}
 
-absl::Status FindLandmarks(const Extremities& extremities, Shape& shape, Landmarks& landmarks,
-                           std::vector<Warning>& warnings) {
-  shape.has_head = shape.head && shape.head->tip_distance - shape.head->junction > kHeadLength;
-  shape.has_foot = {true, true};
-  shape.crown_m = CrownHeight(shape);
-  shape.stature_m = Stature(shape);
-  MakeProfiles(extremities, shape);
+// Everything that scales with the stature.
+absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
+                     std::vector<Warning>& warnings) {
+  MakeProfiles(fields, shape);
   if (!shape.legs[kLeft] && !shape.legs[kRight] && !shape.arms[kLeft] && !shape.arms[kRight]) {
     return CannotFit("NOT_A_BODY", "not a human body: no arm and no leg was found on it");
   }
   WarnOfMissingLimbs(shape, warnings);
-  Landmarks draft = landmarks;  // with a stature that still counts on feet
-  FindEnds(shape, draft);
-  shape.stature_m = Stature(shape);
   FindEnds(shape, landmarks);
   WarnOfMissingEnds(shape, warnings);
-  if (shape.legs[kLeft] && shape.legs[kRight]) {
-    FindCrotch(shape, landmarks);
-    if (!landmarks[Index(LandmarkId::kCrotch)]) {
-      return CannotFit(
-          "PART_MISSING",
-          "the legs do not part where the thighs meet (closed, fused, or folded up as in "
-          "sitting); a crotch landmark would help");
-    }
-  }
+  if (shape.legs[kLeft] && shape.legs[kRight]) FindCrotch(shape, landmarks);
   FindTrunkBase(shape, landmarks);
   for (const int side : {kLeft, kRight}) {
     if (shape.legs[side]) FindThigh(shape, side, landmarks);
@@ -177,6 +229,32 @@ absl::Status FindLandmarks(const Extremities& extremities, Shape& shape, Landmar
   FindNeck(shape, landmarks);
   FindTrunkSections(shape, landmarks);
   return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status FindLandmarks(const Extremities& extremities, Shape& shape, Landmarks& landmarks,
+                           std::vector<Warning>& warnings) {
+  shape.has_head = shape.head && shape.head->tip_distance - shape.head->junction > kHeadLength;
+  shape.has_foot = {true, true};
+  shape.crown_m = CrownHeight(shape);
+  shape.stature_m = Stature(shape);
+  Fields fields = {&extremities, {}};
+  if (LegsBeginTooFarDown(shape)) MeasureLegsFromFeet(shape, fields);
+  const Shape before = shape;
+  const Landmarks told = landmarks;
+  const std::size_t warned = warnings.size();
+  CAPFIT_RETURN_IF_ERROR(FindAll(fields, shape, landmarks, warnings));
+  // The stature counted on feet, and on legs that are not folded.
+  const double folded = shape.stature_m;
+  shape.stature_m = Stature(shape);
+  const double stature = UnfoldedStature(shape, landmarks);
+  if (stature == folded) return absl::OkStatus();
+  shape = before;
+  shape.stature_m = stature;
+  landmarks = told;
+  warnings.resize(warned);
+  return FindAll(fields, shape, landmarks, warnings);
 }
 
 }  // namespace capfit::body

@@ -100,6 +100,14 @@ double ArcOf(const LimbProfile& profile, const Eigen::Vector3d& point) {
   return nearest + (point - profile.stations.back().center).norm();
 }
 
+// The same for a point beside the line: past the end, what it is further on in the last direction.
+double ArcAlong(const LimbProfile& profile, const Eigen::Vector3d& point) {
+  const double nearest = profile.NearestArc(point);
+  if (nearest < profile.end()) return nearest;
+  const Station& last = profile.stations.back();
+  return nearest + std::max(0.0, (point - last.center).dot(last.normal));
+}
+
 // The joint of a limb of two bones on the middle line: the place that makes the two straight bones
 // fit the line between the arcs `outer` and `inner` best, not far from the usual share of the way.
 // A straight limb says nothing, so the share decides; a bent one has a corner.
@@ -248,7 +256,8 @@ ShoulderCut CutShoulder(const Shape& shape, const Armpit& armpit) {
       front = std::max(front, p.z());
       back = std::min(back, p.z());
     }
-    cut.middle_z = 0.5 * (front + back);
+    // An arm held across may hide the whole outline: it has no depth then.
+    cut.middle_z = front >= back ? 0.5 * (front + back) : above.z();
   }
   return cut;
 }
@@ -309,13 +318,22 @@ void FindThigh(const Shape& shape, int side, Landmarks& landmarks) {
   const LimbProfile& leg = *shape.leg_profiles[side];
   const double stature = shape.stature_m;
   const Eigen::Vector3d crotch = landmarks[Index(LandmarkId::kCrotch)]->position_m;
-  const Eigen::Vector3d ankle = landmarks[Sided(LandmarkId::kLeftAnkle, side)]->position_m;
-  const double arc =
-      BendArc(leg, leg.NearestArc(ankle), leg.NearestArc(crotch), kKneeShare, kKneeShareSpread);
-  Put(landmarks, Sided(LandmarkId::kLeftKnee, side), leg.At(arc).center, 0.8);
   const Eigen::Vector3d hip = crotch + stature * Eigen::Vector3d(SideSign(side) * kHipBeside,
                                                                  kHipAboveCrotch, kHipBeforeCrotch);
   Put(landmarks, Sided(LandmarkId::kLeftHip, side), hip, 0.6, LandmarkMethod::kRatio);
+  const double ankle_arc =
+      leg.NearestArc(landmarks[Sided(LandmarkId::kLeftAnkle, side)]->position_m);
+  const double arc = BendArc(leg, ankle_arc, ankle_arc + LegLength(shape, side, landmarks),
+                             kKneeShare, kKneeShareSpread);
+  Put(landmarks, Sided(LandmarkId::kLeftKnee, side), leg.At(arc).center, 0.8);
+}
+
+double LegLength(const Shape& shape, int side, const Landmarks& landmarks) {
+  const LimbProfile& leg = *shape.leg_profiles[side];
+  // The height of the crotch on the thigh, wherever that points.
+  const double inner = ArcAlong(leg, landmarks[Sided(LandmarkId::kLeftHip, side)]->position_m) -
+                       kHipAboveCrotch * shape.stature_m;
+  return inner - leg.NearestArc(landmarks[Sided(LandmarkId::kLeftAnkle, side)]->position_m);
 }
 
 }  // namespace capfit::body

@@ -19,6 +19,10 @@ void FindAnkle(Shape& shape, int side, Landmarks& landmarks);
 // Hip and knee, once the crotch is known.
 void FindThigh(const Shape& shape, int side, Landmarks& landmarks);
 
+// From the ankle up to the height of the crotch, along the leg however it is bent, once crotch, hip
+// and ankle are known.
+[[nodiscard]] double LegLength(const Shape& shape, int side, const Landmarks& landmarks);
+
 }  // namespace capfit::body
 
 #endif  // CAPFIT_CORE_BODY_LIMB_LANDMARKS_H_

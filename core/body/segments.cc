@@ -1,5 +1,6 @@
 #include "core/body/segments.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -24,6 +25,9 @@ constexpr double kCapTiltRad = 0.17;
 constexpr double kCapTiltPerRadian = 0.37;
 constexpr double kCapForward = 0.24;
 constexpr double kArmpitMargin = 0.005;
+constexpr double kArmpitBeyondShoulder = 0.045;
+constexpr double kArmRadius = 0.090;
+constexpr double kAside = 0.05;
 constexpr double kCapInside = 0.0165;
 constexpr double kWristBeyond = 0.005;
 constexpr double kKneeBelow = 0.012;
@@ -71,6 +75,11 @@ Segment OnSide(Segment left, int side) {
   return static_cast<Segment>(static_cast<int>(left) + 3 * side);
 }
 
+// The turn that takes what points down to `direction` the shortest way.
+Eigen::Quaterniond TurnDown(const Eigen::Vector3d& direction) {
+  return Eigen::Quaterniond::FromTwoVectors(-Eigen::Vector3d::UnitY(), direction);
+}
+
 class Labeller {
  public:
   Labeller(const Shape& shape, const Landmarks& landmarks)
@@ -112,16 +121,25 @@ class Labeller {
     const Eigen::Vector3d shoulder = At(LandmarkId::kLeftShoulder, side);
     const Eigen::Vector3d elbow = At(LandmarkId::kLeftElbow, side);
     const Eigen::Vector3d wrist = At(LandmarkId::kLeftWrist, side);
-    const double raised = std::acos(std::clamp(-(elbow - shoulder).normalized().y(), -1.0, 1.0));
-    const double tilt = kCapTiltRad + kCapTiltPerRadian * raised;
-    const Eigen::Vector3d cap(SideSign(side) * std::cos(tilt), std::sin(tilt), kCapForward);
+    const Eigen::Vector3d arm = (elbow - shoulder).normalized();
+    const Eigen::Vector3d aside = SideSign(side) * Eigen::Vector3d::UnitX();
+    // What an arm that hangs has turned by; one straight up was raised sideways.
+    const Eigen::Quaterniond raised = TurnDown(arm + kAside * aside);
+    const Eigen::Vector3d cap =
+        Eigen::Quaterniond::Identity().slerp(kCapTiltPerRadian, raised) *
+        Eigen::Vector3d(SideSign(side) * std::cos(kCapTiltRad), std::sin(kCapTiltRad), kCapForward);
     // First all that lies beyond the armpit, then on to the cap's plane: an arm that hangs beside
     // the ribs crosses that plane again below the armpit.
-    const Eigen::Vector3d outward = (elbow - shoulder).normalized() - Eigen::Vector3d::UnitY();
+    const double hanging = std::clamp(-arm.y(), 0.0, 1.0);
+    const Eigen::Vector3d across_arm = shoulder + kArmpitBeyondShoulder * shape_.stature_m * arm;
+    const Eigen::Vector3d armpit =
+        across_arm + hanging * (At(LandmarkId::kLeftArmpit, side) - across_arm);
+    const Eigen::Vector3d outward = arm - hanging * Eigen::Vector3d::UnitY();
     const Segment upper_arm = OnSide(Segment::kLeftUpperArm, side);
     std::vector<std::uint32_t> beyond =
         Flood(shape_, {tip},
-              Across(At(LandmarkId::kLeftArmpit, side), outward, kArmpitMargin, kShoulderRadius),
+              Across(armpit, outward, kArmpitMargin,
+                     kArmRadius + hanging * (kShoulderRadius - kArmRadius)),
               upper_arm, segments_);
     Flood(shape_, std::move(beyond), Across(shoulder, cap, -kCapInside, kShoulderRadius), upper_arm,
           segments_);
@@ -140,16 +158,18 @@ class Labeller {
     const Eigen::Vector3d ankle = At(LandmarkId::kLeftAnkle, side);
     // The groin's plane turns half as far as the thigh when that is lifted.
     const Eigen::Vector3d thigh = (knee - At(LandmarkId::kLeftHip, side)).normalized();
-    const Eigen::Vector3d half = (thigh - Eigen::Vector3d::UnitY()).normalized();
+    const Eigen::Vector3d shin = (ankle - knee).normalized();
+    const Eigen::Vector3d half = thigh - Eigen::Vector3d::UnitY();
     const Eigen::Vector3d groin =
-        kGroinAlong * half + Eigen::Vector3d(SideSign(side) * kGroinOut, 0.0, kGroinForward);
+        TurnDown(half) * Eigen::Vector3d(SideSign(side) * kGroinOut, -kGroinAlong, kGroinForward);
     Flood(shape_, {tip}, Across(At(LandmarkId::kCrotch), groin, kGroinBelowCrotch, kHipRadius),
           OnSide(Segment::kLeftThigh, side), segments_);
-    const Eigen::Vector3d knee_normal(SideSign(side) * 0.28, -0.86, -0.42);
+    const Eigen::Vector3d knee_normal =
+        TurnDown(thigh + shin) * Eigen::Vector3d(SideSign(side) * 0.28, -0.86, -0.42);
     Flood(shape_, {tip}, Across(knee, knee_normal, kKneeBelow, kKneeRadius),
           OnSide(Segment::kLeftCalf, side), segments_);
     if (!shape_.has_foot[side]) return;
-    const Eigen::Vector3d ankle_normal(0.0, -0.97, 0.24);
+    const Eigen::Vector3d ankle_normal = TurnDown(shin) * Eigen::Vector3d(0.0, -0.97, 0.24);
     Flood(shape_, {tip}, Across(ankle, ankle_normal, -kAnkleAbove, kAnkleRadius),
           OnSide(Segment::kLeftFoot, side), segments_);
   }

@@ -15,6 +15,12 @@ namespace {
 // cleft is looked for between, and how far around the crotch the ways may lead.
 constexpr double kThighBelowEnd = 0.10;
 constexpr double kCrotchRegion = 0.20;
+// Thighs that point to the front or back by less hang down, by more are lifted (25 and 45 degrees).
+constexpr double kHangingRad = 0.44;
+constexpr double kLiftedRad = 0.79;
+// Of ways over the surface, in units of the square root of its area: those that are longer than the
+// shortest by this count e times less.
+constexpr double kSoftMinimum = 0.01;
 constexpr double kCrotchBehindThighs = 0.022;
 // The neck leans forward by about this angle; its sections are cut across that direction.
 constexpr double kNeckLeanRad = 0.30;
@@ -73,8 +79,32 @@ double CrotchHeightAt(const Shape& shape, const Eigen::Vector3d& near) {
 
 }  // namespace
 
-void FindCrotch(const Shape& shape, Landmarks& landmarks) {
-  std::array<std::uint32_t, 2> thighs = {0, 0};
+namespace {
+
+// 1 where both thighs hang down, 0 where one of them is lifted; and the depth of their middle.
+struct Thighs {
+  double hanging = 1.0;
+  double middle_z = 0.0;
+};
+
+Thighs MeasureThighs(const Shape& shape) {
+  Thighs thighs;
+  for (const int side : {kLeft, kRight}) {
+    const LimbProfile& leg = *shape.leg_profiles[side];
+    const Eigen::Vector3d root = leg.stations.back().center;
+    const Eigen::Vector3d down =
+        (leg.At(leg.end() - kThighBelowEnd * shape.stature_m).center - root).normalized();
+    const double lift = std::abs(std::atan2(down.z(), -down.y()));
+    const double share = (kLiftedRad - lift) / (kLiftedRad - kHangingRad);
+    thighs.hanging = std::min(thighs.hanging, std::clamp(share, 0.0, 1.0));
+    thighs.middle_z += 0.5 * root.z();
+  }
+  return thighs;
+}
+
+// The innermost place between two thighs that hang down.
+std::optional<Eigen::Vector3d> CrotchBetweenHanging(const Shape& shape, const Thighs& thighs) {
+  std::array<std::uint32_t, 2> ends = {0, 0};
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();
   for (const int side : {kLeft, kRight}) {
@@ -87,18 +117,55 @@ void FindCrotch(const Shape& shape, Landmarks& landmarks) {
       const double distance = (shape.points[v] - thigh).squaredNorm();
       if (distance >= nearest) continue;
       nearest = distance;
-      thighs[side] = v;
+      ends[side] = v;
     }
   }
-  const auto cleft = FindCleft(shape.points, *shape.graph, thighs[kLeft], thighs[kRight],
+  const auto cleft = FindCleft(shape.points, *shape.graph, ends[kLeft], ends[kRight],
                                outward.normalized(), {middle, kCrotchRegion * shape.stature_m});
-  if (!cleft) return;
+  if (!cleft) return std::nullopt;
   // The perineum is nearly flat from front to back; a place behind the middle of the thighs is a
   // steadier choice along it than the cleft's own vertex.
   Eigen::Vector3d crotch(0.0, shape.points[*cleft].y(),
-                         middle.z() - kCrotchBehindThighs * shape.stature_m);
+                         thighs.middle_z - kCrotchBehindThighs * shape.stature_m);
   crotch.y() = CrotchHeightAt(shape, crotch);
-  Put(landmarks, Index(LandmarkId::kCrotch), crotch, 0.9);
+  return crotch;
+}
+
+GeodesicSource TipOf(const Shape& shape, int side) { return {shape.legs[side]->tip, 0.0}; }
+
+// Half-way on the shortest way over the surface from foot to foot: it leads up one leg and down the
+// other on their inner sides, however they are lifted or bent. A soft minimum, so that no single
+// vertex decides.
+Eigen::Vector3d HalfWayBetweenFeet(const Shape& shape) {
+  const std::vector<double> left = shape.graph->Distances(std::array{TipOf(shape, kLeft)});
+  const std::vector<double> right = shape.graph->Distances(std::array{TipOf(shape, kRight)});
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t v = 0; v < left.size(); ++v) {
+    nearest = std::min(nearest, std::max(left[v], right[v]));
+  }
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0.0;
+  for (std::size_t v = 0; v < left.size(); ++v) {
+    const double longer = (std::max(left[v], right[v]) - nearest) / kSoftMinimum;
+    if (longer > 20.0) continue;
+    const double weight = std::exp(-longer);
+    sum += weight * shape.points[v];
+    total += weight;
+  }
+  return sum / total;
+}
+
+}  // namespace
+
+void FindCrotch(const Shape& shape, Landmarks& landmarks) {
+  const Thighs thighs = MeasureThighs(shape);
+  std::optional<Eigen::Vector3d> hanging;
+  if (thighs.hanging > 0.0) hanging = CrotchBetweenHanging(shape, thighs);
+  const double share = hanging ? thighs.hanging : 0.0;
+  Eigen::Vector3d crotch = hanging.value_or(Eigen::Vector3d::Zero());
+  if (share < 1.0) crotch = share * crotch + (1.0 - share) * HalfWayBetweenFeet(shape);
+  crotch.x() = 0.0;
+  Put(landmarks, Index(LandmarkId::kCrotch), crotch, 0.6 + 0.3 * share);
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "core/body/anatomy.h"
@@ -21,7 +22,10 @@ double Radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 class Poser {
  public:
-  explicit Poser(const TrueBody& rest) : body_(rest) { FindNeighbours(); }
+  explicit Poser(const TrueBody& rest) : body_(rest) {
+    FindNeighbours();
+    FindCrotch();
+  }
 
   void PoseSide(const std::string& side, double sign, const LimbPose& pose) {
     const Segment upper_arm = sign > 0 ? Segment::kLeftUpperArm : Segment::kRightUpperArm;
@@ -31,7 +35,8 @@ class Poser {
     const Vector3d down = -Vector3d::UnitY();
     Turn(side, "shoulder", {"elbow", "wrist"}, upper_arm, 0,
          Quaterniond::FromTwoVectors(Bone(side), down));
-    Turn(side, "elbow", {"wrist"}, upper_arm, 1, AboutX(-pose.elbow_bend));
+    Turn(side, "elbow", {"wrist"}, upper_arm, 1,
+         AboutY(-sign * pose.arm_inward) * AboutX(-pose.elbow_bend));
     Turn(side, "shoulder", {"elbow", "wrist"}, upper_arm, 0,
          AboutZ(sign * pose.arm_aside) * AboutX(-pose.arm_forward));
     Turn(side, "knee", {"ankle"}, thigh, 1, AboutX(pose.knee_bend));
@@ -39,11 +44,18 @@ class Poser {
          AboutZ(sign * pose.leg_aside) * AboutX(-pose.leg_forward));
   }
 
-  TrueBody Take() && { return std::move(body_); }
+  // The crotch is a place on the skin and has gone where that went.
+  TrueBody Take() && {
+    if (crotch_) body_.joints.at("crotch") = body_.soup.positions[*crotch_];
+    return std::move(body_);
+  }
 
  private:
   static Quaterniond AboutX(double degrees) {
     return Quaterniond(Eigen::AngleAxisd(Radians(degrees), Vector3d::UnitX()));
+  }
+  static Quaterniond AboutY(double degrees) {
+    return Quaterniond(Eigen::AngleAxisd(Radians(degrees), Vector3d::UnitY()));
   }
   static Quaterniond AboutZ(double degrees) {
     return Quaterniond(Eigen::AngleAxisd(Radians(degrees), Vector3d::UnitZ()));
@@ -58,6 +70,17 @@ class Poser {
   [[nodiscard]] Quaterniond Between(const std::string& side, const std::string& from,
                                     const std::string& to, const Vector3d& wanted) const {
     return Quaterniond::FromTwoVectors(Joint(side, to) - Joint(side, from), wanted);
+  }
+
+  void FindCrotch() {
+    const auto joint = body_.joints.find("crotch");
+    if (joint == body_.joints.end()) return;
+    const std::vector<Vector3d>& skin = body_.soup.positions;
+    const auto nearest =
+        std::min_element(skin.begin(), skin.end(), [&](const Vector3d& a, const Vector3d& b) {
+          return (a - joint->second).squaredNorm() < (b - joint->second).squaredNorm();
+        });
+    crotch_ = static_cast<std::size_t>(nearest - skin.begin());
   }
 
   void FindNeighbours() {
@@ -117,6 +140,7 @@ class Poser {
 
   TrueBody body_;
   std::size_t faces_ = 0;
+  std::optional<std::size_t> crotch_;  // vertex
   std::vector<std::vector<std::uint32_t>> neighbours_;
 };
 
@@ -131,9 +155,17 @@ std::vector<Pose> UnseenPoses() {
           {"elbows_90", {25, 0, 90}, {25, 0, 90}},
           {"arms_forward", {8, 85, 5}, {8, 85, 5}},
           {"waving", {80, 0, 80}, {15, 10, 20}},
-          {"stride", {15, -25, 15, 0, -20, 15}, {15, 25, 25, 0, 28, 10}},
-          {"legs_apart", {60, 0, 0, 15}, {60, 0, 0, 15}},
-          {"marching", {20, 30, 40, 0, 60, 70}, {20, -20, 20}}};
+          {"hands_on_hips", {52, -10, 95, 80}, {52, -10, 95, 80}},
+          {"arms_crossed", {10, 55, 95, 75}, {10, 35, 95, 75}},
+          {"reaching_up", {30, 150, 20}, {20, 60, 60}},
+          {"stride", {15, -25, 15, 0, 0, -20, 15}, {15, 25, 25, 0, 0, 28, 10}},
+          {"long_stride", {20, 30, 40, 0, 0, -30, 30}, {20, -30, 20, 0, 0, 40, 20}},
+          {"legs_apart", {60, 0, 0, 0, 15}, {60, 0, 0, 0, 15}},
+          {"legs_wide", {80, 0, 0, 0, 32}, {80, 0, 0, 0, 32}},
+          {"marching", {20, 30, 40, 0, 0, 60, 70}, {20, -20, 20}},
+          {"knee_up", {30, 0, 20, 0, 5, 90, 90}, {30, 0, 20}},
+          {"squat", {10, 80, 10, 0, 15, 60, 80}, {10, 80, 10, 0, 15, 60, 80}},
+          {"sitting", {20, 25, 40, 0, 8, 85, 85}, {20, 25, 40, 0, 8, 85, 85}}};
 }
 
 TrueBody InPose(const TrueBody& rest, const Pose& pose) {

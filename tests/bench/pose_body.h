@@ -24,6 +24,7 @@ struct LimbPose {
   double arm_aside = 42.0;
   double arm_forward = 0.0;
   double elbow_bend = 0.0;  // forearm, further to the front than the upper arm
+  double arm_inward = 0.0;  // turn of the upper arm about itself: a bent forearm points inward
   double leg_aside = 0.0;   // from where the leg is; the rest too
   double leg_forward = 0.0;
   double knee_bend = 0.0;
