@@ -6,8 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "core/mesh/gltf_json.h"
 
 namespace capfit::mesh {
 namespace {
@@ -176,6 +179,22 @@ TEST(ReadGlbTest, ReadsJointsAtTheBindPose) {
   EXPECT_TRUE(soup->joints[1].position.isApprox(Eigen::Vector3d(0, 1.5, 0), 1e-6));
   gltf["skins"][0].erase("inverseBindMatrices");  // then the nodes are all there is
   EXPECT_TRUE(Read(gltf)->joints[1].position.isApprox(Eigen::Vector3d(0, 1.5, 0), 1e-6));
+}
+
+TEST(GltfJsonTest, KeepsJustWhatMeshesNeed) {
+  const std::string text = R"({"images": [{"nodes": [1, {"a": [[], {}]}]}, 2], "scene": 0,
+    "nodes": [{"extras": {"deep": [{"x": 1}], "name": "no"}, "name": "n", "matrix": [1, -2, 3.5]},
+              {"extras": 7, "children": [], "skin": null, "visible": true}],
+    "extras": [], "meshes": [{"primitives": [{"extras": [[1]], "mode": 4}, {}]}], "skins": []})";
+  const std::optional<json> parsed = ParseGltfJson(text);
+  ASSERT_TRUE(parsed.has_value());
+  EXPECT_EQ(*parsed, json::parse(R"({"scene": 0,
+    "nodes": [{"name": "n", "matrix": [1, -2, 3.5]},
+              {"children": [], "skin": null, "visible": true}],
+    "meshes": [{"primitives": [{"mode": 4}, {}]}], "skins": []})"));
+  for (const char* const bad : {"", "[]", "7", "{", "{\"nodes\":[}", "{} {}", "{\"a\":1e999}"}) {
+    EXPECT_FALSE(ParseGltfJson(bad).has_value()) << bad;
+  }
 }
 
 // Few bytes may ask for much: the same mesh, skin or name again and again.
