@@ -50,7 +50,6 @@ constexpr double kGoodMisfit = 0.17;
 constexpr double kFairMisfit = 0.30;
 // That middle is sought from this many tips, and is this much wide.
 constexpr int kSweeps = 4;
-constexpr int kFewestForMiddle = 3;
 constexpr double kMiddleWidth = 0.03;
 // At most this many other middles.
 constexpr int kMaxMiddles = 4;
@@ -361,13 +360,9 @@ Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
   const std::vector<GeodesicSource> sources = MiddleOfTheBody(points);
   Extremities best = FromSources(sources, vertex_areas, graph);
   if (best.misfit <= kGoodMisfit && best.found() == kTipCount) return best;
-  if (best.found() >= kFewestForMiddle) {
-    Extremities other = FromSources(MiddleOfTheSurface(best.distance, graph), vertex_areas, graph);
-    const int more = other.found() - best.found();
-    // A body of which a part is cut off stays one.
-    const bool is_whole = more == 0 && best.found() == kTipCount;
-    if (other.misfit < best.misfit && (more > 0 || is_whole)) best = std::move(other);
-  }
+  Extremities whole = FromSources(MiddleOfTheSurface(best.distance, graph), vertex_areas, graph);
+  // Only for a whole body is that middle near the waist.
+  if (whole.found() == kTipCount && whole.misfit < best.misfit) best = std::move(whole);
   if (best.misfit <= kFairMisfit) return best;
   const auto patches = PatchesOf(sources, points, vertex_areas, graph);
   for (std::size_t i = 0; i < patches.size() && i < kMaxMiddles; ++i) {

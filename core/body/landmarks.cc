@@ -56,18 +56,18 @@ void MakeProfiles(const Fields& fields, Shape& shape) {
   }
 }
 
-double MeanLength(const std::array<std::optional<Limb>, 2>& limbs) {
-  double sum = 0.0;
-  for (const auto& limb : limbs) sum += 0.5 * (limb->tip_distance - limb->junction);
-  return sum;
-}
+double Length(const Limb& limb) { return limb.tip_distance - limb.junction; }
 
-// On a lap the way from the waist to the knees is short, and the legs seem to begin there.
+// On a lap the way from the waist to the knee is short, and the leg seems to begin there.
 bool LegsBeginTooFarDown(const Shape& shape) {
+  double arms = 0.0;
+  double leg = std::numeric_limits<double>::infinity();
   for (const int side : {kLeft, kRight}) {
     if (!shape.legs[side] || !shape.arms[side]) return false;
+    arms += 0.5 * Length(*shape.arms[side]);
+    leg = std::min(leg, Length(*shape.legs[side]));
   }
-  return MeanLength(shape.legs) < kLeastLegOfArm * MeanLength(shape.arms);
+  return leg < kLeastLegOfArm * arms;
 }
 
 // Instead, all that is nearer to a foot than where the ways from both feet meet: the inner sides of
@@ -224,7 +224,11 @@ absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
   FindTrunkBase(shape, landmarks);
   for (const int side : {kLeft, kRight}) {
     if (shape.legs[side]) FindThigh(shape, side, landmarks);
-    if (shape.arms[side]) FindUpperArm(shape, side, landmarks);
+    if (shape.arms[side]) FindShoulder(shape, side, landmarks);
+  }
+  MatchShoulders(shape, landmarks);
+  for (const int side : {kLeft, kRight}) {
+    if (shape.arms[side]) FindElbow(shape, side, landmarks);
   }
   FindNeck(shape, landmarks);
   FindTrunkSections(shape, landmarks);

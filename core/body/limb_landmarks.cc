@@ -55,6 +55,13 @@ constexpr double kArmpitBelowShoulder = 0.045;
 // that is so.
 constexpr double kRaisedSlope = 0.42;
 constexpr double kForwardSlope = 0.82;
+// Shoulders that miss each other's image by the first are alike, by the second one of them is
+// wrong; one that was not measured is the more doubtful by the third.
+constexpr double kUnlike = 0.030;
+constexpr double kVeryUnlike = 0.050;
+constexpr double kUnmeasured = 0.030;
+// An arm that much longer or shorter than usual puts the shoulder in doubt.
+constexpr double kDoubtfulArm = 0.045;
 // Elbow: share of the way from wrist to shoulder (women 0.48, men 0.505).
 constexpr double kElbowShare = 0.495;
 constexpr double kElbowShareSpread = 0.015;
@@ -289,29 +296,94 @@ Eigen::Vector3d ShoulderAlong(const Shape& shape, const LimbProfile& arm, double
   return last.center + (arc - last.arc) * last.normal;
 }
 
+// How far the way from wrist to shoulder is from the usual, as a share of the stature.
+double ArmMisfit(const Shape& shape, int side, const Landmarks& landmarks) {
+  const LimbProfile& arm = *shape.arm_profiles[side];
+  const double wrist = arm.NearestArc(landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m);
+  const double shoulder = ArcOf(arm, landmarks[Sided(LandmarkId::kLeftShoulder, side)]->position_m);
+  return std::abs((shoulder - wrist) / shape.stature_m - kArmLength);
+}
+
+// Takes away half of the confidence where the doubt is 1.
+void Doubt(double doubt, Landmark& landmark) {
+  if (landmark.method == LandmarkMethod::kCaller || landmark.method == LandmarkMethod::kSkeleton) {
+    return;
+  }
+  landmark.confidence /= 1.0 + doubt * doubt;
+}
+
+// A joint between others is known no better than they are.
+double Following(double own, const Landmark& other, double usual) {
+  return own * (0.4 + 0.6 * std::min(1.0, other.confidence / usual));
+}
+
+Eigen::Vector3d MirroredPoint(const Eigen::Vector3d& p) { return {-p.x(), p.y(), p.z()}; }
+
 }  // namespace
 
-void FindUpperArm(const Shape& shape, int side, Landmarks& landmarks) {
+void FindShoulder(const Shape& shape, int side, Landmarks& landmarks) {
   const LimbProfile& arm = *shape.arm_profiles[side];
   const std::size_t armpit_at = Sided(LandmarkId::kLeftArmpit, side);
   const std::size_t shoulder_at = Sided(LandmarkId::kLeftShoulder, side);
-  const Eigen::Vector3d wrist = landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m;
-  const double wrist_arc = arm.NearestArc(wrist);
   std::optional<Armpit> armpit = FindArmpit(shape, side, landmarks);
   if (armpit && !HasNoCleft(armpit->arm)) {
     Put(landmarks, armpit_at, armpit->position_m, 0.8);
     armpit->position_m = landmarks[armpit_at]->position_m;
     Put(landmarks, shoulder_at, ShoulderOver(shape, side, *armpit), 0.7);
-  } else {
-    const Eigen::Vector3d shoulder = ShoulderAlong(shape, arm, wrist_arc);
-    const Eigen::Vector3d below =
-        shoulder - kArmpitBelowShoulder * shape.stature_m * Eigen::Vector3d::UnitY();
-    Put(landmarks, armpit_at, below, 0.2, LandmarkMethod::kRatio);
-    Put(landmarks, shoulder_at, shoulder, 0.4, LandmarkMethod::kRatio);
+    return;
   }
-  const Eigen::Vector3d shoulder = landmarks[shoulder_at]->position_m;
+  const Eigen::Vector3d wrist = landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m;
+  const Eigen::Vector3d shoulder = ShoulderAlong(shape, arm, arm.NearestArc(wrist));
+  const Eigen::Vector3d below =
+      shoulder - kArmpitBelowShoulder * shape.stature_m * Eigen::Vector3d::UnitY();
+  Put(landmarks, armpit_at, below, 0.2, LandmarkMethod::kRatio);
+  Put(landmarks, shoulder_at, shoulder, 0.4, LandmarkMethod::kRatio);
+}
+
+void MatchShoulders(const Shape& shape, Landmarks& landmarks) {
+  for (const int side : {kLeft, kRight}) {
+    auto& shoulder = landmarks[Sided(LandmarkId::kLeftShoulder, side)];
+    if (!shoulder || !shape.arm_profiles[side]) continue;
+    Doubt(ArmMisfit(shape, side, landmarks) / kDoubtfulArm, *shoulder);
+  }
+  std::array<Landmark, 2> found;
+  std::array<double, 2> doubt = {0.0, 0.0};
+  for (const int side : {kLeft, kRight}) {
+    const auto& shoulder = landmarks[Sided(LandmarkId::kLeftShoulder, side)];
+    if (!shoulder || !shape.arm_profiles[side]) return;
+    found[side] = *shoulder;
+    doubt[side] = ArmMisfit(shape, side, landmarks) +
+                  (shoulder->method == LandmarkMethod::kRatio ? kUnmeasured : 0.0);
+  }
+  const double miss =
+      (found[kLeft].position_m - MirroredPoint(found[kRight].position_m)).norm() / shape.stature_m;
+  const double share = std::clamp((miss - kUnlike) / (kVeryUnlike - kUnlike), 0.0, 1.0);
+  for (const int side : {kLeft, kRight}) {
+    Doubt(miss / kVeryUnlike, *landmarks[Sided(LandmarkId::kLeftShoulder, side)]);
+  }
+  if (share <= 0.0) return;
+  const int side = doubt[kLeft] > doubt[kRight] ? kLeft : kRight;
+  const Eigen::Vector3d image = MirroredPoint(found[1 - side].position_m);
+  Put(landmarks, Sided(LandmarkId::kLeftShoulder, side),
+      found[side].position_m + share * (image - found[side].position_m),
+      0.5 * landmarks[Sided(LandmarkId::kLeftShoulder, 1 - side)]->confidence,
+      LandmarkMethod::kRatio);
+  const auto& armpit = landmarks[Sided(LandmarkId::kLeftArmpit, 1 - side)];
+  const auto& own = landmarks[Sided(LandmarkId::kLeftArmpit, side)];
+  if (!armpit || !own || own->method != LandmarkMethod::kRatio) return;
+  Put(landmarks, Sided(LandmarkId::kLeftArmpit, side),
+      own->position_m + share * (MirroredPoint(armpit->position_m) - own->position_m), 0.2,
+      LandmarkMethod::kRatio);
+}
+
+void FindElbow(const Shape& shape, int side, Landmarks& landmarks) {
+  const LimbProfile& arm = *shape.arm_profiles[side];
+  const double wrist_arc =
+      arm.NearestArc(landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m);
+  const Eigen::Vector3d shoulder = landmarks[Sided(LandmarkId::kLeftShoulder, side)]->position_m;
   const double arc = BendArc(arm, wrist_arc, ArcOf(arm, shoulder), kElbowShare, kElbowShareSpread);
-  Put(landmarks, Sided(LandmarkId::kLeftElbow, side), arm.At(arc).center, 0.8);
+  Put(landmarks, Sided(LandmarkId::kLeftElbow, side), arm.At(arc).center,
+      Following(0.8, *landmarks[Sided(LandmarkId::kLeftShoulder, side)], 0.7));
 }
 
 void FindThigh(const Shape& shape, int side, Landmarks& landmarks) {
@@ -320,12 +392,14 @@ void FindThigh(const Shape& shape, int side, Landmarks& landmarks) {
   const Eigen::Vector3d crotch = landmarks[Index(LandmarkId::kCrotch)]->position_m;
   const Eigen::Vector3d hip = crotch + stature * Eigen::Vector3d(SideSign(side) * kHipBeside,
                                                                  kHipAboveCrotch, kHipBeforeCrotch);
-  Put(landmarks, Sided(LandmarkId::kLeftHip, side), hip, 0.6, LandmarkMethod::kRatio);
+  const Landmark& base = *landmarks[Index(LandmarkId::kCrotch)];
+  Put(landmarks, Sided(LandmarkId::kLeftHip, side), hip, Following(0.6, base, 0.9),
+      LandmarkMethod::kRatio);
   const double ankle_arc =
       leg.NearestArc(landmarks[Sided(LandmarkId::kLeftAnkle, side)]->position_m);
   const double arc = BendArc(leg, ankle_arc, ankle_arc + LegLength(shape, side, landmarks),
                              kKneeShare, kKneeShareSpread);
-  Put(landmarks, Sided(LandmarkId::kLeftKnee, side), leg.At(arc).center, 0.8);
+  Put(landmarks, Sided(LandmarkId::kLeftKnee, side), leg.At(arc).center, Following(0.8, base, 0.9));
 }
 
 double LegLength(const Shape& shape, int side, const Landmarks& landmarks) {

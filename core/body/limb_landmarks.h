@@ -10,8 +10,16 @@ namespace capfit::body {
 // narrowest between hand and forearm, or the cut.
 void FindWrist(Shape& shape, int side, Landmarks& landmarks);
 
-// Armpit, shoulder and elbow, once the crotch is known.
-void FindUpperArm(const Shape& shape, int side, Landmarks& landmarks);
+// Armpit and shoulder, once the wrist is known. Where the arm is raised or held to the front, by
+// its length (kRatio).
+void FindShoulder(const Shape& shape, int side, Landmarks& landmarks);
+
+// Shoulders hardly move against the trunk: where both are there and do not mirror each other, the
+// more doubtful one becomes the other's image (kRatio).
+void MatchShoulders(const Shape& shape, Landmarks& landmarks);
+
+// Once wrist and shoulder are known.
+void FindElbow(const Shape& shape, int side, Landmarks& landmarks);
 
 // Ankle and, where there is a foot, heel and toe; sets has_foot.
 void FindAnkle(Shape& shape, int side, Landmarks& landmarks);

@@ -22,6 +22,7 @@ constexpr double kLiftedRad = 0.79;
 // shortest by this count e times less.
 constexpr double kSoftMinimum = 0.01;
 constexpr double kCrotchBehindThighs = 0.022;
+constexpr double kCrotchBehindHalfWay = 0.030;
 // The neck leans forward by about this angle; its sections are cut across that direction.
 constexpr double kNeckLeanRad = 0.30;
 constexpr double kTrunkLevelStep = 0.005;
@@ -81,10 +82,10 @@ double CrotchHeightAt(const Shape& shape, const Eigen::Vector3d& near) {
 
 namespace {
 
-// 1 where both thighs hang down, 0 where one of them is lifted; and the depth of their middle.
 struct Thighs {
-  double hanging = 1.0;
-  double middle_z = 0.0;
+  double hanging = 1.0;   // 1 where both hang down, 0 where one of them is lifted
+  double middle_z = 0.0;  // depth of the middle between their inner ends
+  double forward = 0.0;   // sines of how far they are lifted to the front, added up
 };
 
 Thighs MeasureThighs(const Shape& shape) {
@@ -98,6 +99,7 @@ Thighs MeasureThighs(const Shape& shape) {
     const double share = (kLiftedRad - lift) / (kLiftedRad - kHangingRad);
     thighs.hanging = std::min(thighs.hanging, std::clamp(share, 0.0, 1.0));
     thighs.middle_z += 0.5 * root.z();
+    thighs.forward += down.z();
   }
   return thighs;
 }
@@ -163,7 +165,13 @@ void FindCrotch(const Shape& shape, Landmarks& landmarks) {
   if (thighs.hanging > 0.0) hanging = CrotchBetweenHanging(shape, thighs);
   const double share = hanging ? thighs.hanging : 0.0;
   Eigen::Vector3d crotch = hanging.value_or(Eigen::Vector3d::Zero());
-  if (share < 1.0) crotch = share * crotch + (1.0 - share) * HalfWayBetweenFeet(shape);
+  if (share < 1.0) {
+    // The shortest way crosses before the perineum, the more so the more the thighs are lifted.
+    const Eigen::Vector3d half_way =
+        HalfWayBetweenFeet(shape) -
+        kCrotchBehindHalfWay * shape.stature_m * thighs.forward * Eigen::Vector3d::UnitZ();
+    crotch = share * crotch + (1.0 - share) * half_way;
+  }
   crotch.x() = 0.0;
   Put(landmarks, Index(LandmarkId::kCrotch), crotch, 0.6 + 0.3 * share);
 }
