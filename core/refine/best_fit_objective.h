@@ -26,6 +26,7 @@ class BestFitObjective final : public Objective {
 
  private:
   OccupancyGrid grid_;
+  OccupancyGrid coarse_;
   CoverPoints points_;
   std::uint64_t seed_;
 };

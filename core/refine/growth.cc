@@ -24,6 +24,10 @@ constexpr double kSpareShare = 2.0;
 constexpr double kLeastLoss = 1e-4;
 // An exchange gives up this share of all primitives.
 constexpr double kExchangeShare = 0.06;
+// So many exchanges in a row may fail before no more are tried.
+constexpr std::size_t kMostFailures = 3;
+// Of the removals glanced at, how many are tried thoroughly.
+constexpr double kSpareThoroughShare = 0.35;
 // A round spends at least this share of what is there already.
 constexpr double kLeastBatchShare = 0.05;
 
@@ -41,10 +45,25 @@ struct Candidate {
   double score = 0.0;  // gain per primitive, > 0 is good
 };
 
+// What falling into more pieces, or fewer, counts in primitives.
+double PieceCost(const GrowthOptions& options, const CapsuleGraph& before,
+                 const CapsuleGraph& after) {
+  if (options.piece_cost == 0.0) return 0.0;
+  return options.piece_cost * (ComponentCount(after) - ComponentCount(before));
+}
+
+// Primitives that the edit saves, or what they are worth beside new pieces.
+double SavingOf(const GrowthOptions& options, const CapsuleGraph& before,
+                const CapsuleGraph& after) {
+  return before.primitive_count() - after.primitive_count() - PieceCost(options, before, after);
+}
+
 // Spheres and capsules weigh alike under one total. Under two limits each weighs what share of the
 // room left it takes.
-double CostOf(const Spending& spending, const CapsuleGraph& before, const CapsuleGraph& after) {
-  const double spheres = after.sphere_count() - before.sphere_count();
+double CostOf(const Spending& spending, const GrowthOptions& options, const CapsuleGraph& before,
+              const CapsuleGraph& after) {
+  const double spheres =
+      after.sphere_count() - before.sphere_count() + PieceCost(options, before, after);
   const double capsules = after.capsule_count() - before.capsule_count();
   constexpr int kNoLimit = 1'000'000;
   if (spending.max_spheres >= kNoLimit || spending.max_capsules >= kNoLimit) {
@@ -214,7 +233,7 @@ bool GrowOnce(const Objective& objective, const Spending& spending, const Growth
       objective, graph, Additions(objective, options, graph), pool, observer,
       options.thorough_share, [&](const CapsuleGraph& after) { return spending.Allows(after); },
       [&](const CapsuleGraph& after, double gain) {
-        return gain / CostOf(spending, graph, after);
+        return gain / CostOf(spending, options, graph, after);
       });
   if (candidates.empty() || candidates.front().score <= 0.0) return false;
   CapsuleGraph grown = KeepBest(graph, candidates, spending,
@@ -222,43 +241,49 @@ bool GrowOnce(const Objective& objective, const Spending& spending, const Growth
                                          kLeastBatchShare * graph.primitive_count()));
   if (grown.primitive_count() == graph.primitive_count()) return false;
   objective.Settle(Effort::kTouch, grown);
+  if (options.piece_cost > 0.0) MergeSwallowed(grown);
   RemoveSwallowed(grown);
   const bool grew = grown.primitive_count() > graph.primitive_count();
   graph = std::move(grown);
   return grew;
 }
 
-// Gives up the capsule or sphere whose loss is least, and other capsules elsewhere that cost hardly
-// more, up to `most` primitives or a little beyond.
-bool SpareSome(const Objective& objective, int most, const ThreadPool& pool,
-               const FitObserver& observer, CapsuleGraph& graph) {
-  const std::vector<Candidate> candidates = TryAll(
-      objective, graph, Removals(graph), pool, observer, /*thorough_share=*/0.35,
-      [](const CapsuleGraph&) { return true; },
+// Capsules and spheres that could go, least loss first.
+std::vector<Candidate> RankRemovals(const Objective& objective, const GrowthOptions& options,
+                                    const ThreadPool& pool, const FitObserver& observer,
+                                    const CapsuleGraph& graph) {
+  return TryAll(
+      objective, graph, Removals(graph), pool, observer, kSpareThoroughShare,
+      [&](const CapsuleGraph& after) { return SavingOf(options, graph, after) > 0.0; },
       [&](const CapsuleGraph& after, double gain) {
-        return gain / std::max(1, graph.primitive_count() - after.primitive_count());
+        return gain / std::max(0.5, SavingOf(options, graph, after));
       });
-  if (candidates.empty()) return false;
-  std::vector<char> locked(graph.nodes.size(), 0);
-  LockSurroundings(graph, candidates.front(), locked);
-  CapsuleGraph spared = candidates.front().result.graph;
+}
+
+// Without the candidate `first`, and where that is a capsule without other capsules elsewhere that
+// cost hardly more, up to `most` primitives or a little beyond.
+CapsuleGraph TakeAway(const std::vector<Candidate>& candidates, std::size_t first, int most,
+                      const GrowthOptions& options, const CapsuleGraph& graph) {
+  const Candidate& chosen = candidates[first];
+  CapsuleGraph spared = chosen.result.graph;
   // Removing capsules keeps the indices of spheres, so that several may go at once.
-  if (candidates.front().edit.kind == EditKind::kUnlink) {
-    const double worst = kSpareShare * std::min(-kLeastLoss, candidates.front().score);
-    for (const Candidate& c : candidates) {
-      if (graph.primitive_count() - spared.primitive_count() >= most || c.score < worst) break;
-      if (c.edit.kind != EditKind::kUnlink || !LockSurroundings(graph, c, locked)) continue;
-      const Edge& wanted = graph.edges[U(c.edit.first)];
-      for (int e = 0; e < spared.capsule_count(); ++e) {
-        if (spared.edges[U(e)].a != wanted.a || spared.edges[U(e)].b != wanted.b) continue;
-        spared.RemoveEdge(e);
-        break;
-      }
+  if (chosen.edit.kind != EditKind::kUnlink) return spared;
+  std::vector<char> locked(graph.nodes.size(), 0);
+  LockSurroundings(graph, chosen, locked);
+  const double worst = kSpareShare * std::min(-kLeastLoss, chosen.score);
+  for (const Candidate& c : candidates) {
+    if (graph.primitive_count() - spared.primitive_count() >= most || c.score < worst) break;
+    if (c.edit.kind != EditKind::kUnlink || !LockSurroundings(graph, c, locked)) continue;
+    const Edge& wanted = graph.edges[U(c.edit.first)];
+    for (int e = 0; e < spared.capsule_count(); ++e) {
+      if (spared.edges[U(e)].a != wanted.a || spared.edges[U(e)].b != wanted.b) continue;
+      CapsuleGraph without = spared;
+      without.RemoveEdge(e);
+      if (SavingOf(options, spared, without) > 0.0) spared = std::move(without);
+      break;
     }
   }
-  graph = std::move(spared);
-  objective.Settle(Effort::kTouch, graph);
-  return true;
+  return spared;
 }
 
 void Fill(const Objective& objective, const Spending& spending, const GrowthOptions& options,
@@ -270,31 +295,50 @@ void Fill(const Objective& objective, const Spending& spending, const GrowthOpti
   }
 }
 
+// Gives up the least and spends it elsewhere, as long as that pays. Where it does not, the next
+// least is given up instead.
+void Exchange(const Objective& objective, const Spending& spending, const GrowthOptions& options,
+              const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
+  objective.Settle(Effort::kTighten, graph);
+  double value = objective.Value(graph);
+  std::vector<Candidate> removals;
+  std::size_t failures = 0;
+  for (int i = 0; i < options.exchanges && !observer.IsCancelled(); ++i) {
+    if (failures == 0) removals = RankRemovals(objective, options, pool, observer, graph);
+    if (failures >= removals.size()) return;
+    const int most = std::max(2, static_cast<int>(kExchangeShare * graph.primitive_count()));
+    CapsuleGraph other = TakeAway(removals, failures, most, options, graph);
+    objective.Settle(Effort::kTouch, other);
+    Fill(objective, spending, options, pool, observer, other);
+    const double other_value = objective.Value(other);
+    if (other_value < value) {
+      graph = std::move(other);
+      value = other_value;
+      failures = 0;
+    } else if (++failures == kMostFailures) {
+      return;
+    }
+  }
+}
+
 }  // namespace
 
-void Spare(const Objective& objective, const Spending& spending, const ThreadPool& pool,
-           const FitObserver& observer, CapsuleGraph& graph) {
+void Spare(const Objective& objective, const Spending& spending, const GrowthOptions& options,
+           const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
   while (!spending.Allows(graph) && !observer.IsCancelled()) {
     const int excess = std::max({1, graph.primitive_count() - spending.max_primitives,
                                  graph.capsule_count() - spending.max_capsules});
-    if (!SpareSome(objective, excess, pool, observer, graph)) return;
+    const std::vector<Candidate> removals = RankRemovals(objective, options, pool, observer, graph);
+    if (removals.empty()) return;
+    graph = TakeAway(removals, 0, excess, options, graph);
+    objective.Settle(Effort::kTouch, graph);
   }
 }
 
 void Grow(const Objective& objective, const Spending& spending, const GrowthOptions& options,
           const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
   Fill(objective, spending, options, pool, observer, graph);
-  double value = options.exchanges > 0 ? objective.Value(graph) : 0.0;
-  for (int i = 0; i < options.exchanges && !observer.IsCancelled(); ++i) {
-    CapsuleGraph other = graph;
-    const int most = std::max(2, static_cast<int>(kExchangeShare * graph.primitive_count()));
-    if (!SpareSome(objective, most, pool, observer, other)) return;
-    Fill(objective, spending, options, pool, observer, other);
-    const double other_value = objective.Value(other);
-    if (other_value >= value) return;
-    graph = std::move(other);
-    value = other_value;
-  }
+  if (options.exchanges > 0) Exchange(objective, spending, options, pool, observer, graph);
 }
 
 }  // namespace capfit::refine

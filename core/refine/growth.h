@@ -27,11 +27,13 @@ struct GrowthOptions {
   double thorough_share = 0.35;  // of the edits glanced at, how many are tried in earnest
   int exchanges = 0;             // rounds that give up the least and spend it elsewhere
   bool links = true;             // try new capsules between spheres that nearly touch
+  // What each further piece of the graph counts, in primitives: sets in one piece are preferred.
+  double piece_cost = 0.0;
 };
 
 // Removes what costs least until the graph is within the spending.
-void Spare(const Objective& objective, const Spending& spending, const ThreadPool& pool,
-           const FitObserver& observer, CapsuleGraph& graph);
+void Spare(const Objective& objective, const Spending& spending, const GrowthOptions& options,
+           const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph);
 
 // Adds what gains most per primitive until nothing fits or nothing gains. Each round tries all
 // edits, settled near by, in parallel; the best ones that do not touch each other are kept.

@@ -12,117 +12,129 @@ namespace {
 
 // 22 + 10 for the best fit, without head, hands and feet.
 constexpr auto kBest32Nodes = std::to_array<LayoutNode>({
-    {BoneId::kRibs, {1.40, 0.0, -0.4}, 1.0, false},     // 0
-    {BoneId::kClavicle, {0.65, 0.0, -0.2}, 1.1, true},  // 1
-    {BoneId::kForearm, {0.89, -0.1, -0.3}, 0.7, true},  // 2
-    {BoneId::kPelvis, {0.66, 0.3, 0.1}, 1.6, true},     // 3
-    {BoneId::kThigh, {0.25, -0.1, 0.2}, 1.3, true},     // 4
-    {BoneId::kRibs, {1.47, 0.6, -0.2}, 1.2, true},      // 5
-    {BoneId::kThigh, {0.93, 0.0, 0.0}, 0.9, true},      // 6
-    {BoneId::kBelly, {1.02, 0.5, 0.1}, 0.9, true},      // 7
-    {BoneId::kChest, {0.79, 0.0, -0.3}, 1.0, false},    // 8
-    {BoneId::kRibs, {0.85, 0.5, 0.4}, 0.9, true},       // 9
-    {BoneId::kShin, {0.89, -0.1, -0.2}, 0.8, true},     // 10
-    {BoneId::kClavicle, {0.07, 0.3, -0.4}, 1.2, true},  // 11
+    {BoneId::kChest, {0.33, 0.0, -0.4}, 1.7, false},     // 0
+    {BoneId::kUpperArm, {0.07, -0.0, -0.1}, 1.3, true},  // 1
+    {BoneId::kForearm, {0.89, -0.1, -0.3}, 0.7, true},   // 2
+    {BoneId::kThigh, {0.32, -0.0, 0.3}, 1.2, true},      // 3
+    {BoneId::kShin, {0.91, -0.1, -0.2}, 0.7, true},      // 4
+    {BoneId::kPelvis, {0.68, 0.4, 0.1}, 1.6, true},      // 5
+    {BoneId::kChest, {0.79, 0.0, -0.4}, 1.0, false},     // 6
+    {BoneId::kRibs, {1.12, 0.5, -0.1}, 1.3, true},       // 7
+    {BoneId::kBelly, {1.02, 0.4, 0.1}, 0.9, true},       // 8
 });
-constexpr auto kBest32Edges = std::to_array<LayoutEdge>(
-    {{1, 2, false}, {4, 6, false}, {3, 7, false}, {6, 10, false}, {5, 7, false}});
+constexpr auto kBest32Edges = std::to_array<LayoutEdge>({{3, 4, false},
+                                                         {1, 2, false},
+                                                         {3, 5, false},
+                                                         {1, 6, false},
+                                                         {0, 1, false},
+                                                         {0, 7, false},
+                                                         {5, 8, false},
+                                                         {7, 8, false}});
 
 // 49 + 15 for the best fit, without head, hands and feet.
 constexpr auto kBest64Nodes = std::to_array<LayoutNode>({
-    {BoneId::kChest, {-0.22, 0.0, -0.3}, 1.5, false},    // 0
-    {BoneId::kRibs, {0.90, 0.6, -0.1}, 1.1, true},       // 1
-    {BoneId::kChest, {0.61, 0.7, -0.2}, 1.1, true},      // 2
-    {BoneId::kClavicle, {0.51, -0.8, 0.0}, 1.6, true},   // 3
-    {BoneId::kUpperArm, {0.07, -0.1, 0.0}, 1.3, true},   // 4
-    {BoneId::kForearm, {0.88, -0.1, -0.2}, 0.8, true},   // 5
-    {BoneId::kThigh, {0.68, 0.0, 0.3}, 0.9, true},       // 6
-    {BoneId::kShin, {0.90, -0.1, -0.1}, 0.7, true},      // 7
-    {BoneId::kPelvis, {0.58, 0.4, 0.1}, 1.5, true},      // 8
-    {BoneId::kThigh, {0.58, 0.0, 0.2}, 1.1, true},       // 9
-    {BoneId::kChest, {0.37, 0.6, -0.2}, 1.6, true},      // 10
-    {BoneId::kBelly, {0.35, 0.4, -0.1}, 1.1, true},      // 11
-    {BoneId::kUpperArm, {-0.21, -0.7, 0.0}, 1.3, true},  // 12
-    {BoneId::kClavicle, {0.48, 0.3, -0.4}, 1.2, true},   // 13
-    {BoneId::kBelly, {0.85, 0.2, 0.0}, 1.0, true},       // 14
-    {BoneId::kRibs, {0.38, 0.2, 0.1}, 0.9, true},        // 15
-    {BoneId::kRibs, {0.61, 0.1, -0.1}, 1.1, true},       // 16
-    {BoneId::kUpperArm, {0.93, 0.0, 0.0}, 0.9, true},    // 17
-    {BoneId::kPelvis, {0.95, 0.1, -0.4}, 1.0, true},     // 18
-    {BoneId::kShin, {0.79, -0.1, -0.2}, 0.8, true},      // 19
-    {BoneId::kShin, {0.59, -0.1, -0.6}, 0.8, true},      // 20
-    {BoneId::kBelly, {0.12, 0.3, 0.4}, 0.7, true},       // 21
-    {BoneId::kThigh, {0.75, 0.0, 0.0}, 1.0, true},       // 22
-    {BoneId::kPelvis, {0.94, 0.6, 0.3}, 1.3, true},      // 23
-    {BoneId::kRibs, {0.49, 0.4, 0.4}, 0.5, true},        // 24
+    {BoneId::kRibs, {0.10, 0.0, 0.1}, 0.9, false},       // 0
+    {BoneId::kBelly, {1.45, 0.0, 0.0}, 0.7, false},      // 1
+    {BoneId::kChest, {0.80, 0.0, -0.3}, 1.0, false},     // 2
+    {BoneId::kUpperArm, {-0.30, 0.1, -0.2}, 1.2, true},  // 3
+    {BoneId::kForearm, {0.89, -0.1, -0.1}, 0.8, true},   // 4
+    {BoneId::kThigh, {1.07, 0.0, 0.0}, 1.0, true},       // 5
+    {BoneId::kShin, {0.90, -0.1, -0.2}, 0.7, true},      // 6
+    {BoneId::kPelvis, {0.59, 0.4, 0.0}, 1.2, true},      // 7
+    {BoneId::kRibs, {1.03, 0.6, -0.3}, 1.0, true},       // 8
+    {BoneId::kRibs, {0.33, -0.3, 0.1}, 0.9, true},       // 9
+    {BoneId::kRibs, {1.52, 0.7, -0.2}, 1.1, true},       // 10
+    {BoneId::kUpperArm, {0.66, -0.0, -0.0}, 1.0, true},  // 11
+    {BoneId::kForearm, {0.07, -0.0, -0.1}, 1.1, true},   // 12
+    {BoneId::kChest, {0.21, 0.0, -0.3}, 1.8, false},     // 13
+    {BoneId::kRibs, {0.96, 0.7, 0.5}, 0.9, true},        // 14
+    {BoneId::kThigh, {-0.08, -0.2, -0.0}, 1.2, true},    // 15
+    {BoneId::kShin, {0.26, -0.1, -0.2}, 1.1, true},      // 16
+    {BoneId::kBelly, {0.78, 0.7, 0.1}, 0.9, true},       // 17
 });
-constexpr auto kBest64Edges = std::to_array<LayoutEdge>({{4, 17, false},
-                                                         {5, 17, false},
-                                                         {6, 19, false},
-                                                         {9, 18, false},
-                                                         {6, 20, false},
-                                                         {1, 1, true},
-                                                         {9, 23, false},
-                                                         {15, 23, false}});
+constexpr auto kBest64Edges = std::to_array<LayoutEdge>({{0, 1, false},
+                                                         {2, 3, false},
+                                                         {0, 7, false},
+                                                         {0, 9, false},
+                                                         {1, 10, false},
+                                                         {8, 10, false},
+                                                         {11, 12, false},
+                                                         {4, 12, false},
+                                                         {3, 11, false},
+                                                         {1, 2, false},
+                                                         {8, 13, false},
+                                                         {10, 14, false},
+                                                         {9, 15, true},
+                                                         {5, 16, false},
+                                                         {6, 16, false},
+                                                         {5, 15, false},
+                                                         {5, 17, false}});
 
 // 24 + 8 for the best fit, with head, hands and feet.
 constexpr auto kBestFull32Nodes = std::to_array<LayoutNode>({
-    {BoneId::kChest, {0.36, 0.0, 0.6}, 0.8, false},      // 0
-    {BoneId::kClavicle, {0.63, 0.2, -0.2}, 1.0, true},   // 1
-    {BoneId::kPelvis, {0.65, 0.2, 0.1}, 1.6, true},      // 2
-    {BoneId::kThigh, {0.23, -0.1, 0.3}, 1.3, true},      // 3
-    {BoneId::kShin, {1.91, 0.0, 0.0}, 0.4, true},        // 4
-    {BoneId::kHand, {0.91, -0.3, -0.4}, 0.5, true},      // 5
-    {BoneId::kShin, {1.62, 0.0, 0.0}, 0.7, true},        // 6
-    {BoneId::kClavicle, {0.35, -0.6, -0.1}, 1.6, true},  // 7
-    {BoneId::kRibs, {0.84, 0.5, 0.0}, 1.2, true},        // 8
-    {BoneId::kHead, {0.67, 0.0, 0.1}, 1.5, false},       // 9
-    {BoneId::kHead, {0.21, 0.0, 0.5}, 1.2, false},       // 10
-    {BoneId::kHead, {0.17, 0.0, 0.2}, 1.2, false},       // 11
-    {BoneId::kHand, {0.45, -0.1, 0.7}, 0.9, true},       // 12
-    {BoneId::kFoot, {0.94, 0.0, 0.4}, 0.9, true},        // 13
+    {BoneId::kChest, {0.40, 0.0, 0.6}, 0.9, false},      // 0
+    {BoneId::kRibs, {1.05, 0.0, -0.1}, 1.6, false},      // 1
+    {BoneId::kChest, {0.99, 0.0, -0.1}, 0.7, false},     // 2
+    {BoneId::kClavicle, {0.85, -0.1, -0.1}, 1.0, true},  // 3
+    {BoneId::kPelvis, {0.71, 0.3, 0.1}, 1.5, true},      // 4
+    {BoneId::kThigh, {0.38, -0.1, 0.3}, 1.2, true},      // 5
+    {BoneId::kShin, {1.72, -0.0, -0.1}, 0.5, true},      // 6
+    {BoneId::kHead, {0.68, 0.0, 0.3}, 1.5, false},       // 7
+    {BoneId::kHand, {0.92, -0.2, -0.4}, 0.4, true},      // 8
+    {BoneId::kFoot, {0.83, -0.1, 0.3}, 1.2, true},       // 9
 });
-constexpr auto kBestFull32Edges =
-    std::to_array<LayoutEdge>({{0, 2, false}, {3, 4, false}, {1, 5, false}, {6, 13, false}});
+constexpr auto kBestFull32Edges = std::to_array<LayoutEdge>({{0, 1, false},
+                                                             {1, 2, false},
+                                                             {2, 3, false},
+                                                             {0, 4, false},
+                                                             {4, 5, false},
+                                                             {5, 6, false},
+                                                             {2, 7, false},
+                                                             {3, 8, false},
+                                                             {6, 9, false},
+                                                             {4, 4, true}});
 
 // 47 + 17 for the best fit, with head, hands and feet.
 constexpr auto kBestFull64Nodes = std::to_array<LayoutNode>({
-    {BoneId::kClavicle, {0.43, 0.1, -0.2}, 1.2, true},  // 0
-    {BoneId::kChest, {0.20, 0.9, -0.1}, 1.4, true},     // 1
-    {BoneId::kUpperArm, {0.87, 0.0, -0.1}, 0.9, true},  // 2
-    {BoneId::kPelvis, {0.67, 0.3, 0.1}, 1.6, true},     // 3
-    {BoneId::kShin, {0.31, 0.0, 0.1}, 0.7, true},       // 4
-    {BoneId::kHead, {0.70, 0.0, -0.3}, 1.3, false},     // 5
-    {BoneId::kShin, {0.18, 0.0, -0.2}, 1.0, true},      // 6
-    {BoneId::kHand, {0.90, -0.3, -0.1}, 0.6, true},     // 7
-    {BoneId::kShin, {1.85, 0.0, 0.1}, 0.5, true},       // 8
-    {BoneId::kThigh, {0.23, -0.1, 0.3}, 1.4, true},     // 9
-    {BoneId::kChest, {1.19, 0.0, 0.0}, 0.9, true},      // 10
-    {BoneId::kClavicle, {0.99, -0.1, 0.0}, 1.0, true},  // 11
-    {BoneId::kRibs, {0.97, 0.8, 0.7}, 0.6, true},       // 12
-    {BoneId::kChest, {0.26, 0.7, -0.2}, 1.5, true},     // 13
-    {BoneId::kRibs, {0.80, 0.6, -0.1}, 1.1, true},      // 14
-    {BoneId::kRibs, {0.50, 0.5, 0.2}, 0.7, true},       // 15
-    {BoneId::kFoot, {0.37, 0.2, -0.8}, 1.1, true},      // 16
-    {BoneId::kHead, {0.20, 0.0, 0.4}, 1.0, false},      // 17
-    {BoneId::kHead, {0.36, 0.0, 0.4}, 1.1, false},      // 18
-    {BoneId::kHand, {0.46, 0.1, 1.4}, 0.5, true},       // 19
-    {BoneId::kFoot, {0.73, 0.5, 0.0}, 1.0, true},       // 20
-    {BoneId::kFoot, {0.88, -0.8, 0.3}, 0.8, true},      // 21
-    {BoneId::kBelly, {0.13, 0.1, 0.4}, 0.9, true},      // 22
-    {BoneId::kHead, {0.49, 0.0, 0.4}, 1.2, false},      // 23
-    {BoneId::kHand, {0.53, -0.1, 1.0}, 0.7, true},      // 24
-    {BoneId::kHead, {0.69, 0.0, 0.5}, 1.3, false},      // 25
+    {BoneId::kChest, {0.25, 0.0, 0.7}, 0.7, false},      // 0
+    {BoneId::kChest, {0.93, 0.0, -0.3}, 0.8, false},     // 1
+    {BoneId::kUpperArm, {0.86, -0.0, -0.1}, 0.9, true},  // 2
+    {BoneId::kPelvis, {0.70, 0.4, 0.1}, 1.6, true},      // 3
+    {BoneId::kThigh, {0.95, -0.0, 0.0}, 0.9, true},      // 4
+    {BoneId::kShin, {1.73, -0.0, -0.1}, 0.5, true},      // 5
+    {BoneId::kHand, {0.89, -0.3, -0.0}, 0.6, true},      // 6
+    {BoneId::kFoot, {0.93, -0.8, 0.5}, 0.8, true},       // 7
+    {BoneId::kBelly, {0.21, 0.4, 0.4}, 0.6, true},       // 8
+    {BoneId::kHead, {0.19, 0.0, 0.3}, 0.9, false},       // 9
+    {BoneId::kHead, {0.70, 0.0, 0.5}, 1.3, false},       // 10
+    {BoneId::kHead, {0.38, 0.0, 1.2}, 0.9, false},       // 11
+    {BoneId::kShin, {0.46, -0.0, -0.5}, 0.7, true},      // 12
+    {BoneId::kClavicle, {0.36, -0.7, -0.0}, 1.5, true},  // 13
+    {BoneId::kThigh, {0.29, -0.1, 0.3}, 1.3, true},      // 14
+    {BoneId::kHead, {0.70, 0.0, -0.2}, 1.3, false},      // 15
+    {BoneId::kUpperArm, {0.08, -0.1, -0.0}, 1.3, true},  // 16
+    {BoneId::kRibs, {0.75, 0.6, 0.5}, 0.8, true},        // 17
+    {BoneId::kFoot, {0.94, 0.8, 0.4}, 0.8, true},        // 18
 });
-constexpr auto kBestFull64Edges = std::to_array<LayoutEdge>({{6, 8, false},
-                                                             {4, 9, false},
-                                                             {2, 11, false},
-                                                             {2, 7, false},
-                                                             {3, 15, false},
-                                                             {16, 20, false},
-                                                             {16, 21, false},
-                                                             {14, 22, true},
-                                                             {5, 25, false}});
+constexpr auto kBestFull64Edges = std::to_array<LayoutEdge>({{0, 3, false},
+                                                             {5, 7, false},
+                                                             {2, 6, false},
+                                                             {1, 9, false},
+                                                             {4, 5, false},
+                                                             {0, 1, false},
+                                                             {10, 11, false},
+                                                             {9, 10, false},
+                                                             {4, 12, false},
+                                                             {1, 13, false},
+                                                             {8, 13, false},
+                                                             {3, 14, false},
+                                                             {4, 14, false},
+                                                             {9, 15, false},
+                                                             {1, 16, false},
+                                                             {2, 16, false},
+                                                             {13, 17, false},
+                                                             {5, 18, false},
+                                                             {13, 13, true}});
 
 // The fewest that enclose: 10 + 5, a capsule each for trunk and limbs. By hand.
 constexpr auto kPlainestNodes = std::to_array<LayoutNode>({

@@ -91,5 +91,63 @@ TEST(GraphEditTest, RemoveSwallowedDropsWhatDoesNothing) {
   EXPECT_TRUE(IsExactlyMirrored(graph));
 }
 
+TEST(GraphEditTest, PiecesAreCountedByCapsules) {
+  CapsuleGraph graph = LeggedGraph(true);
+  EXPECT_EQ(ComponentCount(graph), 1);
+  graph.AddNode({0.0, 1.2, 0.02}, 0.1, true);  // inside another, but tied to nothing
+  EXPECT_EQ(ComponentCount(graph), 2);
+  graph.AddNode({0.3, 1.2, 0.0}, 0.1, false);
+  EXPECT_EQ(ComponentCount(graph), 4);
+}
+
+TEST(GraphEditTest, NothingFallsOffWhereAnEndIsSwallowed) {
+  for (const bool symmetric : {true, false}) {
+    CapsuleGraph graph = LeggedGraph(symmetric);
+    graph.nodes[2].radius_m = 0.01;  // the hip
+    graph.nodes[2].center_m = {0.03, 0.98, 0.02};
+    graph.CopyToImages();
+    CapsuleGraph cut = graph;
+    RemoveSwallowed(cut);
+    EXPECT_GT(ComponentCount(cut), 1);
+    const int nodes = graph.sphere_count();
+    MergeSwallowed(graph);
+    RemoveSwallowed(graph);
+    EXPECT_EQ(ComponentCount(graph), 1);
+    EXPECT_EQ(graph.sphere_count(), symmetric ? nodes - 2 : nodes - 1);
+    EXPECT_TRUE(!symmetric || IsExactlyMirrored(graph));
+  }
+}
+
+TEST(GraphEditTest, RemovedSpheresAreTold) {
+  CapsuleGraph graph = LeggedGraph(true);
+  graph.AddNode({0.1, 0.84, 0.0}, 0.02, false);  // inside the hips
+  const std::vector<int> index = RemoveSwallowed(graph);
+  EXPECT_EQ(index, (std::vector<int>{0, 1, 2, 3, 4, 5, -1, -1}));
+  EXPECT_EQ(graph.sphere_count(), 6);
+}
+
+TEST(GraphEditTest, ALocalGraphIsTheSameWithinItsBox) {
+  for (const bool symmetric : {true, false}) {
+    const CapsuleGraph graph = LeggedGraph(symmetric);
+    const Eigen::AlignedBox3d box(Eigen::Vector3d(0.05, 0.1, -0.1), Eigen::Vector3d(0.2, 0.5, 0.1));
+    const LocalGraph local = LocalGraphIn(graph, box);
+    EXPECT_LT(local.graph.sphere_count(), graph.sphere_count());
+    EXPECT_EQ(local.graph.symmetric, symmetric);
+    EXPECT_TRUE(!symmetric || IsExactlyMirrored(local.graph));
+    for (std::size_t v = 0; v < local.nodes.size(); ++v) {
+      EXPECT_EQ(local.graph.nodes[v].center_m,
+                graph.nodes[static_cast<std::size_t>(local.nodes[v])].center_m);
+    }
+    Random random(7);
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector3d p(random.NextIn(0.05, 0.2), random.NextIn(0.1, 0.5),
+                              random.NextIn(-0.1, 0.1));
+      const float d = UnionDistance(graph, p);
+      const float local_d = UnionDistance(local.graph, p);
+      EXPECT_TRUE(d <= 0.0f ? local_d == d : local_d > 0.0f) << d << " " << local_d;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace capfit::refine

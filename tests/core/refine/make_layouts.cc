@@ -140,6 +140,7 @@ class Search {
     Graphs now;
     for (const Subject& s : subjects_) now.push_back(HangStick(s, task_));
     Settle(100, 0.006, now);
+    for (CapsuleGraph& graph : now) RemoveSwallowed(graph);
     while (!spending_.Allows(now[0]) && SpareOne(now)) {
     }
     double value = ValueOf(now);
@@ -210,7 +211,8 @@ class Search {
 
   // The edit on all graphs; places are carried over relative to the sphere `first`. False, and no
   // change, where the graphs would no longer correspond.
-  static bool ApplyToAll(const Edit& edit, Graphs& graphs) {
+  bool ApplyToAll(const Edit& edit, Graphs& graphs) const {
+    const bool linked = !task_.enclose;
     constexpr double kOffPlaneShare = 0.35;
     Graphs result;
     for (const CapsuleGraph& graph : graphs) {
@@ -230,6 +232,7 @@ class Search {
       }
       EditedGraph edited = Apply(graph, own);
       if (!edited.possible) return false;
+      if (linked && ComponentCount(edited.graph) > 1) return false;
       result.push_back(std::move(edited.graph));
       if (result.back().nodes.size() != result[0].nodes.size()) return false;
       if (result.back().edges.size() != result[0].edges.size()) return false;
@@ -312,7 +315,7 @@ class Search {
       std::vector<Edit> leaves = LeavesAt(graph, worst[at]);
       if (leaves.empty()) return std::nullopt;
       Edit leaf = leaves[random_.NextBelow(leaves.size())];
-      if (random_.NextUnit() < 0.15) leaf.kind = EditKind::kBall;
+      if (task_.enclose && random_.NextUnit() < 0.15) leaf.kind = EditKind::kBall;
       return leaf;
     }
     const int v = Below(graph.sphere_count());

@@ -88,6 +88,22 @@ TEST_P(OccupancyGridTest, CostIsOneOutsideMinusOneInsideAndZeroOnTheSurface) {
   EXPECT_FLOAT_EQ(cost[3], 1.0f);
 }
 
+TEST_P(OccupancyGridTest, ACoarserGridHoldsTheSame) {
+  const Eigen::Vector3d center(0.0, 0.3, 0.05);
+  const OccupancyGrid grid =
+      MakeOccupancyGrid(BallBody(center, 0.2), AllParts(), 0.008, GetParam());
+  const OccupancyGrid coarse = CoarserGrid(grid);
+  EXPECT_EQ(coarse.volume_m3, grid.volume_m3);
+  EXPECT_FLOAT_EQ(coarse.cell_m, 0.016f);
+  double fine_cells = 0.0, coarse_cells = 0.0;
+  for (const float share : grid.inside) fine_cells += share;
+  for (const float share : coarse.inside) coarse_cells += share;
+  EXPECT_NEAR(coarse_cells, fine_cells / 8.0, 1e-3 * fine_cells);
+  CapsuleGraph less = Ball(center, 0.16);
+  less.symmetric = GetParam();
+  EXPECT_NEAR(GridError(coarse, less), 1.0 - std::pow(0.8, 3), 0.02);
+}
+
 TEST_P(OccupancyGridTest, ErrorIsNothingForTheBallItselfAndExactForOthers) {
   const Eigen::Vector3d center(0.0, 0.3, 0.05);
   const OccupancyGrid grid =

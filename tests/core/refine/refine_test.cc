@@ -9,6 +9,7 @@
 #include "core/body/find_body.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
+#include "core/refine/graph_edit.h"
 #include "core/refine/occupancy_grid.h"
 
 namespace capfit::refine {
@@ -112,6 +113,16 @@ TEST(RefineSetTest, BestFitIsTightAndWithinBudget) {
     ExpectExactlyMirrored(set);
   }
   EXPECT_LT(last, 0.12);
+}
+
+TEST(RefineSetTest, BestFitHangsTogetherAndReachesEveryLimb) {
+  const body::Body body = FindMannequin(true, 5000);
+  for (const int count : {32, 64}) {
+    const capsule::PrimitiveSet set = Refine(body, WithPrimitives(count, false));
+    const CapsuleGraph graph = GraphOf(set);
+    EXPECT_LE(ComponentCount(graph), count / 4) << count;
+    EXPECT_LE(FurthestVertex(body, set), 0.12) << count;
+  }
 }
 
 TEST(RefineSetTest, SameBitsForAnyNumberOfThreads) {
