@@ -28,7 +28,7 @@ struct BodyOptions {
   std::map<LandmarkId, Eigen::Vector3d> landmarks;
   // Joints of a skeleton that came with the mesh, in the caller's frame (see skeleton_names.h).
   // They replace the found ones that the caller does not give, but for those that contradict the
-  // surface: warning SKELETON_IGNORED.
+  // surface (all of them where more than two thirds do): warning SKELETON_IGNORED.
   std::vector<mesh::NamedJoint> skeleton;
   // Parts that must be there, none unless asked for: else FAILED_PRECONDITION with reason
   // PART_MISSING. Both sides of a pair are meant.

@@ -1,8 +1,10 @@
 #include "core/body/told_landmarks.h"
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -18,6 +20,8 @@ namespace {
 constexpr double kSkeletonReach = 0.10;
 constexpr double kCallersReach = 0.25;
 constexpr double kAroundTheBody = 0.10;
+// Share of a skeleton's joints.
+constexpr double kMostBadBones = 2.0 / 3.0;
 
 std::string Centimetres(double length_m) { return absl::StrFormat("%.0f cm", 100.0 * length_m); }
 
@@ -64,6 +68,41 @@ class Judge {
   Eigen::Vector3d high_;
 };
 
+struct JudgedBone {
+  LandmarkId id;
+  Eigen::Vector3d at;
+  std::optional<std::string> objection;
+};
+
+// Those bones that are credible and not told already. Where most are not, it is another body's
+// skeleton, or none, and the others are near by chance.
+void AddBones(const std::map<LandmarkId, Eigen::Vector3d>& bones,
+              const geometry::Similarity& body_from_caller, const Judge& judge, Landmarks& told,
+              std::vector<Warning>& warnings) {
+  std::vector<JudgedBone> judged;
+  std::size_t bad = 0;
+  for (const auto& [id, position] : bones) {
+    if (told[Index(id)]) continue;
+    const Eigen::Vector3d at = Snap(body_from_caller.Apply(position), kFineGrid);
+    judged.push_back({id, at, judge.Objection(id, at, kSkeletonReach)});
+    bad += judged.back().objection.has_value() ? 1 : 0;
+  }
+  const bool is_anothers =
+      static_cast<double>(bad) > kMostBadBones * static_cast<double>(judged.size());
+  for (JudgedBone& bone : judged) {
+    if (is_anothers && !bone.objection)
+      bone.objection = "belongs to a skeleton that lies elsewhere";
+    if (!bone.objection) {
+      told[Index(bone.id)] = Landmark{bone.at, LandmarkMethod::kSkeleton, 0.95};
+      continue;
+    }
+    warnings.push_back({"SKELETON_IGNORED",
+                        absl::StrCat("the skeleton's ", std::string(LandmarkName(bone.id)), " ",
+                                     *bone.objection, "; the measured one is used"),
+                        1});
+  }
+}
+
 }  // namespace
 
 absl::StatusOr<Landmarks> ToldLandmarks(const BodyOptions& options,
@@ -81,18 +120,7 @@ absl::StatusOr<Landmarks> ToldLandmarks(const BodyOptions& options,
     }
     told[Index(id)] = Landmark{at, LandmarkMethod::kCaller, 1.0};
   }
-  for (const auto& [id, position] : bones) {
-    if (told[Index(id)]) continue;
-    const Eigen::Vector3d at = Snap(body_from_caller.Apply(position), kFineGrid);
-    if (const auto objection = judge.Objection(id, at, kSkeletonReach)) {
-      warnings.push_back({"SKELETON_IGNORED",
-                          absl::StrCat("the skeleton's ", std::string(LandmarkName(id)), " ",
-                                       *objection, "; the measured one is used"),
-                          1});
-      continue;
-    }
-    told[Index(id)] = Landmark{at, LandmarkMethod::kSkeleton, 0.95};
-  }
+  AddBones(bones, body_from_caller, judge, told, warnings);
   return told;
 }
 
