@@ -123,10 +123,9 @@ double BendArc(const LimbProfile& limb, double outer, double inner, double usual
   const double length = inner - outer;
   const Eigen::Vector3d outer_end = limb.At(outer).center;
   const Eigen::Vector3d inner_end = limb.At(inner).center;
-  double best = std::numeric_limits<double>::infinity();
-  double best_share = usual_share;
-  for (int i = -kBendSteps; i <= kBendSteps; ++i) {
-    const double share = usual_share + i * kBendReach / kBendSteps;
+  std::array<double, 2 * kBendSteps + 1> costs;
+  for (int i = 0; i < static_cast<int>(costs.size()); ++i) {
+    const double share = usual_share + (i - kBendSteps) * kBendReach / kBendSteps;
     const double arc = outer + share * length;
     const Eigen::Vector3d joint = limb.At(arc).center;
     double misfit = 0.0;
@@ -140,13 +139,17 @@ double BendArc(const LimbProfile& limb, double outer, double inner, double usual
       ++count;
     }
     const double deviation = (share - usual_share) / spread;
-    const double tolerance = kBendTolerance * length;
-    const double cost =
-        misfit / std::max(1, count) / (tolerance * tolerance) + deviation * deviation;
-    if (cost >= best) continue;
-    best = cost;
-    best_share = share;
+    const double tolerance = std::max(kBendTolerance * std::abs(length), 1e-9);
+    costs[i] = misfit / std::max(1, count) / (tolerance * tolerance) + deviation * deviation;
   }
+  const auto least = std::min_element(costs.begin(), costs.end());
+  double at = static_cast<double>(least - costs.begin());
+  if (least != costs.begin() && least + 1 != costs.end()) {
+    // Between the steps: the parabola through three neighbours.
+    const double curvature = least[-1] - 2.0 * least[0] + least[1];
+    if (curvature > 0.0) at += 0.5 * (least[-1] - least[1]) / curvature;
+  }
+  const double best_share = usual_share + (at - kBendSteps) * kBendReach / kBendSteps;
   return outer + best_share * length;
 }
 
@@ -362,18 +365,16 @@ void MatchShoulders(const Shape& shape, Landmarks& landmarks) {
     Doubt(miss / kVeryUnlike, *landmarks[Sided(LandmarkId::kLeftShoulder, side)]);
   }
   if (share <= 0.0) return;
-  const int side = doubt[kLeft] > doubt[kRight] ? kLeft : kRight;
-  const Eigen::Vector3d image = MirroredPoint(found[1 - side].position_m);
-  Put(landmarks, Sided(LandmarkId::kLeftShoulder, side),
-      found[side].position_m + share * (image - found[side].position_m),
-      0.5 * landmarks[Sided(LandmarkId::kLeftShoulder, 1 - side)]->confidence,
-      LandmarkMethod::kRatio);
-  const auto& armpit = landmarks[Sided(LandmarkId::kLeftArmpit, 1 - side)];
-  const auto& own = landmarks[Sided(LandmarkId::kLeftArmpit, side)];
-  if (!armpit || !own || own->method != LandmarkMethod::kRatio) return;
-  Put(landmarks, Sided(LandmarkId::kLeftArmpit, side),
-      own->position_m + share * (MirroredPoint(armpit->position_m) - own->position_m), 0.2,
-      LandmarkMethod::kRatio);
+  const double both = std::pow(doubt[kLeft], 4) + std::pow(doubt[kRight], 4);
+  if (!(both > 0.0)) return;
+  for (const int side : {kLeft, kRight}) {
+    const double way = share * std::pow(doubt[side], 4) / both;
+    const std::size_t at = Sided(LandmarkId::kLeftShoulder, side);
+    const Eigen::Vector3d image = MirroredPoint(found[1 - side].position_m);
+    const bool is_image = way > 0.5;
+    Put(landmarks, at, found[side].position_m + way * (image - found[side].position_m),
+        landmarks[at]->confidence, is_image ? LandmarkMethod::kRatio : found[side].method);
+  }
 }
 
 void FindElbow(const Shape& shape, int side, Landmarks& landmarks) {

@@ -14,8 +14,9 @@ void FindWrist(Shape& shape, int side, Landmarks& landmarks);
 // its length (kRatio).
 void FindShoulder(const Shape& shape, int side, Landmarks& landmarks);
 
-// Shoulders hardly move against the trunk: where both are there and do not mirror each other, the
-// more doubtful one becomes the other's image (kRatio).
+// Shoulders hardly move against the trunk: where both are there and do not mirror each other, they
+// come nearer to each other's images, the more doubtful one by far the most (kRatio). Takes
+// confidence from both.
 void MatchShoulders(const Shape& shape, Landmarks& landmarks);
 
 // Once wrist and shoulder are known.
