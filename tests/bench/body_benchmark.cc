@@ -1,10 +1,23 @@
 // Mesh preparation and the whole body room on mannequins of growing density: together they must
 // stay below 40 ms for 64k triangles on one core, and grow no faster than n log n.
+//
+// BM_Call does what a call does in a process of its own: the memory is given back to the system in
+// between, so that every page is touched for the first time again. With CAPFIT_BENCHMARK_MESH set
+// to the path of a mesh, BM_Call/0 takes that in place of a mannequin: a real body has more
+// fingers and toes.
 #include <benchmark/benchmark.h>
+#include <malloc.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <string>
 
 #include "core/body/find_body.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
+#include "core/mesh/read_mesh.h"
 
 namespace capfit::body {
 namespace {
@@ -14,6 +27,16 @@ mesh::PolygonSoup Mannequin(std::int64_t faces) {
   options.faces = static_cast<int>(faces);
   options.quads = false;
   return *mannequin::MakeMannequin(options);
+}
+
+mesh::PolygonSoup NamedMesh() {
+  const char* const named = std::getenv("CAPFIT_BENCHMARK_MESH");
+  if (named == nullptr) return Mannequin(64'000);
+  const std::string path = named;
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  auto soup = mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(path));
+  return soup.ok() ? *std::move(soup) : Mannequin(64'000);
 }
 
 void CountTriangles(std::int64_t triangles, benchmark::State& state) {
@@ -46,6 +69,20 @@ void BM_Both(benchmark::State& state) {
   CountTriangles(static_cast<std::int64_t>(soup.face_vertices.size() / 3), state);
 }
 
+void BM_Call(benchmark::State& state) {
+  const mesh::PolygonSoup soup = state.range(0) > 0 ? Mannequin(state.range(0)) : NamedMesh();
+  const ThreadPool pool(1);
+  const NullObserver observer;
+  for (auto _ : state) {
+    state.PauseTiming();
+    malloc_trim(0);
+    state.ResumeTiming();
+    const auto prepared = mesh::PrepareMesh(soup);
+    benchmark::DoNotOptimize(FindBody(prepared->mesh, {}, pool, observer));
+  }
+  CountTriangles(static_cast<std::int64_t>(soup.face_vertices.size() / 3), state);
+}
+
 void Sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->Unit(benchmark::kMillisecond);
   for (const int faces : {5'000, 16'000, 64'000, 200'000}) benchmark->Arg(faces);
@@ -54,6 +91,7 @@ void Sizes(benchmark::internal::Benchmark* benchmark) {
 BENCHMARK(BM_PrepareMesh)->Apply(Sizes);
 BENCHMARK(BM_FindBody)->Apply(Sizes);
 BENCHMARK(BM_Both)->Apply(Sizes);
+BENCHMARK(BM_Call)->Unit(benchmark::kMillisecond)->Arg(0)->Arg(64'000);
 
 }  // namespace
 }  // namespace capfit::body

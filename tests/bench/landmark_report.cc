@@ -49,10 +49,17 @@ struct Row {
   }
 };
 
+// What the result says of a joint, and what is so.
+struct Told {
+  double confidence = 0.0;
+  double error_mm = 0.0;
+};
+
 struct Group {
   std::vector<Row> rows;
   std::array<std::vector<double>, kColumns.size()> errors_mm;
   std::vector<double> main_errors_mm;
+  std::vector<Told> told;
 
   [[nodiscard]] int WithinLimits() const {
     return static_cast<int>(
@@ -90,6 +97,8 @@ void EnterErrors(const Body& body, const Sample& sample, Group& group, Row& row)
     row.is_known[at] = true;
     group.errors_mm[at].push_back(error);
     if (IsMainJoint(name)) group.main_errors_mm.push_back(error);
+    const auto& landmark = body.landmark(*LandmarkFromName(name));
+    if (landmark) group.told.push_back({landmark->confidence, error});
   }
 }
 
@@ -180,6 +189,65 @@ void WritePoses(const Group& group, std::ostream& out) {
   out << "\n\n";
 }
 
+// Ranks from 0; equals share the mean of theirs.
+std::vector<double> Ranks(const std::vector<double>& values) {
+  std::vector<double> ranks;
+  std::vector<double> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  for (const double value : values) {
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), value);
+    ranks.push_back(0.5 * static_cast<double>((first - sorted.begin()) + (last - sorted.begin())));
+  }
+  return ranks;
+}
+
+// Spearman's.
+double RankCorrelation(const std::vector<double>& a, const std::vector<double>& b) {
+  const std::vector<double> x = Ranks(a);
+  const std::vector<double> y = Ranks(b);
+  const double mean = 0.5 * static_cast<double>(x.size());
+  double xy = 0.0, xx = 0.0, yy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xy += (x[i] - mean) * (y[i] - mean);
+    xx += (x[i] - mean) * (x[i] - mean);
+    yy += (y[i] - mean) * (y[i] - mean);
+  }
+  return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : 0.0;
+}
+
+void WriteConfidence(const Report& report, std::ostream& out) {
+  std::vector<double> confidences, errors;
+  for (const char* const group : {"posed", "unseen"}) {
+    for (const Told& told : report.at(group).told) {
+      confidences.push_back(told.confidence);
+      errors.push_back(told.error_mm);
+    }
+  }
+  out << "## Confidence\n\nWhat the confidence of a joint says of its error, over the posed bodies "
+         "and the poses made by the report.\n\n| confidence | joints | median, mm | 95 % below, mm "
+         "| "
+         "beyond 45 mm |\n|---|---:|---:|---:|---:|\n";
+  constexpr std::array<double, 6> kBounds = {1.01, 0.75, 0.6, 0.45, 0.3, -0.01};
+  for (std::size_t b = 0; b + 1 < kBounds.size(); ++b) {
+    std::vector<double> within;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      if (confidences[i] < kBounds[b] && confidences[i] >= kBounds[b + 1]) {
+        within.push_back(errors[i]);
+      }
+    }
+    if (within.empty()) continue;
+    std::sort(within.begin(), within.end());
+    const auto beyond = within.end() - std::upper_bound(within.begin(), within.end(), kMainLimitMm);
+    out << "| " << Rounded(std::max(0.0, kBounds[b + 1]), 2) << " to "
+        << Rounded(std::min(1.0, kBounds[b]), 2) << " | " << within.size() << " | "
+        << Rounded(within[within.size() / 2], 1) << " | "
+        << Rounded(within[within.size() * 19 / 20]) << " | "
+        << Rounded(100.0 * static_cast<double>(beyond) / within.size(), 1) << " % |\n";
+  }
+  out << "\nRank correlation of confidence and error: "
+      << Rounded(RankCorrelation(confidences, errors), 2) << " (-1 would be perfect).\n\n";
+}
+
 int GoodTrials() {
   int good = 0;
   for (int seed = 0; seed < kTrials; ++seed) {
@@ -210,6 +278,7 @@ void WriteMarkdown(const Report& report, std::ostream& out) {
   out << "## Poses made by the report\n\nThe eleven bodies at rest, posed by the report "
          "itself (plain skinning, so skin folds more than it should).\n\n";
   WritePoses(report.at("unseen"), out);
+  WriteConfidence(report, out);
   out << "## Mannequins by lot\n\n"
       << kTrials
       << " random mannequins (measures, pose, density, head, hands and feet there or not), turned "
