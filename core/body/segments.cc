@@ -37,8 +37,6 @@ constexpr double kGroinAlong = 0.78;
 constexpr double kGroinOut = 0.55;
 constexpr double kGroinForward = 0.09;
 constexpr double kGroinBelowCrotch = 0.0145;
-constexpr double kHangingRad = 0.44;
-constexpr double kLiftedRad = 0.79;
 constexpr double kGroinTaken = 0.060;
 // Jaw and nape: the plane that parts head and neck rises from the front to the back.
 constexpr double kJawAboveNeck = 0.035;
@@ -167,7 +165,8 @@ class Labeller {
         TurnDown(half) * Eigen::Vector3d(SideSign(side) * kGroinOut, -kGroinAlong, kGroinForward);
     // A lifted thigh takes the skin of the groin along to the front.
     const double lift = std::atan2(thigh.z(), -thigh.y());
-    const double taken = std::clamp((lift - kHangingRad) / (kLiftedRad - kHangingRad), 0.0, 1.0);
+    const double taken =
+        std::clamp((lift - kHangingThighRad) / (kLiftedThighRad - kHangingThighRad), 0.0, 1.0);
     const Eigen::Vector3d origin = At(LandmarkId::kCrotch) + taken * kGroinTaken *
                                                                  shape_.stature_m * thigh.z() *
                                                                  Eigen::Vector3d::UnitZ();

@@ -16,6 +16,10 @@
 
 namespace capfit::body {
 
+// Thighs that point to the front or back by less hang down, by more are lifted (25 and 45 degrees).
+inline constexpr double kHangingThighRad = 0.44;
+inline constexpr double kLiftedThighRad = 0.79;
+
 inline constexpr int kLeft = 0;
 inline constexpr int kRight = 1;
 

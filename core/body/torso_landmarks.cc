@@ -15,9 +15,6 @@ namespace {
 // cleft is looked for between, and how far around the crotch the ways may lead.
 constexpr double kThighBelowEnd = 0.10;
 constexpr double kCrotchRegion = 0.20;
-// Thighs that point to the front or back by less hang down, by more are lifted (25 and 45 degrees).
-constexpr double kHangingRad = 0.44;
-constexpr double kLiftedRad = 0.79;
 // Of ways over the surface, in units of the square root of its area: those that are longer than the
 // shortest by this count e times less.
 constexpr double kSoftMinimum = 0.01;
@@ -96,7 +93,7 @@ Thighs MeasureThighs(const Shape& shape) {
     const Eigen::Vector3d down =
         (leg.At(leg.end() - kThighBelowEnd * shape.stature_m).center - root).normalized();
     const double lift = std::abs(std::atan2(down.z(), -down.y()));
-    const double share = (kLiftedRad - lift) / (kLiftedRad - kHangingRad);
+    const double share = (kLiftedThighRad - lift) / (kLiftedThighRad - kHangingThighRad);
     thighs.hanging = std::min(thighs.hanging, std::clamp(share, 0.0, 1.0));
     thighs.middle_z += 0.5 * root.z();
     thighs.forward += down.z();
