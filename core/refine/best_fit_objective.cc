@@ -20,6 +20,8 @@ constexpr float kFarMissM = 0.04f;
 constexpr double kMissWeightPerM = 10.0;
 // Further than this no sphere moves in a trial.
 constexpr double kDriftM = 0.05;
+// Edits of larger graphs gain so little that coarse cells do not tell.
+constexpr int kMostJudgedCoarsely = 100;
 constexpr double kTrialSpacingM = 0.03;
 constexpr int kBestFitGlanceSteps = 8;
 constexpr int kBestFitTrialSteps = 18;
@@ -86,7 +88,8 @@ class BestFitRound final : public Objective::Round {
     }
     box.extend(ReachOf(local.graph, local_active));
     box = box.intersection(widest);
-    return Gain(local.graph, {box.min(), box.max()});
+    return Gain(!glance && before_.primitive_count() > kMostJudgedCoarsely, local.graph,
+                {box.min(), box.max()});
   }
 
  private:
@@ -101,8 +104,10 @@ class BestFitRound final : public Objective::Round {
     return options;
   }
 
-  [[nodiscard]] double Gain(const CapsuleGraph& after, const Box& cells) const {
-    const double less_error = errors_before_.Over(cells) - FillError(coarse_, after, cells);
+  [[nodiscard]] double Gain(bool fine, const CapsuleGraph& after, const Box& cells) const {
+    const double less_error =
+        fine ? FillError(grid_, before_, cells) - FillError(grid_, after, cells)
+             : errors_before_.Over(cells) - FillError(coarse_, after, cells);
     const std::vector<Cone> cones = ConesOf(after);
     double less_missed_m = 0.0;
     ForPointsIn(points_, cells, [&](int i) {
@@ -120,7 +125,7 @@ class BestFitRound final : public Objective::Round {
   std::vector<float> misses_before_m_;  // by point, beyond kFarMissM
 };
 
-int StepsOf(Effort effort) {
+int StepsOf(Effort effort, int primitives) {
   switch (effort) {
     case Effort::kTouch:
       return 30;
@@ -129,7 +134,7 @@ int StepsOf(Effort effort) {
     case Effort::kRough:
       return 80;
     case Effort::kFinish:
-      return 120;
+      return 120 + std::max(0, primitives - 64);
   }
   return 0;
 }
@@ -145,7 +150,7 @@ BestFitObjective::BestFitObjective(OccupancyGrid grid, CoverPoints points, std::
 void BestFitObjective::Settle(Effort effort, CapsuleGraph& graph) const {
   BestFitOptions options;
   options.seed = seed_;
-  options.steps = StepsOf(effort);
+  options.steps = StepsOf(effort, graph.primitive_count());
   options.first_rate_m = effort == Effort::kRough ? 0.008 : 0.003;
   DescendBestFit(grid_, options, graph);
 }

@@ -28,6 +28,8 @@ constexpr double kExchangeShare = 0.06;
 constexpr std::size_t kMostFailures = 3;
 // Of the removals glanced at, how many are tried thoroughly.
 constexpr double kSpareThoroughShare = 0.35;
+// So often capsules are cut and all is settled again.
+constexpr int kCuttingRounds = 3;
 // A round spends at least this share of what is there already.
 constexpr double kLeastBatchShare = 0.05;
 
@@ -321,7 +323,43 @@ void Exchange(const Objective& objective, const Spending& spending, const Growth
   }
 }
 
+// The graph with the largest capsules cut until nothing fits any more.
+CapsuleGraph CutLargest(const Spending& spending, CapsuleGraph graph) {
+  const auto surface = [&graph](int e) {
+    const Node& a = graph.nodes[U(graph.edges[U(e)].a)];
+    const Node& b = graph.nodes[U(graph.edges[U(e)].b)];
+    return (a.center_m - b.center_m).norm() * (a.radius_m + b.radius_m);
+  };
+  for (;;) {
+    int largest = -1;
+    for (int e = 0; e < graph.capsule_count(); ++e) {
+      const bool is_larger = largest < 0 || surface(e) > surface(largest);
+      if (graph.IsEdgeRepresentative(e) && is_larger) largest = e;
+    }
+    if (largest < 0) return graph;
+    EditedGraph cut = Apply(graph, Simple(EditKind::kSplit, largest, -1));
+    if (!cut.possible || !spending.Allows(cut.graph)) return graph;
+    graph = std::move(cut.graph);
+  }
+}
+
 }  // namespace
+
+void SpendByCutting(const Objective& objective, const Spending& spending,
+                    const FitObserver& observer, CapsuleGraph& graph) {
+  double value = objective.Value(graph);
+  for (int round = 0; round < kCuttingRounds && !observer.IsCancelled(); ++round) {
+    CapsuleGraph cut = CutLargest(spending, graph);
+    if (cut.primitive_count() == graph.primitive_count()) return;
+    objective.Settle(Effort::kFinish, cut);
+    MergeSwallowed(cut);
+    RemoveSwallowed(cut);
+    const double cut_value = objective.Value(cut);
+    if (cut_value >= value) return;
+    graph = std::move(cut);
+    value = cut_value;
+  }
+}
 
 void Spare(const Objective& objective, const Spending& spending, const GrowthOptions& options,
            const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {

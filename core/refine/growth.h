@@ -40,6 +40,11 @@ void Spare(const Objective& objective, const Spending& spending, const GrowthOpt
 void Grow(const Objective& objective, const Spending& spending, const GrowthOptions& options,
           const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph);
 
+// Spends what growing left, where single edits gain too little to tell: cuts the capsules with most
+// surface in two and settles all; kept where the value falls.
+void SpendByCutting(const Objective& objective, const Spending& spending,
+                    const FitObserver& observer, CapsuleGraph& graph);
+
 }  // namespace capfit::refine
 
 #endif  // CAPFIT_CORE_REFINE_GROWTH_H_

@@ -10,7 +10,7 @@ namespace {
 // enclosing one, which is by hand. What counts is the topology; places and radii are rounded,
 // everything is optimised for each body.
 
-// 22 + 10 for the best fit, without head, hands and feet.
+// 16 + 16 for the best fit, in one piece, without head, hands and feet.
 constexpr auto kBest32Nodes = std::to_array<LayoutNode>({
     {BoneId::kChest, {0.33, 0.0, -0.4}, 1.7, false},     // 0
     {BoneId::kUpperArm, {0.07, -0.0, -0.1}, 1.3, true},  // 1
@@ -31,7 +31,7 @@ constexpr auto kBest32Edges = std::to_array<LayoutEdge>({{3, 4, false},
                                                          {5, 8, false},
                                                          {7, 8, false}});
 
-// 49 + 15 for the best fit, without head, hands and feet.
+// 32 + 32 for the best fit, in one piece, without head, hands and feet.
 constexpr auto kBest64Nodes = std::to_array<LayoutNode>({
     {BoneId::kRibs, {0.10, 0.0, 0.1}, 0.9, false},       // 0
     {BoneId::kBelly, {1.45, 0.0, 0.0}, 0.7, false},      // 1
@@ -70,7 +70,7 @@ constexpr auto kBest64Edges = std::to_array<LayoutEdge>({{0, 1, false},
                                                          {5, 15, false},
                                                          {5, 17, false}});
 
-// 24 + 8 for the best fit, with head, hands and feet.
+// 16 + 16 for the best fit, in one piece, with head, hands and feet.
 constexpr auto kBestFull32Nodes = std::to_array<LayoutNode>({
     {BoneId::kChest, {0.40, 0.0, 0.6}, 0.9, false},      // 0
     {BoneId::kRibs, {1.05, 0.0, -0.1}, 1.6, false},      // 1
@@ -94,7 +94,7 @@ constexpr auto kBestFull32Edges = std::to_array<LayoutEdge>({{0, 1, false},
                                                              {6, 9, false},
                                                              {4, 4, true}});
 
-// 47 + 17 for the best fit, with head, hands and feet.
+// 32 + 32 for the best fit, in one piece, with head, hands and feet.
 constexpr auto kBestFull64Nodes = std::to_array<LayoutNode>({
     {BoneId::kChest, {0.25, 0.0, 0.7}, 0.7, false},      // 0
     {BoneId::kChest, {0.93, 0.0, -0.3}, 0.8, false},     // 1

@@ -107,12 +107,14 @@ std::vector<CapsuleGraph> StartingGraphs(const body::Body& body, const RefineOpt
 struct GrowthPlan {
   GrowthOptions at_first;
   GrowthOptions for_the_rest;
+  bool cuts_the_rest = false;
 };
 
 GrowthPlan PlanGrowth(bool enclose, const Spending& spending) {
   GrowthPlan plan;
   plan.at_first.links = !enclose;
   plan.at_first.piece_cost = enclose ? 0.0 : kPieceCost;
+  plan.cuts_the_rest = !enclose;
   plan.at_first.thorough_share = enclose ? 0.35 : 0.15;
   plan.for_the_rest = plan.at_first;
   plan.for_the_rest.links = true;
@@ -142,6 +144,7 @@ CapsuleGraph FindSet(const Objective& objective, const Spending& spending, const
   last.piece_cost = plan.at_first.piece_cost;
   Grow(objective, spending, last, pool, observer, graph);
   if (graph.primitive_count() != used) objective.Settle(Effort::kTighten, graph);
+  if (plan.cuts_the_rest) SpendByCutting(objective, spending, observer, graph);
   return graph;
 }
 

@@ -3,6 +3,8 @@
 //
 //   make_layouts best|enclose cut|full PRIMITIVES CPU_SECONDS [SEED]
 //
+// Those for the best fit hang together: no sphere without a capsule, all in one piece.
+//
 // Prints nodes and edges as they stand in the table, to be copied. A minute or two each.
 #include <algorithm>
 #include <cmath>

@@ -125,6 +125,13 @@ TEST(RefineSetTest, BestFitHangsTogetherAndReachesEveryLimb) {
   }
 }
 
+TEST(RefineSetTest, BestFitUsesLargerBudgetsToo) {
+  const capsule::PrimitiveSet set = Refine(CutMannequin(), WithPrimitives(120, false));
+  EXPECT_LE(set.primitive_count(), 120);
+  EXPECT_GE(set.primitive_count(), 118);
+  EXPECT_LT(ErrorOf(CutMannequin(), set), 0.06);
+}
+
 TEST(RefineSetTest, SameBitsForAnyNumberOfThreads) {
   for (const bool enclose : {true, false}) {
     const RefineOptions options = WithPrimitives(50, enclose);
