@@ -25,7 +25,7 @@ constexpr double kLeastLoss = 1e-4;
 // An exchange gives up this share of all primitives.
 constexpr double kExchangeShare = 0.06;
 // So many exchanges in a row may fail before no more are tried.
-constexpr std::size_t kMostFailures = 3;
+constexpr std::size_t kMostFailures = 2;
 // Of the removals glanced at, how many are tried thoroughly.
 constexpr double kSpareThoroughShare = 0.35;
 // So often capsules are cut and all is settled again.

@@ -33,8 +33,8 @@ constexpr int kFewPrimitives = 80;  // up to here exchanges are quick
 // What a sphere or chain that hangs on nothing counts beside its primitives in a best fit: in one
 // piece is what users want, but it costs a twentieth to a tenth of the error.
 constexpr double kPieceCost = 0.35;
-constexpr int kExchangesOfFew = 8;
-constexpr int kExchangesOfMany = 3;
+constexpr int kExchangesOfFew = 6;
+constexpr int kExchangesOfMany = 2;
 constexpr int kMostSpared = 10;  // primitives that a start may have too many
 
 Spending SpendingOf(const circle::Budget& budget) {
