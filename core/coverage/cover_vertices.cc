@@ -122,9 +122,12 @@ class Coverer {
   double Volume() const { return VolumeOf(set_); }
 
   void Tighten() {
-    const SparsePoints coarse = MakeSparse(target_.points_m, AreaWeights(), kSparseSpacing * size_);
-    const std::vector<double> coarse_depths(coarse.points_m.size(), AllowedAtVertices());
-    RunPhase(kLoosePhase, PointGrid(coarse.points_m), coarse_depths, coarse.weights, /*seed=*/1);
+    if (options_.loosen) {
+      const SparsePoints coarse =
+          MakeSparse(target_.points_m, AreaWeights(), kSparseSpacing * size_);
+      const std::vector<double> coarse_depths(coarse.points_m.size(), AllowedAtVertices());
+      RunPhase(kLoosePhase, PointGrid(coarse.points_m), coarse_depths, coarse.weights, /*seed=*/1);
+    }
     std::vector<double> allowed(target_.points_m.size(), AllowedAtVertices());
     RunPhase(kTightPhase, grid_, allowed, {}, /*seed=*/101);
     // What sticks out between vertices shows only where the vertices are in, and asking for it

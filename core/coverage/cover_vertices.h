@@ -33,6 +33,9 @@ struct CoverOptions {
   // Fit centres and radii together for the least volume before growing (see tighten.h). Without, it
   // is the paper's own step, furthest point first.
   bool tighten = true;
+  // Whether tightening begins with points left out at a low price, which finds the shape anew. A
+  // set that has its shape already skips that.
+  bool loosen = true;
   // A set that tightening leaves larger than this times what it came with is compared with growing
   // it alone, and the smaller is kept. On sound layouts that do not enclose yet tightening has won
   // by far wherever the two were compared; 1 for a set that is nearly there already.

@@ -10,8 +10,8 @@
 #include "core/pipeline/engines.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
-#include "core/pipeline/tight_set.h"
 #include "core/pipeline/to_caller_frame.h"
+#include "core/refine/refine.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -183,7 +183,13 @@ class BodyFit {
       budget.max_spheres = budget.max_capsules + 1;
     }
     if (ComparesWithPaper()) alternative_ = std::move(set_);
-    set_ = TightSet(*body_, options_, budget, target_, pool_, observer_);
+    refine::RefineOptions refine_options;
+    refine_options.enclose = options_.fit == FitMode::kEnclose;
+    refine_options.budget = budget;
+    refine_options.tolerance_m = options_.tolerance_m;
+    refine_options.parts = options_.parts;
+    refine_options.seed = options_.seed;
+    set_ = refine::RefineSet(*body_, refine_options, pool_, observer_);
     return CheckCancelled(observer_);
   }
 
@@ -201,9 +207,12 @@ class BodyFit {
       max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
       return CheckCancelled(observer_);
     }
-    coverage::CoverReport report = Enclose(set_);
+    // A refined set has its shape, but for one whose spheres have just been made uniform.
+    const bool is_refined = options_.quality == Quality::kTight;
+    const bool is_uniform = Profile() == capsule::CapsuleProfile::kUniformRadius;
+    coverage::CoverReport report = Enclose(!is_refined || is_uniform, set_);
     if (alternative_.has_value()) {
-      const coverage::CoverReport other = Enclose(*alternative_);
+      const coverage::CoverReport other = Enclose(/*loosen=*/true, *alternative_);
       if (other.volume_m3 < report.volume_m3) {
         set_ = *std::move(alternative_);
         report = other;
@@ -214,9 +223,9 @@ class BodyFit {
     return CheckCancelled(observer_);
   }
 
-  coverage::CoverReport Enclose(capsule::PrimitiveSet& set) const {
+  coverage::CoverReport Enclose(bool loosen, capsule::PrimitiveSet& set) const {
     coverage::CoverOptions cover_options;
-    if (options_.quality == Quality::kTight) cover_options = CoverTight(options_);
+    cover_options.loosen = loosen;
     cover_options.tolerance_m = options_.tolerance_m;
     cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
     return coverage::CoverBody(target_, cover_options, pool_, observer_, set);

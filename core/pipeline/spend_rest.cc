@@ -58,8 +58,10 @@ void CutWithImage(std::size_t index, std::optional<std::size_t> image, Primitive
 
 }  // namespace
 
-void CutWherePromising(Spare spare, std::vector<double> promise, PrimitiveSet& set) {
+void SpendRest(Spare spare, PrimitiveSet& set) {
   constexpr double kShareOfHalf = 0.25;
+  std::vector<double> promise;
+  for (std::size_t i = 0; i < set.capsules.size(); ++i) promise.push_back(SideArea(set, i));
   for (;;) {
     const int cuts = std::min({spare.spheres, spare.capsules, spare.primitives / 2});
     std::optional<std::size_t> best;
@@ -82,12 +84,6 @@ void CutWherePromising(Spare spare, std::vector<double> promise, PrimitiveSet& s
     spare.capsules -= cost;
     spare.primitives -= 2 * cost;
   }
-}
-
-void SpendRest(Spare spare, PrimitiveSet& set) {
-  std::vector<double> surface;
-  for (std::size_t i = 0; i < set.capsules.size(); ++i) surface.push_back(SideArea(set, i));
-  CutWherePromising(spare, std::move(surface), set);
 }
 
 }  // namespace capfit::pipeline

@@ -13,8 +13,8 @@
 namespace capfit::refine {
 
 struct RefineOptions {
-  // True: every vertex of the selected parts is inside, and the triangles between them stick out
-  // by less than 1 mm. False: the smallest E_r.
+  // True: the selected parts are inside but for a little that coverage::CoverBody takes in, without
+  // loosening the set again. False: the smallest E_r.
   bool enclose = true;
   circle::Budget budget;     // at least 3 spheres' worth
   double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, 0.1]
@@ -23,12 +23,12 @@ struct RefineOptions {
 };
 
 // Finds centres, radii and topology together: hangs a layout on the body's bones, optimises it,
-// then grows or spares primitives where that pays most, up to the budget. A body whose
-// is_symmetric holds gets an exactly symmetric set; others are not forced. Any parts may be
-// missing. A best fit prefers capsules that hang together to lone spheres (one piece is worth a
+// then grows or spares primitives where that pays most, up to the budget, and exchanges some. A
+// body whose is_symmetric holds gets an exactly symmetric set; others are not forced. Any parts may
+// be missing. A best fit prefers capsules that hang together to lone spheres (one piece is worth a
 // third of a primitive) and leaves out no limb; beside the best of unconnected spheres that costs
 // about a twentieth of E_r. Same input, same bits, for any pool. On cancellation the set so far
-// comes back. 32 + 32 take about 0.1 s on two cores, n_p 128 0.4 s; grows with budget and vertices.
+// comes back. Grows with budget and vertices.
 [[nodiscard]] capsule::PrimitiveSet RefineSet(const body::Body& body, const RefineOptions& options,
                                               const ThreadPool& pool, const FitObserver& observer);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <span>
 #include <string>
 #include <vector>
@@ -111,6 +112,46 @@ TEST(TightQuality, SameBitsForAnyNumberOfThreads) {
       EXPECT_EQ(one.primitives.spheres[i].center_m, seven.primitives.spheres[i].center_m);
       EXPECT_EQ(one.primitives.spheres[i].radius_m, seven.primitives.spheres[i].radius_m);
     }
+  }
+}
+
+TEST(TightQuality, OneLimitAloneIsKeptAndUsed) {
+  const mesh::PolygonSoup soup = Person();
+  for (const FitMode fit : {FitMode::kEnclose, FitMode::kBestFit}) {
+    FitOptions options;
+    options.quality = Quality::kTight;
+    options.fit = fit;
+    options.max_spheres = 24;
+    const FitResult spheres = MustFit(soup, options);
+    EXPECT_LE(spheres.metrics.spheres, 24);
+    EXPECT_GE(spheres.metrics.spheres, 22);
+    options.max_spheres.reset();
+    options.max_capsules = 20;
+    const FitResult capsules = MustFit(soup, options);
+    EXPECT_LE(capsules.metrics.capsules, 20);
+    EXPECT_GE(capsules.metrics.capsules, 18);
+  }
+}
+
+// Says stop as soon as a stage has begun.
+class StopsIn final : public FitObserver {
+ public:
+  explicit StopsIn(Stage stage) : stage_(stage) {}
+  void OnStage(Stage stage, double) override { is_stopped_ = is_stopped_ || stage == stage_; }
+  [[nodiscard]] bool IsCancelled() const override { return is_stopped_; }
+
+ private:
+  Stage stage_;
+  std::atomic<bool> is_stopped_ = false;
+};
+
+TEST(TightQuality, CancellationEndsIt) {
+  const mesh::PolygonSoup soup = Person();
+  for (const FitMode fit : {FitMode::kEnclose, FitMode::kBestFit}) {
+    StopsIn observer(Stage::kRefine);
+    const absl::StatusOr<FitResult> result =
+        Fit(soup, Of(Quality::kTight, fit, 250), ThreadPool(2), observer);
+    EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled) << result.status();
   }
 }
 

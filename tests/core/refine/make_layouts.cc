@@ -24,8 +24,7 @@
 #include "core/mesh/prepare_mesh.h"
 #include "core/refine/best_fit_descent.h"
 #include "core/refine/best_fit_objective.h"
-#include "core/refine/enclosing_descent.h"
-#include "core/refine/enclosing_objective.h"
+#include "core/refine/enclosing_task.h"
 #include "core/refine/growth.h"
 #include "core/refine/internal.h"
 #include "core/refine/layout.h"
@@ -39,6 +38,7 @@ constexpr double kDistanceWeight = 0.1;
 constexpr double kDiagonalsPerHeight = 1.25;
 constexpr double kGridCellM = 0.010;
 constexpr double kThinnedM = 0.016;
+constexpr double kEnclosingSpacing = 0.02;  // of points, relative to the body's size
 
 struct Task {
   bool enclose = false;
@@ -53,7 +53,8 @@ struct Subject {
   body::Body body;
   OccupancyGrid grid;
   CoverPoints points;
-  std::unique_ptr<Objective> objective;
+  std::unique_ptr<Objective> objective;  // of the best fit
+  std::unique_ptr<EnclosingTask> enclosing;
 };
 
 struct Figure {
@@ -82,7 +83,7 @@ std::optional<Subject> MakeSubject(const Figure& figure, const Task& task) {
   body_options.unit = body::Unit::kMetre;
   auto found = body::FindBody(prepared->mesh, body_options, ThreadPool(1), NullObserver());
   if (!found.ok() || !found->is_symmetric) return std::nullopt;
-  Subject subject{*std::move(found), {}, {}, nullptr};
+  Subject subject{*std::move(found), {}, {}, nullptr, nullptr};
   body::PartSelection parts;
   parts.head = parts.hands = parts.feet = task.full;
   subject.grid = MakeOccupancyGrid(subject.body, parts, kGridCellM, true);
@@ -92,8 +93,8 @@ std::optional<Subject> MakeSubject(const Figure& figure, const Task& task) {
   }
   subject.points = MakeCoverPoints(ThinOut(points, kThinnedM));
   if (task.enclose) {
-    subject.objective =
-        std::make_unique<EnclosingObjective>(subject.points, subject.grid.volume_m3);
+    subject.enclosing = std::make_unique<EnclosingTask>(coverage::TargetOf(subject.body, parts),
+                                                        /*symmetric=*/true, 0.0, kEnclosingSpacing);
   } else {
     subject.objective = std::make_unique<BestFitObjective>(subject.grid, subject.points, 1);
   }
@@ -179,8 +180,11 @@ class Search {
     double sum = 0.0;
     for (std::size_t k = 0; k < graphs.size(); ++k) {
       const Subject& s = subjects_[k];
+      if (task_.enclose) {
+        sum += s.enclosing->Value(graphs[k], alone_) / s.grid.volume_m3 - 1.0;
+        continue;
+      }
       sum += s.objective->Value(graphs[k]);
-      if (task_.enclose) continue;
       const double mean_m =
           FindDeepest(s.points, ConesOf(graphs[k])).SumOutside() / s.points.size();
       // About half of the surface lies outside of a best fit.
@@ -193,14 +197,9 @@ class Search {
     for (std::size_t k = 0; k < graphs.size(); ++k) {
       const Subject& s = subjects_[k];
       if (task_.enclose) {
-        EnclosingOptions options;
-        options.penalty = 0.3;
-        options.reach_m = 2.0 * rate_m;
-        options.max_steps = steps / 20;
-        DescendEnclosing(s.points, s.grid.volume_m3, options, graphs[k]);
-        options = {};
-        options.max_steps = steps / 8;
-        DescendEnclosing(s.points, s.grid.volume_m3, options, graphs[k]);
+        const std::uint64_t seed = random_.NextBelow(1'000'000);
+        s.enclosing->FindShape(2 + steps / 10, 1.0, seed, alone_, observer_, graphs[k]);
+        s.enclosing->TakeIn(2 + steps / 50, seed, alone_, observer_, graphs[k]);
       } else {
         BestFitOptions options;
         options.steps = steps;
@@ -281,7 +280,10 @@ class Search {
       ApplyToAll(MakeEdit(edge ? EditKind::kUnlink : EditKind::kDissolve, i, -1), next);
       --left;
     }
-    const std::vector<Eigen::Vector3d> worst = subjects_[0].objective->WorstPoints(next[0], 24);
+    // Enclosing sets grow by cuts and ties alone.
+    const std::vector<Eigen::Vector3d> worst =
+        task_.enclose ? std::vector<Eigen::Vector3d>()
+                      : subjects_[0].objective->WorstPoints(next[0], 24);
     int added = 0;
     for (int i = 0; i < kMostTries; ++i) {
       const int room = task_.primitives - next[0].primitive_count();
@@ -329,6 +331,8 @@ class Search {
   const std::vector<Subject>& subjects_;
   Spending spending_{};
   Random random_;
+  const ThreadPool alone_{1};
+  const NullObserver observer_;
   Graphs best_;
   double best_value_ = std::numeric_limits<double>::max();
 };

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/body/find_body.h"
+#include "core/coverage/cover_vertices.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
 #include "core/refine/graph_edit.h"
@@ -76,7 +77,49 @@ double ErrorOf(const body::Body& body, const capsule::PrimitiveSet& set) {
 
 capsule::PrimitiveSet Refine(const body::Body& body, const RefineOptions& options,
                              int threads = 2) {
-  return RefineSet(body, options, ThreadPool(threads), NullObserver());
+  const ThreadPool pool(threads);
+  capsule::PrimitiveSet set = RefineSet(body, options, pool, NullObserver());
+  if (!options.enclose) return set;
+  coverage::CoverOptions cover;
+  cover.tolerance_m = options.tolerance_m;
+  cover.loosen = false;
+  const coverage::CoverTarget target = coverage::TargetOf(body, options.parts);
+  static_cast<void>(coverage::CoverBody(target, cover, pool, NullObserver(), set));
+  return set;
+}
+
+// Between what the search leaves outside and what has to be inside there is little.
+TEST(RefineSetTest, AnEnclosingSetIsNearlyOneBeforeCoverage) {
+  const RefineOptions options = WithSpheresAndCapsules(32, 32, true);
+  const capsule::PrimitiveSet set =
+      RefineSet(CutMannequin(), options, ThreadPool(2), NullObserver());
+  EXPECT_LT(FurthestVertex(CutMannequin(), set), 0.015);
+}
+
+TEST(RefineSetTest, MoreIsNotWorse) {
+  double last = 10.0;
+  for (const int count : {22, 32, 48, 64, 96}) {
+    const capsule::PrimitiveSet set = Refine(CutMannequin(), WithPrimitives(count, true));
+    EXPECT_LE(set.primitive_count(), count);
+    EXPECT_GE(set.primitive_count(), count - 4);
+    const double error = ErrorOf(CutMannequin(), set);
+    EXPECT_LT(error, 1.02 * last) << count;
+    last = error;
+  }
+}
+
+TEST(RefineSetTest, OneLimitAloneHolds) {
+  RefineOptions options = WithSpheresAndCapsules(24, 1'000'000, true);
+  options.budget = {};
+  options.budget.max_spheres = 24;
+  const capsule::PrimitiveSet spheres = Refine(CutMannequin(), options);
+  EXPECT_LE(spheres.spheres.size(), 24u);
+  EXPECT_GE(spheres.spheres.size(), 22u);
+  options.budget = {};
+  options.budget.max_capsules = 20;
+  const capsule::PrimitiveSet capsules = Refine(CutMannequin(), options);
+  EXPECT_LE(capsules.capsules.size(), 20u);
+  EXPECT_GE(capsules.capsules.size(), 18u);
 }
 
 void ExpectExactlyMirrored(const capsule::PrimitiveSet& set) {

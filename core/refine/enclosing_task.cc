@@ -1,0 +1,241 @@
+#include "core/refine/enclosing_task.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/coverage/set_variables.h"
+#include "core/coverage/sparse_points.h"
+#include "core/coverage/union_volume.h"
+#include "core/refine/internal.h"
+
+namespace capfit::refine {
+namespace {
+
+using geometry::TaperedCapsule;
+using Vec3 = Eigen::Vector3d;
+
+constexpr double kSampleSpacing = 0.012;  // of the volume's samples, relative to the body's size
+// What a cubic metre outside costs against one too much inside.
+constexpr double kOutsidePrice = 4.0;
+// Nobody grows further than this to make up for a capsule, relative to the body's size.
+constexpr double kFurthestGrowth = 0.045;
+
+constexpr coverage::TightenPhase kShapePhase{
+    .first_trust = 0.012, .last_trust = 0.003, .first_penalty = 1.6, .last_penalty = 16.0};
+constexpr coverage::TightenPhase kInsidePhase{
+    .first_trust = 0.004, .last_trust = 0.001, .first_penalty = 100.0, .last_penalty = 100.0};
+
+// The capsule that takes the place of a sphere with two; nothing for other spheres.
+std::vector<std::optional<TaperedCapsule>> BridgesOf(const CapsuleGraph& graph) {
+  std::vector<std::vector<int>> neighbours(graph.nodes.size());
+  for (const Edge& e : graph.edges) {
+    neighbours[U(e.a)].push_back(e.b);
+    neighbours[U(e.b)].push_back(e.a);
+  }
+  const auto sphere = [&graph](int v) {
+    return geometry::Sphere{graph.nodes[U(v)].center_m, graph.nodes[U(v)].radius_m};
+  };
+  std::vector<std::optional<TaperedCapsule>> bridges(graph.nodes.size());
+  for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
+    if (neighbours[v].size() != 2) continue;
+    bridges[v].emplace(sphere(neighbours[v][0]), sphere(neighbours[v][1]));
+  }
+  return bridges;
+}
+
+// Points against the solids of a graph: who covers each, and who would if that one were gone.
+class Weigher {
+ public:
+  Weigher(const CapsuleGraph& graph, double furthest_m)
+      : furthest_m_(furthest_m), bridges_(BridgesOf(graph)) {
+    capsule::PrimitiveSet set = SetOf(graph);
+    solids_ = coverage::SetVariables(set).solids();
+    shapes_ = coverage::ShapesOf(solids_, set);
+    worth_.edge_gap.assign(graph.edges.size(), 0.0);
+    worth_.edge_loss.assign(graph.edges.size(), 0.0);
+    worth_.node_loss.assign(graph.nodes.size(), 0.0);
+  }
+
+  // What comes next is about points near here.
+  void Approach(const Vec3& center, double reach_m) {
+    near_.clear();
+    std::vector<double> at_center(shapes_.size());
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      at_center[k] = shapes_[k].SignedDistance(center);
+      least = std::min(least, at_center[k]);
+    }
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      if (at_center[k] <= least + 2.0 * reach_m + furthest_m_) near_.push_back(k);
+    }
+    distances_.resize(near_.size());
+  }
+
+  void Add(const Vec3& point, double area_m2) {
+    std::size_t nearest = 0;
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      distances_[k] = shapes_[near_[k]].SignedDistance(point);
+      if (distances_[k] < distances_[nearest]) nearest = k;
+    }
+    const std::size_t solid = near_[nearest];
+    if (solid < worth_.edge_gap.size()) {
+      worth_.edge_gap[solid] += area_m2 * std::max(0.0, -distances_[nearest]);
+      worth_.edge_loss[solid] +=
+          area_m2 * MissingWithout([&](std::size_t k) { return k == solid; });
+    }
+    const std::array<int, 2> ends = solids_[solid].ends;
+    AddDissolved(ends[0], point, area_m2);
+    if (ends[1] != ends[0]) AddDissolved(ends[1], point, area_m2);
+  }
+
+  [[nodiscard]] const GraphWorth& worth() const { return worth_; }
+
+ private:
+  // How far the nearest of the others has to grow.
+  template <class IsGone>
+  [[nodiscard]] double MissingWithout(const IsGone& is_gone) const {
+    double least = furthest_m_;
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      if (!is_gone(near_[k])) least = std::min(least, distances_[k]);
+    }
+    return std::max(0.0, least);
+  }
+
+  void AddDissolved(int node, const Vec3& point, double area_m2) {
+    double missing = MissingWithout(
+        [&](std::size_t k) { return solids_[k].ends[0] == node || solids_[k].ends[1] == node; });
+    const std::optional<TaperedCapsule>& bridge = bridges_[U(node)];
+    if (missing > 0.0 && bridge) {
+      missing = std::clamp(bridge->SignedDistance(point), 0.0, missing);
+    }
+    worth_.node_loss[U(node)] += area_m2 * missing;
+  }
+
+  double furthest_m_;
+  std::vector<std::optional<TaperedCapsule>> bridges_;  // by node
+  std::vector<coverage::Solid> solids_;
+  std::vector<TaperedCapsule> shapes_;
+  std::vector<std::size_t> near_;
+  std::vector<double> distances_;
+  GraphWorth worth_;
+};
+
+// Both of a pair get what the two have together.
+void AddUpPairs(const CapsuleGraph& graph, GraphWorth& worth) {
+  if (!graph.symmetric) return;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const std::size_t image = U(graph.edges[e].mirror);
+    if (image <= e) continue;
+    worth.edge_gap[e] = worth.edge_gap[image] = worth.edge_gap[e] + worth.edge_gap[image];
+    worth.edge_loss[e] = worth.edge_loss[image] = worth.edge_loss[e] + worth.edge_loss[image];
+  }
+  for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
+    const std::size_t image = U(graph.nodes[v].mirror);
+    if (image <= v) continue;
+    worth.node_loss[v] = worth.node_loss[image] = worth.node_loss[v] + worth.node_loss[image];
+  }
+}
+
+}  // namespace
+
+EnclosingTask::Thinned EnclosingTask::Thin(const coverage::CoverTarget& target, bool symmetric,
+                                           double spacing) {
+  std::vector<double> areas(target.points_m.size(), 0.0);
+  double area = 0.0;
+  for (const mesh::Triangle& t : target.triangles) {
+    const Vec3& a = target.points_m[t[0]];
+    const double twice = (target.points_m[t[1]] - a).cross(target.points_m[t[2]] - a).norm();
+    for (const std::uint32_t corner : t) areas[corner] += twice / 6.0;
+    area += 0.5 * twice;
+  }
+  std::vector<Vec3> points = target.points_m;
+  if (symmetric) {
+    for (Vec3& p : points) p.x() = std::abs(p.x());
+  }
+  Thinned thinned;
+  thinned.size_m = std::max(std::sqrt(area), 1e-6);
+  coverage::SparsePoints sparse = coverage::MakeSparse(points, areas, spacing * thinned.size_m);
+  thinned.points_m = std::move(sparse.points_m);
+  thinned.areas_m2 = std::move(sparse.weights);
+  return thinned;
+}
+
+EnclosingTask::EnclosingTask(const coverage::CoverTarget& target, bool symmetric,
+                             double tolerance_m, double spacing)
+    : EnclosingTask(Thin(target, symmetric, spacing), tolerance_m) {}
+
+EnclosingTask::EnclosingTask(Thinned thinned, double tolerance_m)
+    : size_m_(thinned.size_m),
+      areas_m2_(std::move(thinned.areas_m2)),
+      allowed_m_(thinned.points_m.size(), tolerance_m),
+      grid_(thinned.points_m) {}
+
+void EnclosingTask::Settle(const coverage::TightenPhase& phase, std::uint64_t seed,
+                           const ThreadPool& pool, const FitObserver& observer,
+                           CapsuleGraph& graph) const {
+  capsule::PrimitiveSet set = SetOf(graph);
+  coverage::Tighten(grid_, allowed_m_, areas_m2_, size_m_, phase, seed, pool, observer, set);
+  for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
+    graph.nodes[v].center_m = set.spheres[v].center_m;
+    graph.nodes[v].radius_m = set.spheres[v].radius_m;
+  }
+}
+
+void EnclosingTask::FindShape(int steps, double looseness, std::uint64_t seed,
+                              const ThreadPool& pool, const FitObserver& observer,
+                              CapsuleGraph& graph) const {
+  coverage::TightenPhase phase = kShapePhase;
+  phase.first_penalty /= looseness;
+  phase.steps = steps;
+  Settle(phase, seed, pool, observer, graph);
+}
+
+void EnclosingTask::TakeIn(int steps, std::uint64_t seed, const ThreadPool& pool,
+                           const FitObserver& observer, CapsuleGraph& graph) const {
+  coverage::TightenPhase phase = kInsidePhase;
+  phase.steps = steps;
+  Settle(phase, seed, pool, observer, graph);
+}
+
+double EnclosingTask::Value(const CapsuleGraph& graph, const ThreadPool& pool) const {
+  capsule::PrimitiveSet set = SetOf(graph);
+  const std::vector<coverage::Solid> solids = coverage::SetVariables(set).solids();
+  const coverage::UnionDistances at =
+      grid_.DistancesTo(coverage::ShapesOf(solids, set), -kFurthestGrowth * size_m_, pool);
+  double outside = 0.0;
+  for (std::size_t i = 0; i < grid_.size(); ++i) {
+    const std::uint32_t point = grid_.order()[i];
+    outside += areas_m2_[point] * std::max(0.0, at.distance_m[i] - allowed_m_[point]);
+  }
+  const double spacing_m = kSampleSpacing * size_m_;
+  return coverage::UnionVolumeGradient(set, solids, spacing_m, /*seed=*/7, pool).volume_m3 +
+         kOutsidePrice * outside;
+}
+
+GraphWorth EnclosingTask::Weigh(const CapsuleGraph& graph) const {
+  Weigher weigher(graph, kFurthestGrowth * size_m_);
+  for (const coverage::PointGrid::Block& block : grid_.blocks()) {
+    weigher.Approach(block.center, block.reach);
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+      weigher.Add(grid_.point(i), areas_m2_[grid_.order()[i]]);
+    }
+  }
+  GraphWorth worth = weigher.worth();
+  AddUpPairs(graph, worth);
+  return worth;
+}
+
+capsule::PrimitiveSet SetOf(const CapsuleGraph& graph) {
+  capsule::PrimitiveSet set;
+  for (const Node& node : graph.nodes) {
+    set.spheres.push_back({node.center_m, node.radius_m});
+    set.origins.push_back({body::Part::kTorso, -1, node.mirror});
+  }
+  for (const Edge& edge : graph.edges) set.capsules.push_back({edge.a, edge.b});
+  return set;
+}
+
+}  // namespace capfit::refine

@@ -1,0 +1,26 @@
+// What a search starts from: the stored layouts that come near to a budget.
+#ifndef CAPFIT_CORE_REFINE_STARTING_GRAPHS_H_
+#define CAPFIT_CORE_REFINE_STARTING_GRAPHS_H_
+
+#include <vector>
+
+#include "core/body/body.h"
+#include "core/refine/capsule_graph.h"
+#include "core/refine/growth.h"
+#include "core/refine/layout.h"
+
+namespace capfit::refine {
+
+// By how many primitives the graph is beyond the spending; 0 when it fits.
+[[nodiscard]] int Excess(const Spending& spending, const CapsuleGraph& graph);
+
+// At least one graph: the largest layout of the guise that fits the spending, and the next one
+// beyond where no more than `most_spared` primitives of it have to go. Layouts with spheres for
+// head, hands and feet where any of these parts is selected and present.
+[[nodiscard]] std::vector<CapsuleGraph> StartingGraphs(Guise guise, const body::Body& body,
+                                                       const body::PartSelection& parts,
+                                                       const Spending& spending, int most_spared);
+
+}  // namespace capfit::refine
+
+#endif  // CAPFIT_CORE_REFINE_STARTING_GRAPHS_H_
