@@ -23,9 +23,6 @@ constexpr double kSteepnessReach = 0.05;  // capsules this near to the limit get
 constexpr double kSteepnessPenalty = 100.0;
 // Points deeper than this many trust regions cannot get out in one step: both ends move and grow.
 constexpr double kDepthOfInterest = 1.5;
-// Far better than their rows are true: where a programme is left unfinished, the number of
-// iterations decides, and vertices moved by a millionth can change it.
-constexpr double kRelativeGap = 1e-8;
 // Added curvature, in volumes per body size squared: keeps idle variables where they are.
 constexpr double kIdleCurvature = 1e-3;
 
@@ -47,7 +44,7 @@ class Tightener {
         set_(set),
         variables_(set) {}
 
-  void Step(double trust_m, double penalty, bool uniform_radius, std::uint64_t seed) {
+  void Step(double trust_m, double penalty, const TightenPhase& phase, std::uint64_t seed) {
     shapes_ = ShapesOf(variables_.solids(), set_);
     distances_ = points_.DistancesTo(shapes_, -kDepthOfInterest * trust_m, pool_);
     PenaltyProgram program;
@@ -55,12 +52,12 @@ class Tightener {
     AddBounds(trust_m, program);
     AddPointRows(kDepthOfInterest * trust_m, program);
     SetPenalties(penalty, program);
-    if (uniform_radius) {
+    if (phase.uniform_radius) {
       AddUniformRows(program);
     } else {
       AddSteepnessRows(program);
     }
-    const Eigen::VectorXd change = Solve(program, kRelativeGap);
+    const Eigen::VectorXd change = Solve(program, phase.relative_gap);
     if (change.allFinite()) variables_.Apply(change, set_);
   }
 
@@ -197,8 +194,7 @@ void Tighten(const PointGrid& points, std::span<const double> allowed_m,
   for (int i = 0; i < phase.steps && !observer.IsCancelled(); ++i) {
     const double trust = Between(phase.first_trust, phase.last_trust, i, phase.steps);
     const double penalty = Between(phase.first_penalty, phase.last_penalty, i, phase.steps);
-    tightener.Step(trust * body_size_m, penalty, phase.uniform_radius,
-                   seed + static_cast<std::uint64_t>(i));
+    tightener.Step(trust * body_size_m, penalty, phase, seed + static_cast<std::uint64_t>(i));
   }
 }
 

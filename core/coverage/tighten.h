@@ -26,6 +26,10 @@ struct TightenPhase {
   // must be inside.
   double first_penalty = 3.0;
   double last_penalty = 3.0;
+  // Each step's programme is solved to this share of what it wins: by default far better than its
+  // rows are true. Where it is left unfinished the number of iterations decides, and vertices moved
+  // by a millionth can change that; trials that are only compared may take hundredths.
+  double relative_gap = 1e-8;
   // Pulls the two radii of each capsule together, at a price: nearly equal, not exactly.
   bool uniform_radius = false;
 };

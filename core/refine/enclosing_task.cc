@@ -23,10 +23,17 @@ constexpr double kOutsidePrice = 4.0;
 // Nobody grows further than this to make up for a capsule, relative to the body's size.
 constexpr double kFurthestGrowth = 0.045;
 
-constexpr coverage::TightenPhase kShapePhase{
-    .first_trust = 0.012, .last_trust = 0.003, .first_penalty = 1.6, .last_penalty = 16.0};
-constexpr coverage::TightenPhase kInsidePhase{
-    .first_trust = 0.004, .last_trust = 0.001, .first_penalty = 100.0, .last_penalty = 100.0};
+constexpr double kTrialGap = 0.03;  // graphs are compared here, not finished
+constexpr coverage::TightenPhase kShapePhase{.first_trust = 0.012,
+                                             .last_trust = 0.003,
+                                             .first_penalty = 1.6,
+                                             .last_penalty = 16.0,
+                                             .relative_gap = kTrialGap};
+constexpr coverage::TightenPhase kInsidePhase{.first_trust = 0.004,
+                                              .last_trust = 0.001,
+                                              .first_penalty = 100.0,
+                                              .last_penalty = 100.0,
+                                              .relative_gap = kTrialGap};
 
 // The capsule that takes the place of a sphere with two; nothing for other spheres.
 std::vector<std::optional<TaperedCapsule>> BridgesOf(const CapsuleGraph& graph) {

@@ -32,7 +32,7 @@ constexpr int kFewPrimitives = 80;  // up to here exchanges are quick
 // What a sphere or chain that hangs on nothing counts beside its primitives in a best fit: in one
 // piece is what users want, but it costs a twentieth to a tenth of the error.
 constexpr double kPieceCost = 0.35;
-constexpr int kExchangesOfFew = 6;
+constexpr int kExchangesOfFew = 5;
 constexpr int kExchangesOfMany = 2;
 constexpr int kMostSpared = 10;  // primitives that a start of the best fit may have too many
 // Points of the enclosing search are this far apart over the root of the number of primitives,
