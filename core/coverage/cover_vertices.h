@@ -36,10 +36,6 @@ struct CoverOptions {
   // Whether tightening begins with points left out at a low price, which finds the shape anew. A
   // set that has its shape already skips that.
   bool loosen = true;
-  // A set that tightening leaves larger than this times what it came with is compared with growing
-  // it alone, and the smaller is kept. On sound layouts that do not enclose yet tightening has won
-  // by far wherever the two were compared; 1 for a set that is nearly there already.
-  double suspect_growth = 1.25;
   // Both ends of a capsule end up with one radius. Capsules must not share spheres then (see
   // capsule::WithUniformRadii).
   bool uniform_radius = false;

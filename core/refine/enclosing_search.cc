@@ -50,14 +50,6 @@ bool IsPair(const CapsuleGraph& graph, int index, int image) {
   return graph.symmetric && image != index;
 }
 
-Edit EditOf(EditKind kind, int first, int second = -1) {
-  Edit edit;
-  edit.kind = kind;
-  edit.first = first;
-  edit.second = second;
-  return edit;
-}
-
 struct Removal {
   double loss_per_primitive = 0.0;
   Edit edit;

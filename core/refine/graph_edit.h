@@ -28,6 +28,11 @@ struct Edit {
   double radius_m = 0.0;
 };
 
+// An edit that names what it touches and no place.
+[[nodiscard]] inline Edit EditOf(EditKind kind, int first, int second = -1) {
+  return {kind, first, second, Eigen::Vector3d::Zero(), 0.0};
+}
+
 struct EditedGraph {
   CapsuleGraph graph;
   std::vector<int> touched;         // nodes of `graph` whose surroundings changed

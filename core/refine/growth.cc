@@ -33,14 +33,6 @@ constexpr int kCuttingRounds = 3;
 // A round spends at least this share of what is there already.
 constexpr double kLeastBatchShare = 0.05;
 
-Edit Simple(EditKind kind, int first, int second) {
-  Edit edit;
-  edit.kind = kind;
-  edit.first = first;
-  edit.second = second;
-  return edit;
-}
-
 struct Candidate {
   Edit edit;
   EditedGraph result;
@@ -85,7 +77,7 @@ void ProposeLinks(const CapsuleGraph& graph, std::vector<Edit>& edits) {
       if (graph.symmetric && std::minmax(a.mirror, b.mirror) < std::minmax(i, j)) continue;
       const double reach = kLinkReach * (a.radius_m + b.radius_m);
       if ((a.center_m - b.center_m).norm() > reach || graph.HasEdge(i, j)) continue;
-      edits.push_back(Simple(EditKind::kLink, i, j));
+      edits.push_back(EditOf(EditKind::kLink, i, j));
     }
   }
 }
@@ -94,15 +86,13 @@ std::vector<Edit> Additions(const Objective& objective, const GrowthOptions& opt
                             const CapsuleGraph& graph) {
   std::vector<Edit> edits;
   for (int e = 0; e < graph.capsule_count(); ++e) {
-    if (graph.IsEdgeRepresentative(e)) edits.push_back(Simple(EditKind::kSplit, e, -1));
+    if (graph.IsEdgeRepresentative(e)) edits.push_back(EditOf(EditKind::kSplit, e));
   }
-  if (options.links) {
-    ProposeLinks(graph, edits);
-    for (int v = 0; v < graph.sphere_count(); ++v) {
-      if (!graph.IsOnPlane(v)) continue;
-      edits.push_back(Simple(EditKind::kPart, v, 0));
-      edits.push_back(Simple(EditKind::kPart, v, 1));
-    }
+  ProposeLinks(graph, edits);
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (!graph.IsOnPlane(v)) continue;
+    edits.push_back(EditOf(EditKind::kPart, v, 0));
+    edits.push_back(EditOf(EditKind::kPart, v, 1));
   }
   for (const Eigen::Vector3d& p : objective.WorstPoints(graph, options.worst_points)) {
     const std::vector<Edit> leaves = LeavesAt(graph, p);
@@ -119,10 +109,10 @@ std::vector<Edit> Additions(const Objective& objective, const GrowthOptions& opt
 std::vector<Edit> Removals(const CapsuleGraph& graph) {
   std::vector<Edit> edits;
   for (int e = 0; e < graph.capsule_count(); ++e) {
-    if (graph.IsEdgeRepresentative(e)) edits.push_back(Simple(EditKind::kUnlink, e, -1));
+    if (graph.IsEdgeRepresentative(e)) edits.push_back(EditOf(EditKind::kUnlink, e));
   }
   for (int v = 0; v < graph.sphere_count(); ++v) {
-    if (graph.IsNodeRepresentative(v)) edits.push_back(Simple(EditKind::kDissolve, v, -1));
+    if (graph.IsNodeRepresentative(v)) edits.push_back(EditOf(EditKind::kDissolve, v));
   }
   return edits;
 }
@@ -337,7 +327,7 @@ CapsuleGraph CutLargest(const Spending& spending, CapsuleGraph graph) {
       if (graph.IsEdgeRepresentative(e) && is_larger) largest = e;
     }
     if (largest < 0) return graph;
-    EditedGraph cut = Apply(graph, Simple(EditKind::kSplit, largest, -1));
+    EditedGraph cut = Apply(graph, EditOf(EditKind::kSplit, largest));
     if (!cut.possible || !spending.Allows(cut.graph)) return graph;
     graph = std::move(cut.graph);
   }

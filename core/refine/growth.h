@@ -26,7 +26,6 @@ struct GrowthOptions {
   double batch_share = 0.4;      // of the room left, spent in one round (at least one edit)
   double thorough_share = 0.35;  // of the edits glanced at, how many are tried in earnest
   int exchanges = 0;             // rounds that give up the least and spend it elsewhere
-  bool links = true;             // try new capsules between spheres that nearly touch
   // What each further piece of the graph counts, in primitives: sets in one piece are preferred.
   double piece_cost = 0.0;
 };

@@ -8,18 +8,10 @@
 namespace capfit::refine {
 namespace {
 
-Edit MakeEdit(EditKind kind, int first, int second = -1) {
-  Edit edit;
-  edit.kind = kind;
-  edit.first = first;
-  edit.second = second;
-  return edit;
-}
-
 TEST(GraphEditTest, SplittingChangesNoShape) {
   const CapsuleGraph before = LeggedGraph(true);
   for (int e = 0; e < before.capsule_count(); ++e) {
-    const EditedGraph after = Apply(before, MakeEdit(EditKind::kSplit, e));
+    const EditedGraph after = Apply(before, EditOf(EditKind::kSplit, e));
     ASSERT_TRUE(after.possible);
     Random random(5);
     for (int i = 0; i < 200; ++i) {
@@ -39,8 +31,8 @@ TEST(GraphEditTest, AnySequenceOfEditsKeepsTheMirror) {
     const bool of_edge = kind == EditKind::kSplit || kind == EditKind::kUnlink;
     const auto count = of_edge ? graph.edges.size() : graph.nodes.size();
     if (count == 0) continue;
-    Edit edit = MakeEdit(kind, static_cast<int>(random.NextBelow(count)),
-                         static_cast<int>(random.NextBelow(graph.nodes.size())));
+    Edit edit = EditOf(kind, static_cast<int>(random.NextBelow(count)),
+                       static_cast<int>(random.NextBelow(graph.nodes.size())));
     edit.center_m = RandomPoint(random);
     edit.radius_m = random.NextIn(0.01, 0.1);
     const EditedGraph after = Apply(graph, edit);
@@ -54,7 +46,7 @@ TEST(GraphEditTest, AnySequenceOfEditsKeepsTheMirror) {
 }
 
 TEST(GraphEditTest, PartingTiesEachSideToItsOwn) {
-  const EditedGraph after = Apply(LeggedGraph(true), MakeEdit(EditKind::kPart, 1, 0));
+  const EditedGraph after = Apply(LeggedGraph(true), EditOf(EditKind::kPart, 1, 0));
   ASSERT_TRUE(after.possible);
   EXPECT_EQ(after.graph.sphere_count(), 7);
   EXPECT_EQ(after.graph.capsule_count(), 6);  // chest twice, hips once each, two legs
@@ -62,11 +54,11 @@ TEST(GraphEditTest, PartingTiesEachSideToItsOwn) {
 }
 
 TEST(GraphEditTest, DissolvingTiesTheNeighbours) {
-  const EditedGraph after = Apply(LeggedGraph(true), MakeEdit(EditKind::kDissolve, 2));
+  const EditedGraph after = Apply(LeggedGraph(true), EditOf(EditKind::kDissolve, 2));
   ASSERT_TRUE(after.possible);
   EXPECT_EQ(after.graph.sphere_count(), 4);
   EXPECT_EQ(after.graph.capsule_count(), 3);
-  EXPECT_FALSE(Apply(LeggedGraph(true), MakeEdit(EditKind::kDissolve, 1)).possible)
+  EXPECT_FALSE(Apply(LeggedGraph(true), EditOf(EditKind::kDissolve, 1)).possible)
       << "the belly joins three capsules";
 }
 
