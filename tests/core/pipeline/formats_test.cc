@@ -104,10 +104,11 @@ TEST(Formats, TheSameNumbersGiveTheSameFitInEveryFormat) {
   }
 }
 
-// Floats round vertices by a tenth of a micrometre, and the fit follows them smoothly. Text rounded
-// to five digits moves them by up to 5 um, 3e-6 of the height, and the STL of the muscular body and
-// the exporter's OBJ have other diagonals: here the fit is as good, the landmarks stay where they
-// are, but coverage may settle elsewhere.
+// Floats round vertices by a tenth of a micrometre, and the fit follows them smoothly, a few hundred
+// times as far: 0.01 to 0.03 mm, depending on the compiler's flags, where a fit that settles
+// elsewhere is millimetres away. Text rounded to five digits moves them by up to 5 um, 3e-6 of the
+// height, and the STL of the muscular body and the exporter's OBJ have other diagonals: here the fit
+// is as good, the landmarks stay where they are, but coverage may settle elsewhere.
 TEST(Formats, OtherDigitsOrDiagonalsGiveAsGoodAFit) {
   CAPFIT_REQUIRE_BODIES();
   struct Twin {
@@ -121,7 +122,7 @@ TEST(Formats, OtherDigitsOrDiagonalsGiveAsGoodAFit) {
         Twin{"formats/male_muscular_quads_big_endian_double.ply", "male_muscular_rest.obj", 0.1,
              HUGE_VAL},
         Twin{"formats/male_muscular_under_nodes.glb",
-             "formats/male_muscular_quads_big_endian_double.ply", 1e-3, 0.02},
+             "formats/male_muscular_quads_big_endian_double.ply", 1e-3, 0.1},
         Twin{"formats/male_muscular.stl", "formats/male_muscular_quads_big_endian_double.ply", 1.0,
              HUGE_VAL},
         Twin{"formats/female_average_5k_exporter_style.obj", "formats/female_average_5k_ascii.ply",
