@@ -104,11 +104,11 @@ TEST(Formats, TheSameNumbersGiveTheSameFitInEveryFormat) {
   }
 }
 
-// Floats round vertices by a tenth of a micrometre, and the fit follows them smoothly, a few hundred
-// times as far: 0.01 to 0.03 mm, depending on the compiler's flags, where a fit that settles
-// elsewhere is millimetres away. Text rounded to five digits moves them by up to 5 um, 3e-6 of the
-// height, and the STL of the muscular body and the exporter's OBJ have other diagonals: here the fit
-// is as good, the landmarks stay where they are, but coverage may settle elsewhere.
+// Floats round vertices by a tenth of a micrometre, and the fit follows them smoothly, a few
+// hundred times as far: 0.01 to 0.03 mm, depending on the compiler's flags, where a fit that
+// settles elsewhere is millimetres away. Text rounded to five digits moves them by up to 5 um, 3e-6
+// of the height, and the STL of the muscular body and the exporter's OBJ have other diagonals: here
+// the fit is as good, the landmarks stay where they are, but coverage may settle elsewhere.
 TEST(Formats, OtherDigitsOrDiagonalsGiveAsGoodAFit) {
   CAPFIT_REQUIRE_BODIES();
   struct Twin {
