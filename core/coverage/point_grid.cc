@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/coverage/distance_kernel.h"
+
 namespace capfit::coverage {
 namespace {
 
@@ -57,44 +59,11 @@ Grid MakeGrid(std::span<const Eigen::Vector3d> points) {
   return grid;
 }
 
-// A solid as the inner loop wants it: nearest sphere centre a + t * L * u, radius ra + t * dr.
-struct Kernel {
-  explicit Kernel(const TaperedCapsule& capsule) {
-    const bool b_only = capsule.IsSphere() && capsule.b().radius_m > capsule.a().radius_m;
-    const geometry::Sphere& first = b_only ? capsule.b() : capsule.a();
-    ax = first.center_m.x();
-    ay = first.center_m.y();
-    az = first.center_m.z();
-    ra = first.radius_m;
-    ux = capsule.axis().x();
-    uy = capsule.axis().y();
-    uz = capsule.axis().z();
-    if (capsule.IsSphere()) return;
-    length = capsule.length_m();
-    inverse_length = 1.0 / length;
-    slope = capsule.sin_half_angle() / capsule.cos_half_angle();
-    dr = capsule.b().radius_m - capsule.a().radius_m;
-  }
-  double ax = 0, ay = 0, az = 0, ux = 1, uy = 0, uz = 0;
-  double ra = 0, dr = 0, length = 0, inverse_length = 0, slope = 0;
-};
-
 // Lowers `best` and sets `index` where `kernel` is nearer. Free of branches, so that it vectorises.
-void Lower(const Kernel& k, double own_index, const double* x, const double* y, const double* z,
-           int count, double* best, double* index) {
+void Lower(const DistanceKernel& kernel, double own_index, const double* x, const double* y,
+           const double* z, int count, double* best, double* index) {
   for (int i = 0; i < count; ++i) {
-    const double dx = x[i] - k.ax;
-    const double dy = y[i] - k.ay;
-    const double dz = z[i] - k.az;
-    const double axial = dx * k.ux + dy * k.uy + dz * k.uz;
-    const double rest = dx * dx + dy * dy + dz * dz - axial * axial;
-    const double squared = rest > 0.0 ? rest : 0.0;
-    const double radial = std::sqrt(squared);
-    double t = (axial - radial * k.slope) * k.inverse_length;
-    t = t > 0.0 ? t : 0.0;
-    t = t < 1.0 ? t : 1.0;
-    const double off = axial - t * k.length;
-    const double distance = std::sqrt(squared + off * off) - (k.ra + t * k.dr);
+    const double distance = kernel.SignedDistance(x[i], y[i], z[i]);
     index[i] = distance < best[i] ? own_index : index[i];
     best[i] = distance < best[i] ? distance : best[i];
   }
@@ -149,7 +118,7 @@ UnionDistances PointGrid::DistancesTo(const std::vector<TaperedCapsule>& solids,
   UnionDistances result;
   result.distance_m.assign(size(), std::numeric_limits<double>::infinity());
   result.solid.assign(size(), -1);
-  const std::vector<Kernel> kernels(solids.begin(), solids.end());
+  const std::vector<DistanceKernel> kernels(solids.begin(), solids.end());
   pool.ForChunks(blocks_.size(), 32, [&](std::size_t first, std::size_t last) {
     std::vector<double> at_center(solids.size());
     std::array<double, kMaxBlock> index{};

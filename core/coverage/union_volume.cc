@@ -1,10 +1,14 @@
 #include "core/coverage/union_volume.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "core/base/random.h"
+#include "core/coverage/distance_kernel.h"
 
 namespace capfit::coverage {
 namespace {
@@ -32,6 +36,84 @@ struct Share {
   double moment = 0.0;  // integral of (point - origin) . normal
 };
 
+// Cosine and sine of angles in equal steps.
+struct Turner {
+  Turner(double first, double step)
+      : cosine(std::cos(first)), sine(std::sin(first)), c(std::cos(step)), s(std::sin(step)) {}
+  void Next() {
+    const double old = cosine;
+    cosine = old * c - sine * s;
+    sine = old * s + sine * c;
+  }
+  double cosine, sine, c, s;
+};
+
+// Samples of the surface, their coordinates apart for the loops over them.
+struct Samples {
+  static constexpr int kMost = 64;
+  int count = 0;
+  std::array<double, kMost> x, y, z, nx, ny, nz, area;
+
+  [[nodiscard]] bool IsFull() const { return count == kMost; }
+  void Add(const Eigen::Vector3d& normal, const Eigen::Vector3d& center, double radius,
+           double own_area) {
+    const auto i = static_cast<std::size_t>(count++);
+    nx[i] = normal.x(), ny[i] = normal.y(), nz[i] = normal.z();
+    x[i] = center.x() + radius * normal.x();
+    y[i] = center.y() + radius * normal.y();
+    z[i] = center.z() + radius * normal.z();
+    area[i] = own_area;
+  }
+};
+
+// Which sphere and which solid is the mirror image of each. Where the whole set is its own image,
+// half of it tells all.
+struct Images {
+  Images(const capsule::PrimitiveSet& set, const std::vector<Solid>& solids)
+      : sphere(set.spheres.size()), solid(solids.size()) {
+    std::iota(sphere.begin(), sphere.end(), std::size_t{0});
+    std::iota(solid.begin(), solid.end(), std::size_t{0});
+    if (!FindAll(set, solids)) {
+      std::iota(sphere.begin(), sphere.end(), std::size_t{0});
+      std::iota(solid.begin(), solid.end(), std::size_t{0});
+    }
+  }
+
+  std::vector<std::size_t> sphere;
+  std::vector<std::size_t> solid;
+
+ private:
+  bool FindAll(const capsule::PrimitiveSet& set, const std::vector<Solid>& solids) {
+    for (std::size_t i = 0; i < sphere.size(); ++i) {
+      const int image = set.origins[i].mirror;
+      if (image < 0) return false;
+      sphere[i] = static_cast<std::size_t>(image);
+      const Sphere& a = set.spheres[i];
+      const Sphere& b = set.spheres[sphere[i]];
+      if (a.radius_m != b.radius_m || a.center_m.x() != -b.center_m.x() ||
+          a.center_m.tail<2>() != b.center_m.tail<2>()) {
+        return false;
+      }
+    }
+    std::vector<std::pair<std::array<int, 2>, std::size_t>> by_ends;
+    for (std::size_t k = 0; k < solid.size(); ++k) by_ends.emplace_back(solids[k].ends, k);
+    std::sort(by_ends.begin(), by_ends.end());
+    for (std::size_t k = 0; k < solid.size(); ++k) {
+      std::array<int, 2> ends{};
+      for (std::size_t e = 0; e < 2; ++e) {
+        ends[e] = set.origins[static_cast<std::size_t>(solids[k].ends[e])].mirror;
+      }
+      std::sort(ends.begin(), ends.end());
+      const auto found =
+          std::lower_bound(by_ends.begin(), by_ends.end(), std::pair(ends, k),
+                           [](const auto& x, const auto& y) { return x.first < y.first; });
+      if (found == by_ends.end() || found->first != ends) return false;
+      solid[k] = found->second;
+    }
+    return true;
+  }
+};
+
 class Sampler {
  public:
   Sampler(const capsule::PrimitiveSet& set, const std::vector<Solid>& solids, double spacing_m,
@@ -39,8 +121,10 @@ class Sampler {
       : set_(set),
         solids_(solids),
         shapes_(ShapesOf(solids, set)),
+        kernels_(shapes_.begin(), shapes_.end()),
         spacing_(spacing_m),
         fade_(kFade * spacing_m),
+        half_over_fade_(0.5 / fade_),
         seed_(seed) {
     for (const Sphere& sphere : set.spheres) origin_ += sphere.center_m;
     if (!set.spheres.empty()) origin_ /= static_cast<double>(set.spheres.size());
@@ -51,9 +135,9 @@ class Sampler {
     const TaperedCapsule& capsule = shapes_[index];
     if (capsule.IsSphere()) return share;
     Random random(seed_ ^ (index * 0x9E3779B9u));
-    const std::vector<const TaperedCapsule*> others = Neighbours(
+    const std::vector<std::size_t> others = Neighbours(
         0.5 * (capsule.a().center_m + capsule.b().center_m),
-        0.5 * capsule.length_m() + std::max(capsule.a().radius_m, capsule.b().radius_m), &capsule);
+        0.5 * capsule.length_m() + std::max(capsule.a().radius_m, capsule.b().radius_m), index);
     const double slant_length = capsule.length_m() * capsule.cos_half_angle();
     const int rings = CountFor(slant_length, spacing_, kMinRings);
     for (int ring = 0; ring < rings; ++ring) {
@@ -71,42 +155,59 @@ class Sampler {
     const double area = 4.0 * std::numbers::pi * sphere.radius_m * sphere.radius_m;
     const int count = CountFor(area, spacing_ * spacing_, kMinSpherePoints);
     Random random(seed_ ^ (~index * 0x9E3779B9u));
-    const double turn = random.NextUnit();
-    for (int i = 0; i < count; ++i) {
+    Turner turner(2.0 * std::numbers::pi * random.NextUnit(),
+                  2.0 * std::numbers::pi / std::numbers::phi);
+    Samples samples;
+    for (int i = 0; i < count; ++i, turner.Next()) {
       const double z = 1.0 - 2.0 * (i + 0.5) / count;
-      const double angle = 2.0 * std::numbers::pi * (i / std::numbers::phi + turn);
       const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
-      const Eigen::Vector3d normal(r * std::cos(angle), r * std::sin(angle), z);
-      double seen = 1.0;
-      for (const Cut& cut : around.cuts) {
-        seen *= Seen(sphere.radius_m * (cut.sine - normal.dot(cut.axis)));
-      }
-      if (seen == 0.0) continue;
-      Add(sphere.center_m + sphere.radius_m * normal, normal, seen * area / count, 0.0,
-          around.others, share);
+      samples.Add({r * turner.cosine, r * turner.sine, z}, sphere.center_m, sphere.radius_m,
+                  area / count);
+      if (!samples.IsFull() && i + 1 < count) continue;
+      for (const Cut& cut : around.cuts) Hide(cut, sphere.radius_m, samples);
+      Collect(samples, 0.0, around.others, share);
     }
     return share;
   }
 
-  VolumeGradient Combine(const std::vector<Solid>& solids, const std::vector<Share>& slants,
+  // `slants` and `caps` of what is no image of an earlier one.
+  VolumeGradient Combine(const Images& images, const std::vector<Share>& slants,
                          const std::vector<Share>& caps) const {
     VolumeGradient result;
     result.by_sphere.assign(set_.spheres.size(), Eigen::Vector4d::Zero());
-    for (std::size_t k = 0; k < solids.size(); ++k) {
-      result.by_sphere[static_cast<std::size_t>(solids[k].ends[0])] += slants[k].a;
-      result.by_sphere[static_cast<std::size_t>(solids[k].ends[1])] += slants[k].b;
-      result.area_m2 += slants[k].area;
-      result.volume_m3 += slants[k].moment / 3.0;
+    const auto add = [&](const Share& share) {
+      result.area_m2 += share.area;
+      result.volume_m3 += share.moment / 3.0;
+    };
+    for (std::size_t k = 0; k < solids_.size(); ++k) {
+      const auto [a, b] = solids_[k].ends;
+      const auto first = static_cast<std::size_t>(a);
+      const auto second = static_cast<std::size_t>(b);
+      const std::size_t image = images.solid[k];
+      const Share& share = slants[std::min(k, image)];
+      add(share);
+      if (image >= k) {
+        result.by_sphere[first] += share.a;
+        result.by_sphere[second] += share.b;
+      } else {
+        const bool in_order =
+            images.sphere[static_cast<std::size_t>(solids_[image].ends[0])] == first;
+        result.by_sphere[first] += Mirrored(in_order ? share.a : share.b);
+        result.by_sphere[second] += Mirrored(in_order ? share.b : share.a);
+      }
     }
     for (std::size_t i = 0; i < caps.size(); ++i) {
-      result.by_sphere[i] += caps[i].a;
-      result.area_m2 += caps[i].area;
-      result.volume_m3 += caps[i].moment / 3.0;
+      const std::size_t image = images.sphere[i];
+      const Share& share = caps[std::min(i, image)];
+      add(share);
+      result.by_sphere[i] += image >= i ? share.a : Mirrored(share.a);
     }
     return result;
   }
 
  private:
+  static Eigen::Vector4d Mirrored(const Eigen::Vector4d& x) { return {-x[0], x[1], x[2], x[3]}; }
+
   // A capsule hides the part of its end sphere beyond the circle where they touch: there both run
   // on smoothly, so that their distance tells nothing.
   struct Cut {
@@ -115,7 +216,7 @@ class Sampler {
   };
   struct Surroundings {
     std::vector<Cut> cuts;
-    std::vector<const TaperedCapsule*> others;
+    std::vector<const DistanceKernel*> others;
   };
 
   Surroundings SurroundingsOf(std::size_t sphere_index) const {
@@ -135,7 +236,7 @@ class Sampler {
         if (std::max(shape.a().radius_m, shape.b().radius_m) <= sphere.radius_m) continue;
       }
       if (shape.SignedDistance(sphere.center_m) < sphere.radius_m + fade_) {
-        around.others.push_back(&shape);
+        around.others.push_back(&kernels_[k]);
       }
     }
     return around;
@@ -143,61 +244,83 @@ class Sampler {
 
   // Share of a sample that is seen at a distance from a solid.
   double Seen(double distance_m) const {
-    const double u = std::clamp(0.5 + 0.5 * distance_m / fade_, 0.0, 1.0);
+    double u = 0.5 + half_over_fade_ * distance_m;
+    u = u > 0.0 ? u : 0.0;
+    u = u < 1.0 ? u : 1.0;
     return u * u * (3.0 - 2.0 * u);
   }
 
   // Solids other than `self` that reach into a ball.
-  std::vector<const TaperedCapsule*> Neighbours(const Eigen::Vector3d& center, double reach,
-                                                const TaperedCapsule* self) const {
-    std::vector<const TaperedCapsule*> near;
-    for (const TaperedCapsule& shape : shapes_) {
-      if (&shape != self && shape.SignedDistance(center) < reach + fade_) near.push_back(&shape);
+  std::vector<std::size_t> Neighbours(const Eigen::Vector3d& center, double reach,
+                                      std::size_t self) const {
+    std::vector<std::size_t> near;
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      if (k != self && shapes_[k].SignedDistance(center) < reach + fade_) near.push_back(k);
     }
     return near;
   }
 
   void Ring(const TaperedCapsule& capsule, double t, double width, double turn,
-            const std::vector<const TaperedCapsule*>& others, Share& share) const {
+            const std::vector<std::size_t>& others, Share& share) const {
     const Eigen::Vector3d center = (1 - t) * capsule.a().center_m + t * capsule.b().center_m;
     const double radius = (1 - t) * capsule.a().radius_m + t * capsule.b().radius_m;
-    std::vector<const TaperedCapsule*> near;
-    for (const TaperedCapsule* other : others) {
-      const double distance = other->SignedDistance(center);
+    std::vector<const DistanceKernel*> near;
+    for (const std::size_t other : others) {
+      const double distance = shapes_[other].SignedDistance(center);
       if (distance < -radius - fade_) return;  // hides the ring
-      if (distance < radius + fade_) near.push_back(other);
+      if (distance < radius + fade_) near.push_back(&kernels_[other]);
     }
     const double girth = 2.0 * std::numbers::pi * radius * capsule.cos_half_angle();
     const int count = CountFor(girth, spacing_, kMinRingPoints);
-    const Eigen::Vector3d first = capsule.axis().unitOrthogonal();
+    const Eigen::Vector3d first = capsule.cos_half_angle() * capsule.axis().unitOrthogonal();
     const Eigen::Vector3d second = capsule.axis().cross(first);
-    for (int i = 0; i < count; ++i) {
-      const double angle = 2.0 * std::numbers::pi * (i + turn) / count;
-      const Eigen::Vector3d normal =
-          capsule.sin_half_angle() * capsule.axis() +
-          capsule.cos_half_angle() * (std::cos(angle) * first + std::sin(angle) * second);
-      Add(center + radius * normal, normal, girth * width / count, t, near, share);
+    const Eigen::Vector3d along = capsule.sin_half_angle() * capsule.axis();
+    Turner turner(2.0 * std::numbers::pi * turn / count, 2.0 * std::numbers::pi / count);
+    Samples samples;
+    for (int i = 0; i < count; ++i, turner.Next()) {
+      samples.Add(along + turner.cosine * first + turner.sine * second, center, radius,
+                  girth * width / count);
+      if (samples.IsFull() || i + 1 == count) Collect(samples, t, near, share);
     }
   }
 
-  void Add(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double area, double t,
-           const std::vector<const TaperedCapsule*>& others, Share& share) const {
-    for (const TaperedCapsule* other : others) {
-      area *= Seen(other->SignedDistance(point));
-      if (area == 0.0) return;
+  void Hide(const Cut& cut, double radius, Samples& samples) const {
+    for (int i = 0; i < samples.count; ++i) {
+      const double along = samples.nx[i] * cut.axis.x() + samples.ny[i] * cut.axis.y() +
+                           samples.nz[i] * cut.axis.z();
+      samples.area[i] *= Seen(radius * (cut.sine - along));
     }
-    const Eigen::Vector4d speed(normal.x(), normal.y(), normal.z(), 1.0);
-    share.a += area * (1 - t) * speed;
-    share.b += area * t * speed;
-    share.area += area;
-    share.moment += area * normal.dot(point - origin_);
+  }
+
+  // Adds what of the samples no solid hides, and starts them anew.
+  void Collect(Samples& samples, double t, const std::vector<const DistanceKernel*>& others,
+               Share& share) const {
+    for (const DistanceKernel* other : others) {
+      for (int i = 0; i < samples.count; ++i) {
+        samples.area[i] *= Seen(other->SignedDistance(samples.x[i], samples.y[i], samples.z[i]));
+      }
+    }
+    Eigen::Vector4d speed = Eigen::Vector4d::Zero();
+    for (int i = 0; i < samples.count; ++i) {
+      const Eigen::Vector3d normal(samples.nx[i], samples.ny[i], samples.nz[i]);
+      const Eigen::Vector3d point(samples.x[i], samples.y[i], samples.z[i]);
+      const double area = samples.area[i];
+      speed += area * Eigen::Vector4d(normal.x(), normal.y(), normal.z(), 1.0);
+      share.moment += area * normal.dot(point - origin_);
+    }
+    share.a += (1 - t) * speed;
+    share.b += t * speed;
+    share.area += speed.w();
+    samples.count = 0;
   }
 
   const capsule::PrimitiveSet& set_;
   const std::vector<Solid>& solids_;
   std::vector<TaperedCapsule> shapes_;
+  std::vector<DistanceKernel> kernels_;  // of the same solids
   double spacing_;
   double fade_;
+  double half_over_fade_;
   std::uint64_t seed_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
 };
@@ -208,16 +331,17 @@ VolumeGradient UnionVolumeGradient(const capsule::PrimitiveSet& set,
                                    const std::vector<Solid>& solids, double spacing_m,
                                    std::uint64_t seed, const ThreadPool& pool) {
   const Sampler sampler(set, solids, spacing_m, seed);
+  const Images images(set, solids);
   std::vector<Share> slants(solids.size());
   std::vector<Share> caps(set.spheres.size());
   pool.ForEach(solids.size() + set.spheres.size(), [&](std::size_t i) {
     if (i < solids.size()) {
-      slants[i] = sampler.Slant(i);
-    } else {
-      caps[i - solids.size()] = sampler.Caps(i - solids.size());
+      if (images.solid[i] >= i) slants[i] = sampler.Slant(i);
+    } else if (const std::size_t k = i - solids.size(); images.sphere[k] >= k) {
+      caps[k] = sampler.Caps(k);
     }
   });
-  return sampler.Combine(solids, slants, caps);
+  return sampler.Combine(images, slants, caps);
 }
 
 }  // namespace capfit::coverage

@@ -25,6 +25,7 @@ struct VolumeGradient {
 // dA (n, 1) to its sphere. Surface inside another solid does not count; the border is softened over
 // a tenth of the spacing to either side, so that the result follows the set smoothly. Sampled about
 // every `spacing_m` with rings turned by random angles from `seed`; solids and spheres in parallel.
+// Of a set that is its own mirror image one half is sampled.
 [[nodiscard]] VolumeGradient UnionVolumeGradient(const capsule::PrimitiveSet& set,
                                                  const std::vector<Solid>& solids, double spacing_m,
                                                  std::uint64_t seed, const ThreadPool& pool);

@@ -64,6 +64,12 @@ void Append(std::vector<Warning> more, std::vector<Warning>& warnings) {
   for (Warning& warning : more) warnings.push_back(std::move(warning));
 }
 
+// Another set for the same budget, before anything is enclosed.
+struct Alternative {
+  capsule::PrimitiveSet set;
+  bool has_shape;  // refined
+};
+
 // The rooms behind the mesh, in their order.
 class BodyFit {
  public:
@@ -110,17 +116,18 @@ class BodyFit {
     const std::size_t warnings = result_.warnings.size();
     for (;;) {
       result_.warnings.resize(warnings);
+      alternatives_.clear();
       CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, options_.parts, TotalBudget(options_)));
       if (NeedsPolygons()) CAPFIT_RETURN_IF_ERROR(Approximate());
       if (options_.quality == Quality::kTight) CAPFIT_RETURN_IF_ERROR(Refine());
       CAPFIT_RETURN_IF_ERROR(CheckFound());
       if (Profile() == capsule::CapsuleProfile::kUniformRadius) {
         set_ = capsule::WithUniformRadii(set_);
-        if (alternative_.has_value()) alternative_ = capsule::WithUniformRadii(*alternative_);
+        for (Alternative& other : alternatives_) other.set = capsule::WithUniformRadii(other.set);
       }
-      if (alternative_.has_value() && ExcessCapsules(asked_, *alternative_) > 0) {
-        alternative_.reset();
-      }
+      std::erase_if(alternatives_, [this](const Alternative& other) {
+        return ExcessCapsules(asked_, other.set) > 0;
+      });
       const int excess = ExcessCapsules(asked_, set_);
       if (excess <= 0) return absl::OkStatus();
       options_.max_capsules = static_cast<int>(set_.capsules.size()) - excess;
@@ -182,14 +189,19 @@ class BodyFit {
       // A tree: spheres without a capsule would be shapes of their own.
       budget.max_spheres = budget.max_capsules + 1;
     }
-    if (ComparesWithPaper()) alternative_ = std::move(set_);
+    if (ComparesWithPaper()) alternatives_.push_back({std::move(set_), /*has_shape=*/false});
     refine::RefineOptions refine_options;
     refine_options.enclose = options_.fit == FitMode::kEnclose;
     refine_options.budget = budget;
     refine_options.tolerance_m = options_.tolerance_m;
     refine_options.parts = options_.parts;
     refine_options.seed = options_.seed;
-    set_ = refine::RefineSet(*body_, refine_options, pool_, observer_);
+    std::vector<capsule::PrimitiveSet> found =
+        refine::RefineSet(*body_, target_, refine_options, pool_, observer_);
+    set_ = std::move(found.front());
+    for (std::size_t i = 1; i < found.size(); ++i) {
+      alternatives_.push_back({std::move(found[i]), /*has_shape=*/true});
+    }
     return CheckCancelled(observer_);
   }
 
@@ -207,27 +219,24 @@ class BodyFit {
       max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
       return CheckCancelled(observer_);
     }
-    // A refined set has its shape, but for one whose spheres have just been made uniform.
-    const bool is_refined = options_.quality == Quality::kTight;
-    const bool is_uniform = Profile() == capsule::CapsuleProfile::kUniformRadius;
-    coverage::CoverReport report = Enclose(!is_refined || is_uniform, set_);
-    if (alternative_.has_value()) {
-      const coverage::CoverReport other = Enclose(/*loosen=*/true, *alternative_);
-      if (other.volume_m3 < report.volume_m3) {
-        set_ = *std::move(alternative_);
-        report = other;
-      }
+    coverage::CoverReport report = Enclose(options_.quality == Quality::kTight, set_);
+    for (Alternative& alternative : alternatives_) {
+      const coverage::CoverReport other = Enclose(alternative.has_shape, alternative.set);
+      if (other.volume_m3 >= report.volume_m3) continue;
+      set_ = std::move(alternative.set);
+      report = other;
     }
     max_gap_m_ = report.certified_gap_m;
     if (Profile() == capsule::CapsuleProfile::kLerpedRadius) capsule::GrowForLerpedRadius(set_);
     return CheckCancelled(observer_);
   }
 
-  coverage::CoverReport Enclose(bool loosen, capsule::PrimitiveSet& set) const {
+  // `has_shape`: as refined sets do, but for those whose spheres have just been made uniform.
+  coverage::CoverReport Enclose(bool has_shape, capsule::PrimitiveSet& set) const {
     coverage::CoverOptions cover_options;
-    cover_options.loosen = loosen;
     cover_options.tolerance_m = options_.tolerance_m;
     cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
+    cover_options.loosen = !has_shape || cover_options.uniform_radius;
     return coverage::CoverBody(target_, cover_options, pool_, observer_, set);
   }
 
@@ -271,8 +280,8 @@ class BodyFit {
   geometry::Similarity caller_from_body_;
   coverage::CoverTarget target_;
   capsule::PrimitiveSet set_;
-  std::optional<capsule::PrimitiveSet> alternative_;
-  double max_gap_m_ = 0.0;  // certified
+  std::vector<Alternative> alternatives_;  // to set_; the smallest of all once they cover is taken
+  double max_gap_m_ = 0.0;                 // certified
 };
 
 }  // namespace

@@ -4,11 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <optional>
 #include <tuple>
 #include <utility>
 
+#include "core/refine/enclosing_moves.h"
 #include "core/refine/graph_edit.h"
 #include "core/refine/internal.h"
 #include "core/refine/starting_graphs.h"
@@ -17,101 +17,35 @@ namespace capfit::refine {
 namespace {
 
 // Steps, as few as do: topology decides more than the last digits of places.
-constexpr int kGrowthSteps = 6;
+constexpr int kGrowthSteps = 4;
 constexpr int kSparingSteps = 3;
 constexpr int kTrialSteps = 4;
 constexpr int kTakeInSteps = 2;
-// How starts are settled: each in all of these ways.
-struct Ticket {
-  int steps;
-  double looseness;
-};
-constexpr std::array<Ticket, 2> kTickets = {{{8, 1.0}, {10, 2.0}}};
+constexpr int kStartSteps = 8;
+constexpr int kLooseSteps = 3;  // that show where ties would win
+// Growth goes on from so many graphs, each in all of these ways: the part that goes into ties.
+constexpr std::size_t kGrown = 2;
+constexpr std::array<double, 2> kTieShares = {0.35, 0.7};
 // A round of growth or sparing goes so far.
 constexpr double kGrowthShare = 0.2;
 constexpr int kLeastGrowth = 4;
 constexpr double kSparedShare = 0.34;
-// Either half of a cut capsule is taken to be this much as loose as the whole.
-constexpr double kGapOfHalf = 0.25;
-// Exchanges: trials at once, and in all; fewer where each takes longer.
+constexpr int kUsedUp = 3;  // a graph this near to the budget is not grown
+// Exchanges: trials at once, and in all.
 constexpr std::size_t kTrialsAtOnce = 4;
 constexpr int kMostTrials = 16;
-constexpr int kLeastTrials = 4;
-constexpr int kTrialPrimitives = 1024;
 constexpr double kLeastImprovement = 1e-4;
 constexpr std::size_t kLeaders = 2;
 constexpr std::size_t kTies = 8;
-constexpr double kTieReach = 1.1;  // between centres, in sums of radii
+// Where single exchanges take too long: much is given up and spent anew at once.
+struct Renewal {
+  double given_up;   // part of the primitives
+  double tie_share;  // part of those that goes into ties and leaves
+};
+constexpr std::array<Renewal, 4> kRenewals = {{{0.06, 0.5}, {0.12, 1.0}, {0.12, 0.5}, {0.24, 1.0}}};
 
 // Tells trials apart from each other, whatever thread they run on.
 constexpr std::uint64_t kTrialSeeds = 1000;
-
-bool IsPair(const CapsuleGraph& graph, int index, int image) {
-  return graph.symmetric && image != index;
-}
-
-struct Removal {
-  double loss_per_primitive = 0.0;
-  Edit edit;
-};
-
-// All that may go, what is least missed first.
-std::vector<Removal> RemovalsOf(const CapsuleGraph& graph, const GraphWorth& worth) {
-  std::vector<Removal> removals;
-  for (int e = 0; e < graph.capsule_count(); ++e) {
-    if (!graph.IsEdgeRepresentative(e)) continue;
-    const int freed = IsPair(graph, e, graph.edges[U(e)].mirror) ? 2 : 1;
-    removals.push_back({worth.edge_loss[U(e)] / freed, EditOf(EditKind::kUnlink, e)});
-  }
-  std::vector<int> degree(graph.nodes.size(), 0);
-  for (const Edge& e : graph.edges) ++degree[U(e.a)], ++degree[U(e.b)];
-  for (int v = 0; v < graph.sphere_count(); ++v) {
-    if (!graph.IsNodeRepresentative(v) || degree[U(v)] > 2) continue;
-    const int freed =
-        (IsPair(graph, v, graph.nodes[U(v)].mirror) ? 2 : 1) * (degree[U(v)] > 0 ? 2 : 1);
-    removals.push_back({worth.node_loss[U(v)] / freed, EditOf(EditKind::kDissolve, v)});
-  }
-  std::stable_sort(removals.begin(), removals.end(), [](const Removal& a, const Removal& b) {
-    return a.loss_per_primitive < b.loss_per_primitive;
-  });
-  return removals;
-}
-
-// Cuts the loosest capsules in two until there are `target` primitives or nothing may be cut. The
-// spheres in the middle change nothing yet.
-void CutLoosest(const Spending& spending, int target, const std::vector<double>& gaps,
-                CapsuleGraph& graph) {
-  using Ends = std::pair<int, int>;
-  std::map<Ends, double> gap_of;
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    gap_of[{graph.edges[e].a, graph.edges[e].b}] = gaps[e];
-  }
-  Spending limits = spending;
-  limits.max_primitives = std::min(limits.max_primitives, target);
-  for (;;) {
-    int loosest = -1;
-    double most = 0.0;
-    for (int e = 0; e < graph.capsule_count(); ++e) {
-      const Edge& edge = graph.edges[U(e)];
-      const int cost = IsPair(graph, e, edge.mirror) ? 2 : 1;
-      if (!graph.IsEdgeRepresentative(e) || graph.sphere_count() + cost > limits.max_spheres ||
-          graph.capsule_count() + cost > limits.max_capsules ||
-          graph.primitive_count() + 2 * cost > limits.max_primitives) {
-        continue;
-      }
-      const double gap = gap_of[{edge.a, edge.b}] / cost;
-      if (gap > most) most = gap, loosest = e;
-    }
-    if (loosest < 0) return;
-    const Edge cut = graph.edges[U(loosest)];
-    const double half = kGapOfHalf * gap_of[{cut.a, cut.b}];
-    const int first_new = graph.sphere_count();
-    graph = Apply(graph, EditOf(EditKind::kSplit, loosest)).graph;
-    for (const Edge& e : graph.edges) {
-      if (e.b >= first_new) gap_of.emplace(Ends{e.a, e.b}, half);
-    }
-  }
-}
 
 class Search {
  public:
@@ -126,7 +60,11 @@ class Search {
 
   std::vector<CapsuleGraph> Run(const std::vector<CapsuleGraph>& starts) {
     Attempt best = BestStart(starts);
-    Exchange(best);
+    if (primitives_ <= kFewPrimitives) {
+      Exchange(best);
+    } else {
+      Renew(best);
+    }
     Tie(best);
     std::vector<CapsuleGraph> graphs;
     for (Attempt& attempt : leaders_) graphs.push_back(std::move(attempt.graph));
@@ -148,22 +86,59 @@ class Search {
   }
 
   Attempt BestStart(const std::vector<CapsuleGraph>& starts) {
-    std::vector<Attempt> attempts(starts.size() * kTickets.size());
-    pool_.ForEach(attempts.size(), [&](std::size_t i) {
-      const Ticket& ticket = kTickets[i % kTickets.size()];
-      CapsuleGraph graph = starts[i / kTickets.size()];
-      task_.FindShape(ticket.steps, ticket.looseness, /*seed=*/1, alone_, observer_, graph);
+    std::vector<Attempt> attempts(starts.size());
+    pool_.ForEach(starts.size(), [&](std::size_t i) {
+      CapsuleGraph graph = starts[i];
+      task_.FindShape(kStartSteps, 1.0, /*seed=*/1, alone_, observer_, graph);
       RemoveSwallowed(graph);
       Spare(graph);
-      Grow(graph);
       attempts[i] = Settled(std::move(graph), /*seed=*/2);
     });
+    // Graphs that have the budget's size already wait for what the others grow to.
+    const auto is_small = [this](const Attempt& a) {
+      return a.graph.primitive_count() + kUsedUp < primitives_;
+    };
+    const auto large = std::stable_partition(attempts.begin(), attempts.end(), is_small);
+    std::vector<Attempt> small(attempts.begin(), large);
+    attempts.erase(attempts.begin(), large);
+    Sort(small);
+    for (std::uint64_t seed = 10; Grow(seed, small) && !observer_.IsCancelled();) {
+      seed += kGrown * kTieShares.size();
+    }
+    attempts.insert(attempts.end(), small.begin(), small.end());
+    Sort(attempts);
     Lead(attempts);
-    const auto excess = [this](const Attempt& a) { return Excess(spending_, a.graph); };
-    return *std::min_element(
-        attempts.begin(), attempts.end(), [&](const Attempt& a, const Attempt& b) {
-          return std::tuple(excess(a), a.value) < std::tuple(excess(b), b.value);
-        });
+    return attempts.front();
+  }
+
+  // The best first; those that do not fit the spending last.
+  void Sort(std::vector<Attempt>& attempts) const {
+    std::stable_sort(attempts.begin(), attempts.end(), [this](const Attempt& a, const Attempt& b) {
+      return std::tuple(Excess(spending_, a.graph), a.value) <
+             std::tuple(Excess(spending_, b.graph), b.value);
+    });
+  }
+
+  // One round of growth from the best of the attempts; whether there was any.
+  bool Grow(std::uint64_t seed, std::vector<Attempt>& attempts) const {
+    int most = 0;
+    for (const Attempt& a : attempts) most = std::max(most, a.graph.primitive_count());
+    const int target = most + std::max(kLeastGrowth, static_cast<int>(kGrowthShare * most));
+    attempts.resize(std::min(attempts.size(), kGrown));
+    std::vector<Attempt> grown(attempts.size() * kTieShares.size());
+    pool_.ForEach(grown.size(), [&](std::size_t i) {
+      CapsuleGraph graph = attempts[i / kTieShares.size()].graph;
+      const int before = graph.primitive_count();
+      if (!spending_.Allows(graph)) return;
+      const double ties = kTieShares[i % kTieShares.size()] * (target - before);
+      Extend(target, static_cast<int>(ties), seed + i, graph);
+      if (graph.primitive_count() > before) grown[i] = Settled(std::move(graph), seed + i);
+    });
+    std::erase_if(grown, [](const Attempt& a) { return a.graph.nodes.empty(); });
+    if (grown.empty()) return false;
+    attempts = std::move(grown);
+    Sort(attempts);
+    return true;
   }
 
   // Remembers the best of all attempts.
@@ -184,16 +159,17 @@ class Search {
       const int target =
           excess - std::max(1, static_cast<int>(kSparedShare * static_cast<double>(excess)));
       do {
-        if (!SpareOne(graph)) return;
+        const bool only_spheres = graph.primitive_count() <= spending_.max_primitives &&
+                                  graph.capsule_count() <= spending_.max_capsules;
+        if (!SpareOne(only_spheres, graph)) return;
       } while (Excess(spending_, graph) > target);
       task_.FindShape(kSparingSteps, 1.0, /*seed=*/3, alone_, observer_, graph);
       RemoveSwallowed(graph);
     }
   }
 
-  bool SpareOne(CapsuleGraph& graph) const {
-    const bool only_spheres = graph.primitive_count() <= spending_.max_primitives &&
-                              graph.capsule_count() <= spending_.max_capsules;
+  // `only_spheres`: capsules may stay as they are.
+  bool SpareOne(bool only_spheres, CapsuleGraph& graph) const {
     std::optional<CapsuleGraph> last_resort;
     for (const Removal& removal : RemovalsOf(graph, task_.Weigh(graph))) {
       EditedGraph edited = Apply(graph, removal.edit);
@@ -210,16 +186,33 @@ class Search {
     return true;
   }
 
-  // Until the spending is used up.
-  void Grow(CapsuleGraph& graph) const {
-    for (std::uint64_t seed = 10; spending_.Allows(graph) && !observer_.IsCancelled(); ++seed) {
-      const int before = graph.primitive_count();
-      const int more = std::max(kLeastGrowth, static_cast<int>(kGrowthShare * before));
-      CutLoosest(spending_, before + more, task_.Weigh(graph).edge_gap, graph);
-      if (graph.primitive_count() == before) return;
-      task_.FindShape(kGrowthSteps, 1.0, seed, alone_, observer_, graph);
-      RemoveSwallowed(graph);
-      if (graph.primitive_count() <= before) return;
+  // Spends up to a number of primitives, the first `ties` of them on ties and leaves, the rest on
+  // cuts, and finds the shape of it.
+  void Extend(int target, int ties, std::uint64_t seed, CapsuleGraph& graph) const {
+    TieBest(std::min(target, graph.primitive_count() + ties), seed, graph);
+    CutLoosest(spending_, target, task_.Weigh(graph).edge_gap, graph);
+    task_.FindShape(kGrowthSteps, 1.0, seed, alone_, observer_, graph);
+    RemoveSwallowed(graph);
+  }
+
+  // Adds the best ties and leaves, no more than one to a sphere, until there are `target`
+  // primitives.
+  void TieBest(int target, std::uint64_t seed, CapsuleGraph& graph) const {
+    task_.Loosen(kLooseSteps, seed, alone_, observer_, graph);
+    std::vector<char> is_tied(graph.nodes.size(), 0);
+    for (const Edit& tie : RankedAdditions(task_, graph, alone_)) {
+      const bool is_leaf = tie.kind == EditKind::kLeaf;
+      if (is_tied[U(tie.first)] || (!is_leaf && is_tied[U(tie.second)])) continue;
+      EditedGraph edited = Apply(graph, tie);
+      if (!edited.possible || edited.graph.primitive_count() > target ||
+          !spending_.Allows(edited.graph)) {
+        break;
+      }
+      graph = std::move(edited.graph);
+      for (const int v : {tie.first, is_leaf ? tie.first : tie.second}) {
+        is_tied[U(v)] = 1;
+        if (graph.symmetric) is_tied[U(graph.nodes[U(v)].mirror)] = 1;
+      }
     }
   }
 
@@ -228,6 +221,8 @@ class Search {
     EditedGraph edited = Apply(graph, edit);
     if (!edited.possible || observer_.IsCancelled()) return {};
     RemoveSwallowed(edited.graph);
+    // What is given up is spent on ties as well as on cuts, by turns.
+    if (seed % 2 == 1) TieBest(primitives_, seed, edited.graph);
     CutLoosest(spending_, primitives_, task_.Weigh(edited.graph).edge_gap, edited.graph);
     task_.FindShape(kTrialSteps, 1.0, seed, alone_, observer_, edited.graph);
     RemoveSwallowed(edited.graph);
@@ -253,12 +248,37 @@ class Search {
     return true;
   }
 
+  // Gives up a share of the primitives, what is least missed, and spends it anew.
+  Attempt Renewed(const CapsuleGraph& from, const Renewal& renewal, std::uint64_t seed) const {
+    CapsuleGraph graph = from;
+    const int kept =
+        graph.primitive_count() - static_cast<int>(renewal.given_up * graph.primitive_count());
+    while (graph.primitive_count() > kept && SpareOne(/*only_spheres=*/false, graph)) {
+    }
+    const double ties = renewal.tie_share * (primitives_ - graph.primitive_count());
+    Extend(primitives_, static_cast<int>(ties), seed, graph);
+    if (!spending_.Allows(graph)) return {};
+    return Settled(std::move(graph), seed);
+  }
+
+  void Renew(Attempt& best) {
+    if (observer_.IsCancelled()) return;
+    std::vector<Attempt> attempts(kRenewals.size());
+    pool_.ForEach(attempts.size(), [&](std::size_t i) {
+      attempts[i] = Renewed(best.graph, kRenewals[i], seed_ + i);
+    });
+    seed_ += attempts.size();
+    Lead(attempts);
+    for (Attempt& attempt : attempts) {
+      if (attempt.value < best.value) best = std::move(attempt);
+    }
+  }
+
   void Exchange(Attempt& best) {
-    const int most = std::clamp(kTrialPrimitives / std::max(1, best.graph.primitive_count()),
-                                kLeastTrials, kMostTrials);
     std::vector<Removal> removals = RemovalsOf(best.graph, task_.Weigh(best.graph));
     std::size_t next = 0;
-    for (int trials = 0; trials < most && next < removals.size() && !observer_.IsCancelled();) {
+    for (int trials = 0;
+         trials < kMostTrials && next < removals.size() && !observer_.IsCancelled();) {
       std::vector<Edit> edits;
       for (; edits.size() < kTrialsAtOnce && next < removals.size(); ++next) {
         edits.push_back(removals[next].edit);
@@ -270,38 +290,13 @@ class Search {
     }
   }
 
-  // Ties between near spheres, those with the loosest capsules around them first.
-  [[nodiscard]] std::vector<Edit> TiesOf(const CapsuleGraph& graph) const {
-    const std::vector<double> gaps = task_.Weigh(graph).edge_gap;
-    std::vector<double> around(graph.nodes.size(), 0.0);
-    for (std::size_t e = 0; e < gaps.size(); ++e) {
-      around[U(graph.edges[e].a)] += gaps[e];
-      around[U(graph.edges[e].b)] += gaps[e];
-    }
-    std::vector<std::pair<double, Edit>> ties;
-    for (int i = 0; i < graph.sphere_count(); ++i) {
-      for (int j = i + 1; j < graph.sphere_count(); ++j) {
-        const Node& a = graph.nodes[U(i)];
-        const Node& b = graph.nodes[U(j)];
-        if (graph.symmetric && std::minmax(a.mirror, b.mirror) < std::minmax(i, j)) continue;
-        if ((a.center_m - b.center_m).norm() > kTieReach * (a.radius_m + b.radius_m)) continue;
-        const Edit tie = EditOf(EditKind::kLink, i, j);
-        const EditedGraph edited = Apply(graph, tie);
-        if (!edited.possible || !spending_.Allows(edited.graph)) continue;
-        ties.emplace_back(around[U(i)] + around[U(j)], tie);
-      }
-    }
-    std::stable_sort(ties.begin(), ties.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<Edit> edits;
-    for (const auto& [gap, tie] : ties) edits.push_back(tie);
-    edits.resize(std::min(edits.size(), kTies));
-    return edits;
-  }
-
   void Tie(Attempt& best) {
     while (best.graph.primitive_count() < primitives_ && !observer_.IsCancelled()) {
-      if (!TryAll(TiesOf(best.graph), best)) return;
+      CapsuleGraph loose = best.graph;
+      task_.Loosen(kLooseSteps, seed_, pool_, observer_, loose);
+      std::vector<Edit> ties = RankedAdditions(task_, loose, pool_);
+      ties.resize(std::min(ties.size(), kTies));
+      if (!TryAll(ties, best)) return;
     }
   }
 

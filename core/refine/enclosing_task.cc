@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "core/coverage/distance_kernel.h"
 #include "core/coverage/set_variables.h"
 #include "core/coverage/sparse_points.h"
 #include "core/coverage/union_volume.h"
@@ -34,6 +36,79 @@ constexpr coverage::TightenPhase kInsidePhase{.first_trust = 0.004,
                                               .first_penalty = 100.0,
                                               .last_penalty = 100.0,
                                               .relative_gap = kTrialGap};
+
+constexpr double kLoosePenalty = 8.0;
+constexpr double kApart = 0.03;  // of the worst points, relative to the body's size
+// Along and around a tie, where its volume is sampled.
+constexpr int kAlong = 8, kAround = 8, kAcross = 4;
+
+// The points that stick out of a set, their coordinates apart.
+class OutsidePoints {
+ public:
+  // Distances are in the grid's order, areas and allowances in the caller's.
+  OutsidePoints(const coverage::PointGrid& grid, const std::vector<double>& distances_m,
+                const std::vector<double>& areas_m2, const std::vector<double>& allowed_m) {
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      const std::uint32_t point = grid.order()[i];
+      if (distances_m[i] <= allowed_m[point]) continue;
+      const Vec3 p = grid.point(i);
+      x_.push_back(p.x()), y_.push_back(p.y()), z_.push_back(p.z());
+      area_.push_back(areas_m2[point]);
+      out_.push_back(distances_m[i] - allowed_m[point]);
+      allowed_.push_back(allowed_m[point]);
+    }
+  }
+
+  // Area times the depth by which the capsule takes points in, with its image where it has one.
+  [[nodiscard]] double TakenInBy(const TaperedCapsule& capsule, bool with_image) const {
+    const coverage::DistanceKernel kernel(capsule);
+    const double image = with_image ? -1.0 : 1.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      const double here = kernel.SignedDistance(x_[i], y_[i], z_[i]);
+      const double there = kernel.SignedDistance(image * x_[i], y_[i], z_[i]);
+      double still_out = (here < there ? here : there) - allowed_[i];
+      still_out = still_out > 0.0 ? still_out : 0.0;
+      const double won = out_[i] - still_out;
+      sum += won > 0.0 ? area_[i] * won : 0.0;
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<double> x_, y_, z_, area_, out_, allowed_;
+};
+
+// How much of the capsule between its end spheres is in no other shape.
+double VolumeOutside(const TaperedCapsule& tie, const std::vector<TaperedCapsule>& shapes) {
+  std::vector<std::size_t> near;
+  const Vec3 middle = 0.5 * (tie.a().center_m + tie.b().center_m);
+  const double reach = 0.5 * tie.length_m() + std::max(tie.a().radius_m, tie.b().radius_m);
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    if (shapes[k].SignedDistance(middle) < reach) near.push_back(k);
+  }
+  const Vec3 side = tie.axis().unitOrthogonal();
+  const Vec3 up = tie.axis().cross(side);
+  double sum = 0.0;
+  for (int i = 0; i < kAlong; ++i) {
+    const double t = (i + 0.5) / kAlong;
+    const Vec3 center = tie.a().center_m + t * (tie.b().center_m - tie.a().center_m);
+    const double radius = tie.a().radius_m + t * (tie.b().radius_m - tie.a().radius_m);
+    for (int j = 0; j < kAround; ++j) {
+      const double angle = 2.0 * std::numbers::pi * (j + 0.5 * (i % 2)) / kAround;
+      const Vec3 out = std::cos(angle) * side + std::sin(angle) * up;
+      for (int m = 0; m < kAcross; ++m) {
+        // Equal areas across.
+        const Vec3 p = center + radius * std::sqrt((m + 0.5) / kAcross) * out;
+        const bool is_inside = std::any_of(near.begin(), near.end(), [&](std::size_t k) {
+          return shapes[k].SignedDistance(p) <= 0.0;
+        });
+        if (!is_inside) sum += std::numbers::pi * radius * radius;
+      }
+    }
+  }
+  return sum * tie.length_m() / (kAlong * kAround * kAcross);
+}
 
 // The capsule that takes the place of a sphere with two; nothing for other spheres.
 std::vector<std::optional<TaperedCapsule>> BridgesOf(const CapsuleGraph& graph) {
@@ -205,6 +280,63 @@ void EnclosingTask::TakeIn(int steps, std::uint64_t seed, const ThreadPool& pool
   coverage::TightenPhase phase = kInsidePhase;
   phase.steps = steps;
   Settle(phase, seed, pool, observer, graph);
+}
+
+void EnclosingTask::Loosen(int steps, std::uint64_t seed, const ThreadPool& pool,
+                           const FitObserver& observer, CapsuleGraph& graph) const {
+  coverage::TightenPhase phase = kShapePhase;
+  phase.first_penalty = phase.last_penalty = kLoosePenalty;
+  phase.last_trust = 0.006;
+  phase.steps = steps;
+  Settle(phase, seed, pool, observer, graph);
+}
+
+std::vector<Vec3> EnclosingTask::WorstPoints(const CapsuleGraph& graph, int count,
+                                             const ThreadPool& pool) const {
+  capsule::PrimitiveSet set = SetOf(graph);
+  const std::vector<coverage::Solid> solids = coverage::SetVariables(set).solids();
+  const std::vector<double> distances =
+      grid_.DistancesTo(coverage::ShapesOf(solids, set), -kFurthestGrowth * size_m_, pool)
+          .distance_m;
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    if (distances[i] > allowed_m_[grid_.order()[i]]) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return distances[a] > distances[b]; });
+  std::vector<Vec3> worst;
+  for (const std::size_t i : order) {
+    if (static_cast<int>(worst.size()) >= count) break;
+    const Vec3 p = grid_.point(i);
+    const bool is_near = std::any_of(worst.begin(), worst.end(), [&](const Vec3& q) {
+      return (p - q).norm() < kApart * size_m_;
+    });
+    if (!is_near) worst.push_back(p);
+  }
+  return worst;
+}
+
+std::vector<double> EnclosingTask::GainsOf(const CapsuleGraph& graph,
+                                           const std::vector<Edit>& additions,
+                                           const ThreadPool& pool) const {
+  capsule::PrimitiveSet set = SetOf(graph);
+  const std::vector<coverage::Solid> solids = coverage::SetVariables(set).solids();
+  const std::vector<TaperedCapsule> shapes = coverage::ShapesOf(solids, set);
+  const coverage::UnionDistances at = grid_.DistancesTo(shapes, -kFurthestGrowth * size_m_, pool);
+  const OutsidePoints outside(grid_, at.distance_m, areas_m2_, allowed_m_);
+  std::vector<double> gains(additions.size(), 0.0);
+  pool.ForEach(additions.size(), [&](std::size_t k) {
+    const Edit& edit = additions[k];
+    const geometry::Sphere end = edit.kind == EditKind::kLeaf
+                                     ? geometry::Sphere{edit.center_m, edit.radius_m}
+                                     : set.spheres[U(edit.second)];
+    const TaperedCapsule added(set.spheres[U(edit.first)], end);
+    if (added.IsSphere()) return;
+    const bool is_pair = HasImage(graph, edit);
+    const double gain = kLoosePenalty * outside.TakenInBy(added, is_pair);
+    if (gain > 0.0) gains[k] = gain - (is_pair ? 2.0 : 1.0) * VolumeOutside(added, shapes);
+  });
+  return gains;
 }
 
 double EnclosingTask::Value(const CapsuleGraph& graph, const ThreadPool& pool) const {

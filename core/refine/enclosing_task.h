@@ -13,6 +13,7 @@
 #include "core/coverage/point_grid.h"
 #include "core/coverage/tighten.h"
 #include "core/refine/capsule_graph.h"
+#include "core/refine/graph_edit.h"
 
 namespace capfit::refine {
 
@@ -40,6 +41,18 @@ class EnclosingTask {
   // The same with hardly anything left out.
   void TakeIn(int steps, std::uint64_t seed, const ThreadPool& pool, const FitObserver& observer,
               CapsuleGraph& graph) const;
+
+  // Settles at one low price of points outside, so that those which cost most to take in show.
+  void Loosen(int steps, std::uint64_t seed, const ThreadPool& pool, const FitObserver& observer,
+              CapsuleGraph& graph) const;
+  // The points that stick out furthest, some way from each other; body frame.
+  [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const CapsuleGraph& graph, int count,
+                                                         const ThreadPool& pool) const;
+  // What each tie (kLink) or leaf (kLeaf) would win at once in a loosened graph: the price of what
+  // it takes in less the volume that it adds. Cubic metres; of a mirrored pair both together.
+  [[nodiscard]] std::vector<double> GainsOf(const CapsuleGraph& graph,
+                                            const std::vector<Edit>& additions,
+                                            const ThreadPool& pool) const;
 
   // The union's volume, and what the points outside will still cost. Cubic metres.
   [[nodiscard]] double Value(const CapsuleGraph& graph, const ThreadPool& pool) const;

@@ -47,8 +47,13 @@ void Link(const Edit& edit, EditedGraph& result) {
   result.possible = true;
 }
 
+// A new sphere there lies on the mid-plane rather than beside its image.
+bool IsNearPlane(const Edit& edit) {
+  return std::abs(edit.center_m.x()) < kOnPlaneShare * edit.radius_m;
+}
+
 void AddSphere(const Edit& edit, EditedGraph& result) {
-  const bool on_plane = std::abs(edit.center_m.x()) < kOnPlaneShare * edit.radius_m;
+  const bool on_plane = IsNearPlane(edit);
   const int v = result.graph.AddNode(edit.center_m, edit.radius_m, on_plane);
   result.touched = {v};
   if (edit.kind == EditKind::kLeaf) {
@@ -109,6 +114,14 @@ void Dissolve(const Edit& edit, EditedGraph& result) {
 }
 
 }  // namespace
+
+bool HasImage(const CapsuleGraph& graph, const Edit& addition) {
+  if (!graph.symmetric) return false;
+  const bool first_on_plane = graph.IsOnPlane(addition.first);
+  if (addition.kind == EditKind::kLeaf) return !(first_on_plane && IsNearPlane(addition));
+  if (graph.nodes[U(addition.first)].mirror == addition.second) return false;
+  return !(first_on_plane && graph.IsOnPlane(addition.second));
+}
 
 EditedGraph Apply(const CapsuleGraph& graph, const Edit& edit) {
   EditedGraph result;

@@ -33,6 +33,9 @@ struct Edit {
   return {kind, first, second, Eigen::Vector3d::Zero(), 0.0};
 }
 
+// Whether what a tie or leaf adds comes with an image of its own.
+[[nodiscard]] bool HasImage(const CapsuleGraph& graph, const Edit& addition);
+
 struct EditedGraph {
   CapsuleGraph graph;
   std::vector<int> touched;         // nodes of `graph` whose surroundings changed

@@ -10,6 +10,9 @@ namespace capfit::refine {
 // No sphere gets smaller than this while it is refined.
 inline constexpr double kLeastRadiusM = 0.003;
 
+// Up to here a change of topology is tried quickly.
+inline constexpr int kFewPrimitives = 80;
+
 [[nodiscard]] constexpr std::size_t U(int i) { return static_cast<std::size_t>(i); }
 
 // What is left of x above its next lower integer, in [0, 1).

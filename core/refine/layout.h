@@ -37,11 +37,12 @@ enum class Guise { kBestFit, kEnclose };
 struct NamedLayout {
   const char* name;
   Guise guise;
+  int primitives;  // that it has on a body with all parts, about; several may share a number
   bool with_ends;  // spheres for head, hands and feet; those for trunk and limbs are fewer for it
   Layout layout;
 };
 
-// All of them; of each guise and kind the smaller ones first.
+// All of them; of each guise and kind those of fewer primitives first.
 [[nodiscard]] std::span<const NamedLayout> Layouts();
 
 // Hangs the layout on the body's bones. Spheres on missing bones or of parts that are not selected

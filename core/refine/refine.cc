@@ -28,7 +28,6 @@ constexpr double kCellM = 0.008;         // of the occupancy grid
 constexpr double kThinnedCellM = 0.012;  // of the points that growing works on
 constexpr double kFoldCellM = 2e-5;      // mirrored vertices this close count as one
 constexpr int kNoLimit = 1'000'000;
-constexpr int kFewPrimitives = 80;  // up to here exchanges are quick
 // What a sphere or chain that hangs on nothing counts beside its primitives in a best fit: in one
 // piece is what users want, but it costs a twentieth to a tenth of the error.
 constexpr double kPieceCost = 0.35;
@@ -42,6 +41,7 @@ constexpr double kFineSpacing = 0.14;
 constexpr double kLeastSpacing = 0.012;
 constexpr double kMostSpacing = 0.027;
 constexpr int kFineSteps = 8;
+constexpr double kFineLooseness = 0.5;  // the shape is found, it need not be found anew
 constexpr int kFineTakeInSteps = 2;
 constexpr int kUsedUp = 3;  // an enclosing start this near to the budget needs no other
 
@@ -137,7 +137,7 @@ CapsuleGraph FindBestFit(const body::Body& body, const RefineOptions& options,
                          const ThreadPool& pool, const FitObserver& observer) {
   const Spending spending = SpendingOf(options.budget);
   std::vector<CapsuleGraph> starts =
-      StartingGraphs(Guise::kBestFit, body, options.parts, spending, kMostSpared);
+      StartingGraphs(Guise::kBestFit, body, options.parts, spending, /*sizes=*/1, kMostSpared);
   OccupancyGrid grid = MakeOccupancyGrid(body, options.parts, kCellM, body.is_symmetric);
   CoverPoints thinned = MakeCoverPoints(ThinOut(SelectedPoints(body, options), kThinnedCellM));
   const BestFitObjective objective(std::move(grid), std::move(thinned), options.seed);
@@ -150,44 +150,53 @@ int PrimitivesOf(const Spending& spending) {
                    2 * spending.max_spheres, 2 * spending.max_capsules + 1});
 }
 
-// Settles each of the graphs once more, with different looseness and points enough to tell their
-// values apart; the best.
-CapsuleGraph Finish(const EnclosingTask& task, const std::vector<CapsuleGraph>& graphs,
-                    const ThreadPool& pool, const FitObserver& observer) {
-  static constexpr std::array<double, 2> kLooseness = {1.0, 2.0};
+// Settles each of the graphs once more, with points enough to tell their values apart; the best
+// first.
+std::vector<CapsuleGraph> Finish(const EnclosingTask& task, const std::vector<CapsuleGraph>& graphs,
+                                 const ThreadPool& pool, const FitObserver& observer) {
+  struct Finished {
+    CapsuleGraph graph;
+    double value;
+  };
   const ThreadPool alone(1);
-  std::vector<CapsuleGraph> results(graphs.size() * kLooseness.size());
-  std::vector<double> values(results.size());
-  pool.ForEach(results.size(), [&](std::size_t i) {
-    CapsuleGraph graph = graphs[i / kLooseness.size()];
-    task.FindShape(kFineSteps, kLooseness[i % kLooseness.size()], /*seed=*/1, alone, observer,
-                   graph);
+  std::vector<Finished> finished(graphs.size());
+  pool.ForEach(graphs.size(), [&](std::size_t i) {
+    CapsuleGraph graph = graphs[i];
+    task.FindShape(kFineSteps, kFineLooseness, /*seed=*/1, alone, observer, graph);
     task.TakeIn(kFineTakeInSteps, /*seed=*/2, alone, observer, graph);
-    values[i] = task.Value(graph, alone);
-    results[i] = std::move(graph);
+    const double value = task.Value(graph, alone);
+    finished[i] = {std::move(graph), value};
   });
-  return results[static_cast<std::size_t>(std::min_element(values.begin(), values.end()) -
-                                          values.begin())];
+  std::stable_sort(finished.begin(), finished.end(),
+                   [](const Finished& a, const Finished& b) { return a.value < b.value; });
+  std::vector<CapsuleGraph> result;
+  for (Finished& f : finished) result.push_back(std::move(f.graph));
+  return result;
 }
 
-CapsuleGraph FindEnclosing(const body::Body& body, const RefineOptions& options,
-                           const ThreadPool& pool, const FitObserver& observer) {
+std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const coverage::CoverTarget& target,
+                                        const RefineOptions& options, const ThreadPool& pool,
+                                        const FitObserver& observer) {
   const Spending spending = SpendingOf(options.budget);
   const int primitives = PrimitivesOf(spending);
-  const coverage::CoverTarget target = coverage::TargetOf(body, options.parts);
   const double share = 1.0 / std::sqrt(static_cast<double>(primitives));
   const double spacing = std::clamp(kSpacing * share, kLeastSpacing, kMostSpacing);
   const EnclosingTask task(target, body.is_symmetric, options.tolerance_m, spacing);
   // Up to twice as many: what is spared in a good layout leaves a better one than growth finds.
   const int most_spared = primitives > kFewPrimitives ? 0 : primitives;
   std::vector<CapsuleGraph> starts =
-      StartingGraphs(Guise::kEnclose, body, options.parts, spending, most_spared);
-  if (starts.front().primitive_count() + kUsedUp >= primitives) starts.resize(1);
+      StartingGraphs(Guise::kEnclose, body, options.parts, spending, /*sizes=*/2, most_spared);
+  if (starts.front().primitive_count() + kUsedUp >= primitives) {
+    std::erase_if(starts, [&](const CapsuleGraph& g) { return Excess(spending, g) > 0; });
+  }
   const std::vector<CapsuleGraph> found =
       FindEnclosingGraphs(task, spending, starts, pool, observer);
   const double fine_spacing = std::clamp(kFineSpacing * share, kLeastSpacing, spacing);
   const EnclosingTask fine(target, body.is_symmetric, options.tolerance_m, fine_spacing);
-  return Finish(fine, found, pool, observer);
+  std::vector<CapsuleGraph> finished = Finish(fine, found, pool, observer);
+  // Few primitives are judged well enough by thinned points.
+  if (primitives <= kFewPrimitives) finished.resize(1);
+  return finished;
 }
 
 body::Part PartAt(const body::Body& body, const Vec3& point_m) {
@@ -203,14 +212,25 @@ body::Part PartAt(const body::Body& body, const Vec3& point_m) {
 
 }  // namespace
 
-capsule::PrimitiveSet RefineSet(const body::Body& body, const RefineOptions& options,
-                                const ThreadPool& pool, const FitObserver& observer) {
-  const CapsuleGraph graph = options.enclose ? FindEnclosing(body, options, pool, observer)
-                                             : FindBestFit(body, options, pool, observer);
-  capsule::PrimitiveSet set = SetOf(graph);
-  pool.ForEach(graph.nodes.size(),
-               [&](std::size_t v) { set.origins[v].part = PartAt(body, graph.nodes[v].center_m); });
-  return set;
+std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
+                                             const coverage::CoverTarget& target,
+                                             const RefineOptions& options, const ThreadPool& pool,
+                                             const FitObserver& observer) {
+  std::vector<CapsuleGraph> graphs;
+  if (options.enclose) {
+    graphs = FindEnclosing(body, target, options, pool, observer);
+  } else {
+    graphs.push_back(FindBestFit(body, options, pool, observer));
+  }
+  std::vector<capsule::PrimitiveSet> sets;
+  for (const CapsuleGraph& graph : graphs) {
+    capsule::PrimitiveSet set = SetOf(graph);
+    pool.ForEach(graph.nodes.size(), [&](std::size_t v) {
+      set.origins[v].part = PartAt(body, graph.nodes[v].center_m);
+    });
+    sets.push_back(std::move(set));
+  }
+  return sets;
 }
 
 }  // namespace capfit::refine

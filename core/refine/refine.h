@@ -3,12 +3,14 @@
 #define CAPFIT_CORE_REFINE_REFINE_H_
 
 #include <cstdint>
+#include <vector>
 
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/capsule/primitive_set.h"
 #include "core/circle/allocation.h"
+#include "core/coverage/cover_vertices.h"
 
 namespace capfit::refine {
 
@@ -27,10 +29,17 @@ struct RefineOptions {
 // body whose is_symmetric holds gets an exactly symmetric set; others are not forced. Any parts may
 // be missing. A best fit prefers capsules that hang together to lone spheres (one piece is worth a
 // third of a primitive) and leaves out no limb; beside the best of unconnected spheres that costs
-// about a twentieth of E_r. Same input, same bits, for any pool. On cancellation the set so far
-// comes back. Grows with budget and vertices.
-[[nodiscard]] capsule::PrimitiveSet RefineSet(const body::Body& body, const RefineOptions& options,
-                                              const ThreadPool& pool, const FitObserver& observer);
+// about a twentieth of E_r.
+//
+// `target`: coverage::TargetOf(body, options.parts). Returns one set or, of larger enclosing ones,
+// a few, those that seem best first: which of them is tightest only coverage can tell. Same input,
+// same bits, for any pool. On cancellation the set so far comes back. Grows with budget and
+// vertices.
+[[nodiscard]] std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
+                                                           const coverage::CoverTarget& target,
+                                                           const RefineOptions& options,
+                                                           const ThreadPool& pool,
+                                                           const FitObserver& observer);
 
 }  // namespace capfit::refine
 

@@ -14,12 +14,13 @@ namespace capfit::refine {
 // By how many primitives the graph is beyond the spending; 0 when it fits.
 [[nodiscard]] int Excess(const Spending& spending, const CapsuleGraph& graph);
 
-// At least one graph: the largest layout of the guise that fits the spending, and the next one
-// beyond where no more than `most_spared` primitives of it have to go. Layouts with spheres for
-// head, hands and feet where any of these parts is selected and present.
+// At least one graph: layouts of the `sizes` largest numbers of primitives that fit the spending,
+// and the next ones beyond where no more than `most_spared` primitives of them have to go. Layouts
+// with spheres for head, hands and feet where any of these parts is selected and present.
 [[nodiscard]] std::vector<CapsuleGraph> StartingGraphs(Guise guise, const body::Body& body,
                                                        const body::PartSelection& parts,
-                                                       const Spending& spending, int most_spared);
+                                                       const Spending& spending, int sizes,
+                                                       int most_spared);
 
 }  // namespace capfit::refine
 

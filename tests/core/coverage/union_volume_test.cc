@@ -99,6 +99,40 @@ TEST(UnionVolumeTest, GradientMatchesDifferencesOfTheVolume) {
   }
 }
 
+// A trunk on the mid-plane, a bar across it and two legs.
+capsule::PrimitiveSet MirroredSet() {
+  capsule::PrimitiveSet set;
+  set.spheres = {{{0, 1.2, 0.02}, 0.14},    {{0, 0.9, 0}, 0.12},    {{0.1, 0.8, 0.03}, 0.09},
+                 {{-0.1, 0.8, 0.03}, 0.09}, {{0.15, 0.2, 0}, 0.05}, {{-0.15, 0.2, 0}, 0.05},
+                 {{0.4, 1.2, 0}, 0.06},     {{-0.4, 1.2, 0}, 0.06}};
+  set.capsules = {{0, 1}, {1, 2}, {1, 3}, {2, 4}, {3, 5}, {6, 7}};
+  for (const int image : {0, 1, 3, 2, 5, 4, 7, 6}) {
+    set.origins.push_back({body::Part::kTorso, -1, image});
+  }
+  return set;
+}
+
+TEST(UnionVolumeTest, HalfOfAMirroredSetTellsAll) {
+  capsule::PrimitiveSet set = MirroredSet();
+  const SetVariables variables(set);
+  const VolumeGradient half = UnionVolumeGradient(set, variables.solids(), 0.004, 1, ThreadPool(1));
+  capsule::PrimitiveSet plain = set;
+  for (capsule::SphereOrigin& origin : plain.origins) origin.mirror = -1;
+  const VolumeGradient whole =
+      UnionVolumeGradient(plain, variables.solids(), 0.004, 1, ThreadPool(1));
+  EXPECT_NEAR(half.volume_m3, whole.volume_m3, 2e-3 * whole.volume_m3);
+  EXPECT_NEAR(half.volume_m3, ColumnVolume(set, 0.004), 0.01 * half.volume_m3);
+  EXPECT_NEAR(half.area_m2, whole.area_m2, 5e-3 * whole.area_m2);
+  for (std::size_t i = 0; i < set.spheres.size(); ++i) {
+    EXPECT_LT((half.by_sphere[i] - whole.by_sphere[i]).norm(), 3e-3) << i;
+    const auto image = static_cast<std::size_t>(set.origins[i].mirror);
+    // The bar between the last two is its own image and sampled as a whole.
+    if (image == i || i >= 6) continue;
+    EXPECT_EQ(half.by_sphere[i].x(), -half.by_sphere[image].x()) << i;
+    EXPECT_EQ(half.by_sphere[i].tail<3>(), half.by_sphere[image].tail<3>()) << i;
+  }
+}
+
 TEST(UnionVolumeTest, SameBitsForAnyNumberOfThreads) {
   TubeBody body = MakeTubeBody(6, 0.0);
   const SetVariables variables(body.set);
