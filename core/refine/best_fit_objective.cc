@@ -38,12 +38,20 @@ void ForPointsIn(const CoverPoints& points, const Box& box, const Take& take) {
   }
 }
 
-// How much further out than kFarMissM the point is.
-float FarMissOf(const CoverPoints& points, int i, const std::vector<Cone>& cones) {
+// How much further out than kFarMissM the point is. `near`: the cone that is tried first, and in
+// the end the one that has the point; neighbours mostly have the same.
+float FarMissOf(const CoverPoints& points, int i, const std::vector<Cone>& cones,
+                std::size_t& near) {
+  const auto distance = [&](const Cone& cone) {
+    return SignedDistance(cone, points.x[U(i)], points.y[U(i)], points.z[U(i)]);
+  };
+  if (near < cones.size() && distance(cones[near]) <= kFarMissM) return 0.0f;
   float least = std::numeric_limits<float>::max();
-  for (const Cone& cone : cones) {
-    least = std::min(least, SignedDistance(cone, points.x[U(i)], points.y[U(i)], points.z[U(i)]));
-    if (least <= kFarMissM) return 0.0f;
+  for (std::size_t k = 0; k < cones.size(); ++k) {
+    least = std::min(least, distance(cones[k]));
+    if (least > kFarMissM) continue;
+    near = k;
+    return 0.0f;
   }
   return least - kFarMissM;
 }
@@ -110,8 +118,9 @@ class BestFitRound final : public Objective::Round {
              : errors_before_.Over(cells) - FillError(coarse_, after, cells);
     const std::vector<Cone> cones = ConesOf(after);
     double less_missed_m = 0.0;
+    std::size_t near = 0;
     ForPointsIn(points_, cells, [&](int i) {
-      less_missed_m += misses_before_m_[U(i)] - FarMissOf(points_, i, cones);
+      less_missed_m += misses_before_m_[U(i)] - FarMissOf(points_, i, cones, near);
     });
     return less_error / grid_.volume_m3 + MissPenalty(points_, less_missed_m);
   }
