@@ -43,7 +43,6 @@ constexpr double kMostSpacing = 0.027;
 constexpr int kFineSteps = 8;
 constexpr double kFineLooseness = 0.5;  // the shape is found, it need not be found anew
 constexpr int kFineTakeInSteps = 2;
-constexpr int kUsedUp = 3;  // an enclosing start this near to the budget needs no other
 
 Spending SpendingOf(const circle::Budget& budget) {
   return {std::min(budget.max_primitives, kNoLimit), std::min(budget.max_spheres, kNoLimit),
@@ -184,11 +183,8 @@ std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const coverage::
   const EnclosingTask task(target, body.is_symmetric, options.tolerance_m, spacing);
   // Up to twice as many: what is spared in a good layout leaves a better one than growth finds.
   const int most_spared = primitives > kFewPrimitives ? 0 : primitives;
-  std::vector<CapsuleGraph> starts =
+  const std::vector<CapsuleGraph> starts =
       StartingGraphs(Guise::kEnclose, body, options.parts, spending, /*sizes=*/2, most_spared);
-  if (starts.front().primitive_count() + kUsedUp >= primitives) {
-    std::erase_if(starts, [&](const CapsuleGraph& g) { return Excess(spending, g) > 0; });
-  }
   const std::vector<CapsuleGraph> found =
       FindEnclosingGraphs(task, spending, starts, pool, observer);
   const double fine_spacing = std::clamp(kFineSpacing * share, kLeastSpacing, spacing);

@@ -32,9 +32,7 @@ CapsuleGraph HangStick(const Subject& subject, const LayoutTask& task) {
                                    {4, 5, false}, {0, 6, false},  {6, 7, false}, {7, 8, false},
                                    {2, 9, false}, {5, 10, false}, {8, 11, false}};
   if (!task.full) nodes.resize(9), edges.resize(8);
-  body::PartSelection parts;
-  parts.head = parts.hands = parts.feet = task.full;
-  return HangLayout({nodes, edges}, subject.body, parts, true);
+  return HangLayout({nodes, edges}, subject.body, subject.parts, true);
 }
 
 class BestFitLayoutSearch {
@@ -123,9 +121,9 @@ class BestFitLayoutSearch {
                   : !graphs[0].IsNodeRepresentative(i - edges)) {
         continue;
       }
-      if (!ApplyLinked(EditOf(is_edge ? EditKind::kUnlink : EditKind::kDissolve,
-                              is_edge ? i : i - edges, -1),
-                       next)) {
+      if (!ApplyLinked(
+              EditOf(is_edge ? EditKind::kUnlink : EditKind::kDissolve, is_edge ? i : i - edges),
+              next)) {
         continue;
       }
       Settle(24, 0.004, next);
@@ -147,7 +145,7 @@ class BestFitLayoutSearch {
       const bool edge = graph.capsule_count() > 0 && random_.NextUnit() < 0.5;
       const int i = Below(edge ? graph.capsule_count() : graph.sphere_count());
       if (edge ? !graph.IsEdgeRepresentative(i) : !graph.IsNodeRepresentative(i)) continue;
-      ApplyLinked(EditOf(edge ? EditKind::kUnlink : EditKind::kDissolve, i, -1), next);
+      ApplyLinked(EditOf(edge ? EditKind::kUnlink : EditKind::kDissolve, i), next);
       --left;
     }
     const std::vector<Eigen::Vector3d> worst = subjects_[0].objective->WorstPoints(next[0], 24);
@@ -170,7 +168,7 @@ class BestFitLayoutSearch {
     const double lot = random_.NextUnit();
     if (lot < 0.35) {
       if (graph.capsule_count() == 0) return std::nullopt;
-      return EditOf(EditKind::kSplit, Below(graph.capsule_count()), -1);
+      return EditOf(EditKind::kSplit, Below(graph.capsule_count()));
     }
     if (lot < 0.7) {
       const int i = Below(graph.sphere_count()), j = Below(graph.sphere_count());

@@ -184,13 +184,11 @@ class EnclosingLayoutSearch {
   void Rewire(Graphs& graphs) {
     const CapsuleGraph& graph = graphs[0];
     if (graph.capsule_count() == 0) return;
-    const Edge edge = graph.edges[U(Below(graph.capsule_count()))];
+    const int index = Below(graph.capsule_count());
+    const Edge& edge = graph.edges[U(index)];
     const int kept = Below(2) == 0 ? edge.a : edge.b;
     const std::optional<int> other = NearTo(graph, kept);
     if (!other) return;
-    const auto at = std::find_if(graph.edges.begin(), graph.edges.end(),
-                                 [&](const Edge& e) { return e.a == edge.a && e.b == edge.b; });
-    const auto index = static_cast<int>(at - graph.edges.begin());
     Graphs next = graphs;
     if (!ApplyToAll(EditOf(EditKind::kUnlink, index), next)) return;
     if (!ApplyToAll(EditOf(EditKind::kLink, kept, *other), next)) return;
