@@ -27,8 +27,17 @@ struct DistanceKernel {
     dr = capsule.b().radius_m - capsule.a().radius_m;
   }
 
-  // Free of branches, so that a loop over it vectorises. Exact to 1e-7 m.
+  struct Place {
+    double distance_m;  // signed, exact to 1e-7 m
+    double foot_m;      // of the slant's normal, along the axis from a; beyond the ends as well
+  };
+
   [[nodiscard]] double SignedDistance(double x, double y, double z) const {
+    return Locate(x, y, z).distance_m;
+  }
+
+  // Free of branches, so that a loop over it vectorises.
+  [[nodiscard]] Place Locate(double x, double y, double z) const {
     const double dx = x - ax;
     const double dy = y - ay;
     const double dz = z - az;
@@ -36,11 +45,12 @@ struct DistanceKernel {
     const double rest = dx * dx + dy * dy + dz * dz - axial * axial;
     const double squared = rest > 0.0 ? rest : 0.0;
     const double radial = std::sqrt(squared);
-    double t = (axial - radial * slope) * inverse_length;
+    const double foot = axial - radial * slope;
+    double t = foot * inverse_length;
     t = t > 0.0 ? t : 0.0;
     t = t < 1.0 ? t : 1.0;
     const double off = axial - t * length;
-    return std::sqrt(squared + off * off) - (ra + t * dr);
+    return {std::sqrt(squared + off * off) - (ra + t * dr), foot};
   }
 
   double ax = 0, ay = 0, az = 0, ux = 1, uy = 0, uz = 0;

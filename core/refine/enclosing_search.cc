@@ -23,17 +23,21 @@ constexpr int kTrialSteps = 4;
 constexpr int kTakeInSteps = 2;
 constexpr int kStartSteps = 8;
 constexpr int kLooseSteps = 3;  // that show where ties would win
-// Growth goes on from so many graphs, each in all of these ways: the part that goes into ties.
-constexpr std::size_t kGrown = 2;
-constexpr std::array<double, 2> kTieShares = {0.35, 0.7};
+// The best graphs are grown, each so many times over, and the best of that goes on: variants that
+// differ by the seeds of their samples alone end some hundredths apart. Fewer graphs where each
+// takes longer.
+constexpr int kGrownTimesPrimitives = 120;
+constexpr int kMostGrown = 4;
+constexpr std::size_t kVariants = 2;
+constexpr double kTieShare = 0.5;  // of what growth spends, into ties and leaves
 // A round of growth or sparing goes so far.
 constexpr double kGrowthShare = 0.2;
 constexpr int kLeastGrowth = 4;
 constexpr double kSparedShare = 0.34;
 constexpr int kUsedUp = 3;  // a graph this near to the budget is not grown
-// Exchanges: trials at once, and in all.
+// Exchanges: trials at once, and in all. Fewer where each takes longer.
 constexpr std::size_t kTrialsAtOnce = 4;
-constexpr int kMostTrials = 16;
+constexpr int kTrialsTimesPrimitives = 960;
 constexpr double kLeastImprovement = 1e-4;
 constexpr std::size_t kLeaders = 2;
 constexpr std::size_t kTies = 8;
@@ -43,6 +47,8 @@ struct Renewal {
   double tie_share;  // part of those that goes into ties and leaves
 };
 constexpr std::array<Renewal, 4> kRenewals = {{{0.06, 0.5}, {0.12, 1.0}, {0.12, 0.5}, {0.24, 1.0}}};
+constexpr int kPrimitivesPerRound = 80;  // rounds of them
+constexpr int kMostRounds = 3;
 
 // Tells trials apart from each other, whatever thread they run on.
 constexpr std::uint64_t kTrialSeeds = 1000;
@@ -55,15 +61,17 @@ class Search {
         spending_(spending),
         primitives_(static_cast<int>(std::min<std::int64_t>(
             spending.max_primitives, std::int64_t{spending.max_spheres} + spending.max_capsules))),
+        usual_(spending.UsualPrimitives()),
         pool_(pool),
         observer_(observer) {}
 
   std::vector<CapsuleGraph> Run(const std::vector<CapsuleGraph>& starts) {
     Attempt best = BestStart(starts);
-    if (primitives_ <= kFewPrimitives) {
+    if (usual_ <= kFewPrimitives) {
       Exchange(best);
     } else {
-      Renew(best);
+      const int rounds = std::clamp(usual_ / kPrimitivesPerRound, 1, kMostRounds);
+      for (int round = 0; round < rounds; ++round) Renew(best);
     }
     Tie(best);
     std::vector<CapsuleGraph> graphs;
@@ -94,7 +102,7 @@ class Search {
       Spare(graph);
       attempts[i] = Settled(std::move(graph), /*seed=*/2);
     });
-    // Graphs that have the budget's size already wait for what the others grow to.
+    // Graphs that have the budget's size already wait for what the best of the others grows to.
     const auto is_small = [this](const Attempt& a) {
       return a.graph.primitive_count() + kUsedUp < primitives_;
     };
@@ -103,7 +111,7 @@ class Search {
     attempts.erase(attempts.begin(), large);
     Sort(small);
     for (std::uint64_t seed = 10; Grow(seed, small) && !observer_.IsCancelled();) {
-      seed += kGrown * kTieShares.size();
+      seed += kMostGrown * kVariants;
     }
     attempts.insert(attempts.end(), small.begin(), small.end());
     Sort(attempts);
@@ -121,17 +129,15 @@ class Search {
 
   // One round of growth from the best of the attempts; whether there was any.
   bool Grow(std::uint64_t seed, std::vector<Attempt>& attempts) const {
-    int most = 0;
-    for (const Attempt& a : attempts) most = std::max(most, a.graph.primitive_count());
-    const int target = most + std::max(kLeastGrowth, static_cast<int>(kGrowthShare * most));
-    attempts.resize(std::min(attempts.size(), kGrown));
-    std::vector<Attempt> grown(attempts.size() * kTieShares.size());
+    const int most = std::clamp(kGrownTimesPrimitives / std::max(1, usual_), 1, kMostGrown);
+    attempts.resize(std::min(attempts.size(), static_cast<std::size_t>(most)));
+    std::vector<Attempt> grown(attempts.size() * kVariants);
     pool_.ForEach(grown.size(), [&](std::size_t i) {
-      CapsuleGraph graph = attempts[i / kTieShares.size()].graph;
-      const int before = graph.primitive_count();
+      CapsuleGraph graph = attempts[i / kVariants].graph;
       if (!spending_.Allows(graph)) return;
-      const double ties = kTieShares[i % kTieShares.size()] * (target - before);
-      Extend(target, static_cast<int>(ties), seed + i, graph);
+      const int before = graph.primitive_count();
+      const int growth = std::max(kLeastGrowth, static_cast<int>(kGrowthShare * before));
+      Extend(before + growth, static_cast<int>(kTieShare * growth), seed + i, graph);
       if (graph.primitive_count() > before) grown[i] = Settled(std::move(graph), seed + i);
     });
     std::erase_if(grown, [](const Attempt& a) { return a.graph.nodes.empty(); });
@@ -277,8 +283,8 @@ class Search {
   void Exchange(Attempt& best) {
     std::vector<Removal> removals = RemovalsOf(best.graph, task_.Weigh(best.graph));
     std::size_t next = 0;
-    for (int trials = 0;
-         trials < kMostTrials && next < removals.size() && !observer_.IsCancelled();) {
+    for (int trials = 0; trials * usual_ < kTrialsTimesPrimitives && next < removals.size() &&
+                         !observer_.IsCancelled();) {
       std::vector<Edit> edits;
       for (; edits.size() < kTrialsAtOnce && next < removals.size(); ++next) {
         edits.push_back(removals[next].edit);
@@ -302,7 +308,8 @@ class Search {
 
   const EnclosingTask& task_;
   const Spending& spending_;
-  int primitives_;
+  int primitives_;  // at most
+  int usual_;       // about so many where only spheres or only capsules are limited
   const ThreadPool& pool_;
   const ThreadPool alone_{1};  // inside what runs in parallel already
   const FitObserver& observer_;

@@ -19,7 +19,11 @@ namespace {
 using geometry::TaperedCapsule;
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kSampleSpacing = 0.012;  // of the volume's samples, relative to the body's size
+// Of the volume's samples, times the root of the number of primitives, relative to the body's size:
+// coarse samples tell sets apart by chance.
+constexpr double kSampleSpacing = 0.096;
+constexpr double kLeastSampleSpacing = 0.006;
+constexpr double kMostSampleSpacing = 0.012;
 // What a cubic metre outside costs against one too much inside.
 constexpr double kOutsidePrice = 4.0;
 // Nobody grows further than this to make up for a capsule, relative to the body's size.
@@ -36,6 +40,8 @@ constexpr coverage::TightenPhase kInsidePhase{.first_trust = 0.004,
                                               .first_penalty = 100.0,
                                               .last_penalty = 100.0,
                                               .relative_gap = kTrialGap};
+
+constexpr double kMostCuts = 20.0;  // of an edge whose triangle gets points between its corners
 
 constexpr double kLoosePenalty = 8.0;
 constexpr double kApart = 0.03;  // of the worst points, relative to the body's size
@@ -108,6 +114,31 @@ double VolumeOutside(const TaperedCapsule& tie, const std::vector<TaperedCapsule
     }
   }
   return sum * tie.length_m() / (kAlong * kAround * kAcross);
+}
+
+// Adds points inside triangles with an edge longer than `longest_m` and moves area to them from the
+// corners, whose areas come first: small capsules would meet in furrows between far apart vertices.
+void AddPointsBetween(const coverage::CoverTarget& target, double longest_m,
+                      std::vector<Vec3>& points_m, std::vector<double>& areas_m2) {
+  for (const mesh::Triangle& t : target.triangles) {
+    const Vec3& a = target.points_m[t[0]];
+    const Vec3& b = target.points_m[t[1]];
+    const Vec3& c = target.points_m[t[2]];
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    const int n = static_cast<int>(std::min(longest / longest_m, kMostCuts)) + 1;
+    if (n < 2) continue;
+    const double area = 0.5 * (b - a).cross(c - a).norm();
+    const int count = (n + 1) * (n + 2) / 2;
+    for (const std::uint32_t corner : t) areas_m2[corner] -= area * (1.0 / 3.0 - 1.0 / count);
+    for (int i = 0; i < n; ++i) {
+      for (int j = i == 0 ? 1 : 0; j < n && i + j <= n; ++j) {
+        const int k = n - i - j;
+        if (k == n) continue;
+        points_m.push_back((i * a + j * b + k * c) / n);
+        areas_m2.push_back(area / count);
+      }
+    }
+  }
 }
 
 // The capsule that takes the place of a sphere with two; nothing for other spheres.
@@ -233,12 +264,13 @@ EnclosingTask::Thinned EnclosingTask::Thin(const coverage::CoverTarget& target, 
     for (const std::uint32_t corner : t) areas[corner] += twice / 6.0;
     area += 0.5 * twice;
   }
+  Thinned thinned;
+  thinned.size_m = std::max(std::sqrt(area), 1e-6);
   std::vector<Vec3> points = target.points_m;
+  AddPointsBetween(target, spacing * thinned.size_m, points, areas);
   if (symmetric) {
     for (Vec3& p : points) p.x() = std::abs(p.x());
   }
-  Thinned thinned;
-  thinned.size_m = std::max(std::sqrt(area), 1e-6);
   coverage::SparsePoints sparse = coverage::MakeSparse(points, areas, spacing * thinned.size_m);
   thinned.points_m = std::move(sparse.points_m);
   thinned.areas_m2 = std::move(sparse.weights);
@@ -349,7 +381,9 @@ double EnclosingTask::Value(const CapsuleGraph& graph, const ThreadPool& pool) c
     const std::uint32_t point = grid_.order()[i];
     outside += areas_m2_[point] * std::max(0.0, at.distance_m[i] - allowed_m_[point]);
   }
-  const double spacing_m = kSampleSpacing * size_m_;
+  const double primitives = std::max(1, graph.primitive_count());
+  const double spacing_m = size_m_ * std::clamp(kSampleSpacing / std::sqrt(primitives),
+                                                kLeastSampleSpacing, kMostSampleSpacing);
   return coverage::UnionVolumeGradient(set, solids, spacing_m, /*seed=*/7, pool).volume_m3 +
          kOutsidePrice * outside;
 }

@@ -2,6 +2,8 @@
 #ifndef CAPFIT_CORE_REFINE_GROWTH_H_
 #define CAPFIT_CORE_REFINE_GROWTH_H_
 
+#include <algorithm>
+
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/refine/capsule_graph.h"
@@ -18,6 +20,11 @@ struct Spending {
   [[nodiscard]] bool Allows(const CapsuleGraph& graph) const {
     return graph.primitive_count() <= max_primitives && graph.sphere_count() <= max_spheres &&
            graph.capsule_count() <= max_capsules;
+  }
+  // About how many primitives it comes to, where a capsule goes with each sphere.
+  [[nodiscard]] int UsualPrimitives() const {
+    return std::min(
+        {max_primitives, max_spheres + max_capsules, 2 * max_spheres, 2 * max_capsules + 1});
   }
 };
 

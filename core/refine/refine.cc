@@ -143,12 +143,6 @@ CapsuleGraph FindBestFit(const body::Body& body, const RefineOptions& options,
   return FindBestSet(objective, spending, pool, observer, std::move(starts));
 }
 
-// How many primitives the budget comes to, where a capsule goes with each sphere.
-int PrimitivesOf(const Spending& spending) {
-  return std::min({spending.max_primitives, spending.max_spheres + spending.max_capsules,
-                   2 * spending.max_spheres, 2 * spending.max_capsules + 1});
-}
-
 // Settles each of the graphs once more, with points enough to tell their values apart; the best
 // first.
 std::vector<CapsuleGraph> Finish(const EnclosingTask& task, const std::vector<CapsuleGraph>& graphs,
@@ -177,7 +171,7 @@ std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const coverage::
                                         const RefineOptions& options, const ThreadPool& pool,
                                         const FitObserver& observer) {
   const Spending spending = SpendingOf(options.budget);
-  const int primitives = PrimitivesOf(spending);
+  const int primitives = spending.UsualPrimitives();
   const double share = 1.0 / std::sqrt(static_cast<double>(primitives));
   const double spacing = std::clamp(kSpacing * share, kLeastSpacing, kMostSpacing);
   const EnclosingTask task(target, body.is_symmetric, options.tolerance_m, spacing);

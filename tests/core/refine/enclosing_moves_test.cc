@@ -49,6 +49,24 @@ CapsuleGraph Beads(int count) {
   return graph;
 }
 
+// Two large triangles whose corners are in small balls.
+TEST(EnclosingMovesTest, WhatSticksOutBetweenFarVerticesCounts) {
+  coverage::CoverTarget square;
+  square.points_m = {{0, 0, 0}, {0.4, 0, 0}, {0.4, 0.4, 0}, {0, 0.4, 0}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  square.point_parts.assign(4, body::Part::kTorso);
+  const EnclosingTask task(square, /*symmetric=*/false, 0.0, /*spacing=*/0.1);
+  const ThreadPool pool(1);
+  CapsuleGraph corners;
+  for (const Eigen::Vector3d& point : square.points_m) corners.AddNode(point, 0.06, false);
+  const std::vector<Eigen::Vector3d> worst = task.WorstPoints(corners, 100, pool);
+  ASSERT_GE(worst.size(), 10u);
+  EXPECT_LT((worst[0] - Eigen::Vector3d(0.2, 0.2, 0)).norm(), 0.05);
+  CapsuleGraph ball;
+  ball.AddNode({0.2, 0.2, 0}, 0.285, false);
+  EXPECT_TRUE(task.WorstPoints(ball, 100, pool).empty());
+}
+
 TEST(EnclosingMovesTest, WhatTakesInWhatSticksOutWins) {
   const ThreadPool pool(1);
   const CapsuleGraph beads = Beads(3);
