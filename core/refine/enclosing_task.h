@@ -25,7 +25,8 @@ struct GraphWorth {
   std::vector<double> node_loss;
 };
 
-// The body's points, thinned, those of a symmetric body folded to x >= 0. Immutable; may be asked
+// The body's points, thinned, those of a symmetric body folded to x >= 0; where vertices are
+// further apart than the spacing, points of the triangles between them too. Immutable; may be asked
 // from several threads.
 class EnclosingTask {
  public:
@@ -54,7 +55,8 @@ class EnclosingTask {
                                             const std::vector<Edit>& additions,
                                             const ThreadPool& pool) const;
 
-  // The union's volume, and what the points outside will still cost. Cubic metres.
+  // The union's volume, to some thousandths, and what the points outside will still cost. Cubic
+  // metres.
   [[nodiscard]] double Value(const CapsuleGraph& graph, const ThreadPool& pool) const;
 
   [[nodiscard]] GraphWorth Weigh(const CapsuleGraph& graph) const;
