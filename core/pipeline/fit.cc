@@ -235,6 +235,7 @@ class BodyFit {
   coverage::CoverReport Enclose(bool has_shape, capsule::PrimitiveSet& set) const {
     coverage::CoverOptions cover_options;
     cover_options.tolerance_m = options_.tolerance_m;
+    cover_options.tighten = !options_.grows_only;
     cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
     cover_options.loosen = !has_shape || cover_options.uniform_radius;
     return coverage::CoverBody(target_, cover_options, pool_, observer_, set);

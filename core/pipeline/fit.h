@@ -53,6 +53,9 @@ struct FitOptions {
   std::optional<double> polygon_error;  // outside area / polygon area
   FitMode fit = FitMode::kEnclose;
   Quality quality = Quality::kPaper;
+  // Covers by growing alone, the published method's own last step (III-D), instead of tightening:
+  // about twice the E_r. For comparisons with quality kPaper; the service does not offer it.
+  bool grows_only = false;
   // A name of Engines(), or empty. Its limits hold beside the budget (without one, they are the
   // budget), and coverage holds for what the engine makes of a capsule.
   std::string engine;

@@ -89,6 +89,9 @@ absl::Status ValidateOptions(const FitOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckEngine(options));
   CAPFIT_RETURN_IF_ERROR(CheckParts(options.parts));
   CAPFIT_RETURN_IF_ERROR(CheckLandmarks(options));
+  if (options.grows_only && options.quality != Quality::kPaper) {
+    return InvalidField("grows_only", "is for quality paper, must be false for others");
+  }
   return CheckTolerance(options);
 }
 

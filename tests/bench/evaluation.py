@@ -156,6 +156,7 @@ def version(capfit):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--capfit", required=True)
+    parser.add_argument("--published", required=True)
     parser.add_argument("--sphere-mesh", required=True)
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--budgets", type=lambda text: sorted(map(int, text.split(","))),
@@ -172,7 +173,7 @@ def main():
     judge = os.environ.get("CAPFIT_JUDGE")
     if not judge:
         print("CAPFIT_JUDGE names no program: `capfit evaluate` measures")
-    store = cells.Store(work, arguments.capfit, arguments.sphere_mesh, judge, arguments.kept)
+    store = cells.Store(work, arguments.capfit, arguments.published, arguments.sphere_mesh, judge, arguments.kept)
     budgets = arguments.budgets or (QUICK_BUDGETS if arguments.quick else BUDGETS)
     if FIGURE_10_BUDGET not in budgets or not set(budgets) <= set(BUDGETS):
         parser.error(f"--budgets must be some of {BUDGETS} and have {FIGURE_10_BUDGET} among them")

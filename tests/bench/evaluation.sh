@@ -21,8 +21,9 @@ deploy/install_packages.sh build bench
 build=${CAPFIT_BUILD:-build/bench}
 if [ -z "${CAPFIT_BUILD:-}" ]; then
   cmake --preset bench >/dev/null
-  cmake --build --preset bench --target client/capfit capfit_sphere_mesh
+  cmake --build --preset bench --target client/capfit capfit_published_fit capfit_sphere_mesh
 fi
 # The Python that has Debian's packages: the first one on the PATH may be another.
 exec /usr/bin/python3 tests/bench/evaluation.py --capfit "$build/client/capfit" \
+  --published "$build/tests/bench/published_fit" \
   --sphere-mesh "$build/tests/bench/sphere_mesh/sphere_mesh" "$@"

@@ -6,8 +6,11 @@ import os
 import subprocess
 import time
 
+# The published method's last step; a program of its own fits it.
+PUBLISHED = "published enclose"
 # Name and the arguments of `capfit approximate`.
 METHODS = {
+    PUBLISHED: [],
     "paper enclose": ["--quality", "paper", "--fit", "enclose"],
     "paper best": ["--quality", "paper", "--fit", "best"],
     "tight enclose": ["--quality", "tight", "--fit", "enclose"],
@@ -44,12 +47,14 @@ def time_figures(times):
 class Store:
     """Finished cells, one JSON line each, by a key that names programs and body by their bytes."""
 
-    def __init__(self, folder, capfit, sphere_mesh, judge, only_kept=False):
+    def __init__(self, folder, capfit, published, sphere_mesh, judge, only_kept=False):
         """With only_kept nothing is fitted: cells that are not there yet are NOT_MEASURED."""
-        self.capfit, self.sphere_mesh, self.judge = capfit, sphere_mesh, judge
+        self.capfit, self.published, self.sphere_mesh = capfit, published, sphere_mesh
+        self.judge = judge
         self.only_kept = only_kept
         measure = digest(judge or capfit)
         self.programs = {"capfit": f"{digest(capfit)}/{measure}",
+                         PUBLISHED: f"{digest(published)}/{measure}",
                          SPHERE_MESHES: f"{digest(sphere_mesh)}/{measure}"}
         self.folder = folder
         self.body_digests = {}
@@ -68,7 +73,7 @@ class Store:
     def key(self, kind, body, method, budget):
         if body not in self.body_digests:
             self.body_digests[body] = digest(body)
-        program = self.programs[SPHERE_MESHES if method == SPHERE_MESHES else "capfit"]
+        program = self.programs.get(method, self.programs["capfit"])
         return "|".join([kind, program, self.body_digests[body], method, str(budget)])
 
     def get(self, key):
@@ -99,8 +104,12 @@ class Store:
     def fit(self, body, method, budget):
         """Writes the result; its seconds, without reading the file."""
         path = self.result_path(body, method, budget)
-        run([self.capfit, "approximate", body, "-o", path, "--local", "--threads", THREADS,
-             "--parts", "all", "--max-primitives", str(budget), "--quiet"] + METHODS[method])
+        options = ["--threads", THREADS, "--max-primitives", str(budget)]
+        if method == PUBLISHED:
+            run([self.published, body, path] + options)
+        else:
+            run([self.capfit, "approximate", body, "-o", path, "--local", "--parts", "all", "--quiet"]
+                + options + METHODS[method])
         with open(path) as file:
             return json.load(file)["seconds"]
 

@@ -12,6 +12,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator  # noqa: 
 
 SPHERE_MESHES = "Sphere-Meshes"
 STYLE = {
+    "published enclose": ("#b2182b", "D", ":", "the paper's method as published"),
     "paper enclose": ("#e08214", "s", "-", "capfit, paper"),
     "paper best": ("#e08214", "s", "-", "capfit, paper"),
     "tight enclose": ("#2166ac", "o", "-", "capfit, tight"),
@@ -58,7 +59,9 @@ def figure_9(errors, budgets, path):
     for row, (name, label, ticks) in enumerate(rows):
         for column, (title, fit) in enumerate(columns):
             axes = grid[row][column]
-            for method in (SPHERE_MESHES, f"paper {fit}", f"tight {fit}"):
+            for method in (SPHERE_MESHES, f"published {fit}", f"paper {fit}", f"tight {fit}"):
+                if method not in STYLE:
+                    continue
                 color, marker, line, words = STYLE[method]
                 found = {n: spread(errors, method, n, name) for n in budgets}
                 x = [n for n in budgets if found[n]]

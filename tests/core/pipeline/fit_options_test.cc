@@ -62,6 +62,13 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"ErrorNotANumber",
              [](FitOptions& o) { o.polygon_error = std::numeric_limits<double>::quiet_NaN(); },
              kInvalid, "polygon_error is nan"},
+        Case{"GrowingIsPapers", [](FitOptions& o) { o.grows_only = true; }, kOk, ""},
+        Case{"GrowingIsNotTight",
+             [](FitOptions& o) {
+               o.grows_only = true;
+               o.quality = Quality::kTight;
+             },
+             kInvalid, "grows_only is for quality paper"},
         Case{"Tolerance", [](FitOptions& o) { o.tolerance_m = 0.1; }, kOk, ""},
         Case{"ToleranceTooLarge", [](FitOptions& o) { o.tolerance_m = 0.2; }, kInvalid,
              "tolerance_m is 0.2, must be 0 to 0.1"},

@@ -73,6 +73,18 @@ TEST(TightQuality, BestFitIsTighterStillAndSaysHowFarThingsStickOut) {
   EXPECT_LE(best.metrics.max_gap_m, out + 5e-3);
 }
 
+TEST(PaperQuality, ThePublishedLastStepEnclosesWithMore) {
+  const mesh::PolygonSoup soup = Person();
+  FitOptions options = Of(Quality::kPaper, FitMode::kEnclose, 64);
+  const FitResult paper = MustFit(soup, options);
+  options.grows_only = true;
+  const FitResult published = MustFit(soup, options);
+  EXPECT_LE(FurthestVertexOut(soup, published), 0.0);
+  EXPECT_LE(published.metrics.max_gap_m, 1e-3);
+  EXPECT_EQ(published.metrics.n_p, paper.metrics.n_p);
+  EXPECT_GT(published.metrics.E_r, 1.2 * paper.metrics.E_r);
+}
+
 TEST(PaperQuality, BestFitSettlesThePapersPrimitives) {
   const mesh::PolygonSoup soup = Person();
   const FitResult enclosing = MustFit(soup, Of(Quality::kPaper, FitMode::kEnclose, 64));
