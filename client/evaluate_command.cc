@@ -23,7 +23,7 @@
 namespace capfit::client {
 namespace {
 
-constexpr double kGapToleranceM = 1e-4;
+constexpr double kGapToleranceM = 1e-5;
 
 struct EvaluateArguments {
   std::string body;
