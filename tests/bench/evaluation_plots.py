@@ -74,7 +74,7 @@ def figure_9(errors, budgets, path):
             budget_axis(axes, budgets)
             if row == 0:
                 axes.set_title(title, fontsize=11)
-                axes.legend(fontsize=9, loc="upper right")
+                axes.legend(fontsize=9, loc="lower left")
             else:
                 axes.set_xlabel("$n_p$: spheres + cones + plates")
         grid[row][0].set_ylabel(label)
