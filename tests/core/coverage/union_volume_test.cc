@@ -161,7 +161,7 @@ capsule::PrimitiveSet BristlingChain() {
 TEST(UnionVolumeTest, CoarseSamplesTellTheVolumeWhereCapsulesShareSpheres) {
   capsule::PrimitiveSet set = BristlingChain();
   const SetVariables variables(set);
-  const double volume = ColumnVolume(set, 0.002);
+  const double volume = ColumnVolume(set, 0.004);
   double mean = 0.0;
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
     const double sampled =
