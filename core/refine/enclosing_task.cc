@@ -42,6 +42,7 @@ constexpr coverage::TightenPhase kInsidePhase{.first_trust = 0.004,
                                               .relative_gap = kTrialGap};
 
 constexpr double kMostCuts = 20.0;  // of an edge whose triangle gets points between its corners
+constexpr std::size_t kMostBetween = 500'000;  // such points in all
 
 constexpr double kLoosePenalty = 8.0;
 constexpr double kApart = 0.03;  // of the worst points, relative to the body's size
@@ -118,6 +119,7 @@ double VolumeOutside(const TaperedCapsule& tie, const std::vector<TaperedCapsule
 
 // Adds points inside triangles with an edge longer than `longest_m` and moves area to them from the
 // corners, whose areas come first: small capsules would meet in furrows between far apart vertices.
+// A body needs some tens of thousands; a mesh of slivers as long as itself gets no more than fit.
 void AddPointsBetween(const coverage::CoverTarget& target, double longest_m,
                       std::vector<Vec3>& points_m, std::vector<double>& areas_m2) {
   for (const mesh::Triangle& t : target.triangles) {
@@ -126,7 +128,7 @@ void AddPointsBetween(const coverage::CoverTarget& target, double longest_m,
     const Vec3& c = target.points_m[t[2]];
     const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     const int n = static_cast<int>(std::min(longest / longest_m, kMostCuts)) + 1;
-    if (n < 2) continue;
+    if (n < 2 || points_m.size() - target.points_m.size() > kMostBetween) continue;
     const double area = 0.5 * (b - a).cross(c - a).norm();
     const int count = (n + 1) * (n + 2) / 2;
     for (const std::uint32_t corner : t) areas_m2[corner] -= area * (1.0 / 3.0 - 1.0 / count);
