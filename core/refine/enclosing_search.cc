@@ -47,7 +47,7 @@ struct Renewal {
   double tie_share;  // part of those that goes into ties and leaves
 };
 constexpr std::array<Renewal, 4> kRenewals = {{{0.06, 0.5}, {0.12, 1.0}, {0.12, 0.5}, {0.24, 1.0}}};
-constexpr int kPrimitivesPerRound = 80;  // rounds of them
+constexpr int kPrimitivesPerRound = 80;  // one round of renewals for each so many
 constexpr int kMostRounds = 3;
 
 // Tells trials apart from each other, whatever thread they run on.

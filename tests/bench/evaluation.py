@@ -173,7 +173,8 @@ def main():
     judge = os.environ.get("CAPFIT_JUDGE")
     if not judge:
         print("CAPFIT_JUDGE names no program: `capfit evaluate` measures")
-    store = cells.Store(work, arguments.capfit, arguments.published, arguments.sphere_mesh, judge, arguments.kept)
+    store = cells.Store(work, arguments.capfit, arguments.published, arguments.sphere_mesh, judge,
+                        arguments.kept)
     budgets = arguments.budgets or (QUICK_BUDGETS if arguments.quick else BUDGETS)
     if FIGURE_10_BUDGET not in budgets or not set(budgets) <= set(BUDGETS):
         parser.error(f"--budgets must be some of {BUDGETS} and have {FIGURE_10_BUDGET} among them")

@@ -9,7 +9,8 @@ import textwrap
 from evaluation_cells import METHODS, NOT_MEASURED, PUBLISHED, SPHERE_MESHES
 from evaluation_plots import PAPER_S, PAPER_SPHERE_MESHES_S, spread
 
-WORDS = {PUBLISHED: "as published, ENCLOSE", "paper enclose": "PAPER, ENCLOSE", "paper best": "PAPER, BEST_FIT",
+WORDS = {PUBLISHED: "as published, ENCLOSE",
+         "paper enclose": "PAPER, ENCLOSE", "paper best": "PAPER, BEST_FIT",
          "tight enclose": "TIGHT, ENCLOSE", "tight best": "TIGHT, BEST_FIT",
          SPHERE_MESHES: "Sphere-Meshes"}
 # A driver around the code of Sphere-Meshes' authors, the same bodies and judge, radius bound 0.75.
