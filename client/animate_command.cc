@@ -38,7 +38,7 @@ absl::Status CheckVertexCount(const AnimateArguments& arguments,
       const mesh::PolygonSoup soup,
       mesh::ReadMesh(std::as_bytes(std::span(file)), mesh::FormatFromFileName(arguments.body)));
   if (soup.positions.size() == weights.vertex_count) return absl::OkStatus();
-  return InvalidField("weights",
+  return InvalidField(ErrorReason::kMalformedFile, "weights",
                       absl::StrCat("are for ", weights.vertex_count, " vertices, but the body has ",
                                    soup.positions.size()));
 }
@@ -49,7 +49,7 @@ absl::StatusOr<bool> ReadFrame(std::istream& in, std::size_t frame, std::vector<
   in.read(reinterpret_cast<char*>(numbers.data()), bytes);
   if (in.gcount() == bytes) return true;
   if (in.gcount() == 0 && in.eof()) return false;
-  return InvalidField(absl::StrCat("frames[", frame, "]"),
+  return InvalidField(ErrorReason::kMalformedFile, absl::StrCat("frames[", frame, "]"),
                       absl::StrCat("has ", in.gcount(), " bytes, must have ", bytes));
 }
 
@@ -67,12 +67,13 @@ absl::StatusOr<std::vector<Centers>> MoveCenters(const AnimateArguments& argumen
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       vertices[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
       if (!vertices[i].allFinite()) {
-        return InvalidField(absl::StrCat("frames[", frames.size(), "][", i, "]"), "must be finite");
+        return InvalidField(ErrorReason::kMalformedFile,
+                            absl::StrCat("frames[", frames.size(), "][", i, "]"), "must be finite");
       }
     }
     frames.push_back(skinning::Apply(weights, vertices, pool));
   }
-  if (frames.empty()) return InvalidField("frames", "is empty");
+  if (frames.empty()) return InvalidField(ErrorReason::kMalformedFile, "frames", "is empty");
   return frames;
 }
 

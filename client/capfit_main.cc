@@ -8,10 +8,11 @@
 #include "client/info_command.h"
 #include "client/picture/mannequin_command.h"
 #include "client/picture/render_command.h"
+#include "core/base/version.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"capfit: human bodies as few spheres and tapered capsules"};
-  app.set_version_flag("--version", CAPFIT_VERSION);
+  app.set_version_flag("--version", std::string(capfit::Version()));
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done; 1 the command line is wrong, or a file cannot be read or written;\n"

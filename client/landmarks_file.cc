@@ -17,7 +17,9 @@ absl::StatusOr<Eigen::Vector3d> PositionOf(const json& value, const std::string&
       if (value[i].is_number()) position[static_cast<Eigen::Index>(i)] = value[i].get<double>();
     }
   }
-  if (!position.allFinite()) return InvalidField(field, "must be [x, y, z], three finite numbers");
+  if (!position.allFinite())
+    return InvalidField(ErrorReason::kMalformedFile, field,
+                        "must be [x, y, z], three finite numbers");
   return position;
 }
 
@@ -26,14 +28,15 @@ absl::StatusOr<Eigen::Vector3d> PositionOf(const json& value, const std::string&
 absl::StatusOr<std::map<body::LandmarkId, Eigen::Vector3d>> ParseLandmarks(
     const std::string& json_text) {
   const json root = json::parse(json_text, nullptr, /*allow_exceptions=*/false);
-  if (!root.is_object()) return InvalidField("landmarks", "is not a JSON object");
+  if (!root.is_object())
+    return InvalidField(ErrorReason::kMalformedFile, "landmarks", "is not a JSON object");
   const auto inner = root.find("landmarks");
   const json& landmarks = inner != root.end() && inner->is_object() ? *inner : root;
   std::map<body::LandmarkId, Eigen::Vector3d> positions;
   for (const auto& [name, value] : landmarks.items()) {
     const std::string field = absl::StrCat("landmarks.", name);
     const std::optional<body::LandmarkId> id = body::LandmarkFromName(name);
-    if (!id) return InvalidField(field, "is no landmark's name");
+    if (!id) return InvalidField(ErrorReason::kMalformedFile, field, "is no landmark's name");
     CAPFIT_ASSIGN_OR_RETURN(positions[*id], PositionOf(value, field));
   }
   return positions;

@@ -25,8 +25,7 @@ inline Words<pipeline::SkinningMode> SkinningWords() {
 inline Words<section::Sex> SexWords() {
   return {{"auto", section::Sex::kAuto},
           {"female", section::Sex::kFemale},
-          {"male", section::Sex::kMale},
-          {"none", section::Sex::kNone}};
+          {"male", section::Sex::kMale}};
 }
 inline Words<body::Unit> UnitWords() {
   return {{"auto", body::Unit::kAuto},

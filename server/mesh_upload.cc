@@ -18,13 +18,15 @@ constexpr std::size_t kMaxRequestIdBytes = 128;
 
 absl::Status CheckClaim(const char* field, std::int64_t claimed, std::int64_t limit) {
   if (claimed >= 0 && claimed <= limit) return absl::OkStatus();
-  return InvalidField(field, absl::StrCat("is ", claimed, ", must be in [0, ", limit, "]"));
+  return InvalidField(ErrorReason::kOutOfRange, field,
+                      absl::StrCat("is ", claimed, ", must be in [0, ", limit, "]"));
 }
 
 absl::Status CheckFile(const v1::FileEncoding& file, const UploadLimits& limits) {
   if (!wire::FromWire(file.format())) {
-    return InvalidField("mesh.file.format", absl::StrCat("is ", static_cast<int>(file.format()),
-                                                         ", must be one of MeshFileFormat"));
+    return InvalidField(
+        ErrorReason::kOutOfRange, "mesh.file.format",
+        absl::StrCat("is ", static_cast<int>(file.format()), ", must be one of MeshFileFormat"));
   }
   return CheckClaim("mesh.file.byte_count", file.byte_count(), limits.max_bytes);
 }
@@ -38,8 +40,9 @@ absl::Status CheckArrays(const v1::ArrayEncoding& arrays, const UploadLimits& li
 
 absl::Status CheckHeader(const v1::ApproximateBodyHeader& header, const UploadLimits& limits) {
   if (header.request_id().size() > kMaxRequestIdBytes) {
-    return InvalidField("request_id", absl::StrCat("has ", header.request_id().size(),
-                                                   " bytes, limit ", kMaxRequestIdBytes));
+    return InvalidField(
+        ErrorReason::kOutOfRange, "request_id",
+        absl::StrCat("has ", header.request_id().size(), " bytes, limit ", kMaxRequestIdBytes));
   }
   switch (header.mesh().encoding_case()) {
     case v1::MeshHeader::kFile:
@@ -49,18 +52,21 @@ absl::Status CheckHeader(const v1::ApproximateBodyHeader& header, const UploadLi
     case v1::MeshHeader::ENCODING_NOT_SET:
       break;
   }
-  return InvalidField("mesh.encoding", "is missing, must be file or arrays");
+  return InvalidField(ErrorReason::kOutOfRange, "mesh.encoding",
+                      "is missing, must be file or arrays");
 }
 
 absl::Status CheckMet(const char* field, std::int64_t claimed, std::size_t received) {
   if (claimed == 0 || static_cast<std::size_t>(claimed) == received) return absl::OkStatus();
-  return InvalidField(field, absl::StrCat("is ", claimed, ", but the chunks bring ", received));
+  return InvalidField(ErrorReason::kOutOfRange, field,
+                      absl::StrCat("is ", claimed, ", but the chunks bring ", received));
 }
 
 absl::Status CheckAtMost(const char* field, const char* what, std::size_t count,
                          std::size_t limit) {
   if (count <= limit) return absl::OkStatus();
-  return InvalidField(field, absl::StrCat("bring ", count, " ", what, ", limit ", limit));
+  return InvalidField(ErrorReason::kOutOfRange, field,
+                      absl::StrCat("bring ", count, " ", what, ", limit ", limit));
 }
 
 template <typename Numbers>
@@ -97,11 +103,14 @@ absl::Status MeshUpload::Add(const v1::ApproximateBodyRequest& request) {
     case v1::ApproximateBodyRequest::PART_NOT_SET:
       break;
   }
-  return InvalidField("part", "is missing: each message must carry a header or a chunk");
+  return InvalidField(ErrorReason::kOutOfRange, "part",
+                      "is missing: each message must carry a header or a chunk");
 }
 
 absl::Status MeshUpload::AddHeader(const v1::ApproximateBodyHeader& header) {
-  if (has_header_) return InvalidField("header", "came a second time, only the first message may");
+  if (has_header_)
+    return InvalidField(ErrorReason::kOutOfRange, "header",
+                        "came a second time, only the first message may");
   CAPFIT_RETURN_IF_ERROR(CheckHeader(header, limits_));
   has_header_ = true;
   header_ = header;
@@ -118,29 +127,38 @@ absl::Status MeshUpload::AddHeader(const v1::ApproximateBodyHeader& header) {
 }
 
 absl::Status MeshUpload::AddChunk(const v1::MeshChunk& chunk) {
-  if (!has_header_) return InvalidField("chunk", "came before the header");
+  if (!has_header_)
+    return InvalidField(ErrorReason::kOutOfRange, "chunk", "came before the header");
   const bool wants_file = header_.mesh().has_file();
   switch (chunk.data_case()) {
     case v1::MeshChunk::kFileBytes:
-      if (!wants_file) return InvalidField("chunk.file_bytes", "came, but the header says arrays");
+      if (!wants_file)
+        return InvalidField(ErrorReason::kOutOfRange, "chunk.file_bytes",
+                            "came, but the header says arrays");
       CAPFIT_RETURN_IF_ERROR(CountBytes("chunk.file_bytes", chunk.file_bytes().size()));
       file_bytes_ += chunk.file_bytes();
       return absl::OkStatus();
     case v1::MeshChunk::kArrays:
-      if (wants_file) return InvalidField("chunk.arrays", "came, but the header says file");
+      if (wants_file)
+        return InvalidField(ErrorReason::kOutOfRange, "chunk.arrays",
+                            "came, but the header says file");
       return AddArrays(chunk.arrays());
     case v1::MeshChunk::DATA_NOT_SET:
       break;
   }
-  return InvalidField("chunk.data", "is missing, must be file_bytes or arrays");
+  return InvalidField(ErrorReason::kOutOfRange, "chunk.data",
+                      "is missing, must be file_bytes or arrays");
 }
 
 absl::Status MeshUpload::CountBytes(const char* field, std::size_t bytes) {
-  if (bytes == 0) return InvalidField(field, "is empty, each chunk must bring something");
+  if (bytes == 0)
+    return InvalidField(ErrorReason::kOutOfRange, field,
+                        "is empty, each chunk must bring something");
   received_bytes_ += static_cast<std::int64_t>(bytes);
   if (received_bytes_ <= limits_.max_bytes) return absl::OkStatus();
-  return InvalidField(field, absl::StrCat("brings the upload to ", received_bytes_,
-                                          " bytes, limit ", limits_.max_bytes));
+  return InvalidField(
+      ErrorReason::kOutOfRange, field,
+      absl::StrCat("brings the upload to ", received_bytes_, " bytes, limit ", limits_.max_bytes));
 }
 
 absl::Status MeshUpload::AddArrays(const v1::MeshArrays& arrays) {
@@ -150,10 +168,12 @@ absl::Status MeshUpload::AddArrays(const v1::MeshArrays& arrays) {
   has_triangles_ |= !arrays.triangle_indices().empty();
   has_polygons_ |= !arrays.face_sizes().empty() || !arrays.face_indices().empty();
   if (has_float_ && has_double_) {
-    return InvalidField("chunk.arrays", "mixes positions and positions_double, use one of them");
+    return InvalidField(ErrorReason::kOutOfRange, "chunk.arrays",
+                        "mixes positions and positions_double, use one of them");
   }
   if (has_triangles_ && has_polygons_) {
-    return InvalidField("chunk.arrays", "mixes triangle_indices and face_sizes, use one of them");
+    return InvalidField(ErrorReason::kOutOfRange, "chunk.arrays",
+                        "mixes triangle_indices and face_sizes, use one of them");
   }
   AppendCoordinates(arrays.positions(), coordinate_count_, soup_.positions);
   AppendCoordinates(arrays.positions_double(), coordinate_count_, soup_.positions);
@@ -176,10 +196,11 @@ absl::Status MeshUpload::CheckArraySizes() const {
 
 absl::Status MeshUpload::CheckComplete() const {
   if (!has_header_) {
-    return InvalidField("header", "is missing: the upload is empty, its first message must be one");
+    return InvalidField(ErrorReason::kOutOfRange, "header",
+                        "is missing: the upload is empty, its first message must be one");
   }
   if (received_bytes_ == 0) {
-    return InvalidField("chunk",
+    return InvalidField(ErrorReason::kOutOfRange, "chunk",
                         "is missing: the upload is empty, at least one must follow the "
                         "header");
   }
@@ -188,16 +209,18 @@ absl::Status MeshUpload::CheckComplete() const {
   }
   if (coordinate_count_ % 3 != 0) {
     return InvalidField(
-        "positions", absl::StrCat("has ", coordinate_count_, " numbers, must be a multiple of 3"));
+        ErrorReason::kOutOfRange, "positions",
+        absl::StrCat("has ", coordinate_count_, " numbers, must be a multiple of 3"));
   }
   if (!has_polygons_ && soup_.face_vertices.size() % 3 != 0) {
-    return InvalidField("triangle_indices", absl::StrCat("has ", soup_.face_vertices.size(),
-                                                         " numbers, must be a multiple of 3"));
+    return InvalidField(
+        ErrorReason::kOutOfRange, "triangle_indices",
+        absl::StrCat("has ", soup_.face_vertices.size(), " numbers, must be a multiple of 3"));
   }
   const std::uint64_t corners =
       std::accumulate(soup_.face_sizes.begin(), soup_.face_sizes.end(), std::uint64_t{0});
   if (has_polygons_ && corners != soup_.face_vertices.size()) {
-    return InvalidField("face_indices",
+    return InvalidField(ErrorReason::kOutOfRange, "face_indices",
                         absl::StrCat("has ", soup_.face_vertices.size(),
                                      " numbers, but face_sizes add up to ", corners));
   }

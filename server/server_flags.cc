@@ -3,6 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+
+#include "core/base/version.h"
 
 namespace capfit::server {
 namespace {
@@ -44,7 +47,7 @@ void AddDrain(CLI::App& app, ServerConfig& config) {
 std::optional<int> ParseFlags(int argc, const char* const* argv, ServerConfig& config) {
   CLI::App app{"capfit-server: human body meshes as few spheres and tapered capsules, over gRPC"};
   app.option_defaults()->always_capture_default();
-  app.set_version_flag("--version", CAPFIT_VERSION);
+  app.set_version_flag("--version", std::string(Version()));
   app.add_option("--listen", config.listen, "HOST:PORT to listen on; port 0: any free one");
   app.add_option("--port-file", config.port_file, "File to write the chosen port to");
   app.add_option("--threads", config.threads, "Threads that compute; 0: one per core")

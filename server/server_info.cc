@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "core/base/version.h"
 #include "core/pipeline/engines.h"
 
 namespace capfit::server {
@@ -75,7 +76,7 @@ void AddEngines(v1::GetServerInfoResponse& info) {
 v1::GetServerInfoResponse DescribeServer(const ServerConfig& config, int threads,
                                          const FitBackend& backend) {
   v1::GetServerInfoResponse info;
-  info.set_version(CAPFIT_VERSION);
+  info.set_version(std::string(Version()));
   v1::ServerLimits& limits = *info.mutable_limits();
   limits.set_max_upload_bytes(config.upload.max_bytes);
   limits.set_max_vertices(static_cast<std::int64_t>(config.upload.mesh.max_vertices));

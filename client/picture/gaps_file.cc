@@ -46,22 +46,23 @@ std::vector<float> GapsOf(const std::string& bytes) {
 }
 
 absl::Status CheckGapsHeader(const GapsHeader& header) {
-  if (!header.is_object()) return InvalidField("header", "must be one JSON object");
+  if (!header.is_object())
+    return InvalidField(ErrorReason::kMalformedFile, "header", "must be one JSON object");
   const GapsHeader expected = {
       {"format", kGapsFormat}, {"version", 1}, {"dtype", "float32"}, {"byte_order", "little"}};
   for (const auto& [name, value] : expected.items()) {
     if (header.contains(name) && header[name] == value) continue;
-    return InvalidField(name, absl::StrCat("must be ", value.dump()));
+    return InvalidField(ErrorReason::kMalformedFile, name, absl::StrCat("must be ", value.dump()));
   }
   if (!header.contains("vertices") || !header["vertices"].is_number_unsigned()) {
-    return InvalidField("vertices", "must be a whole number >= 0");
+    return InvalidField(ErrorReason::kMalformedFile, "vertices", "must be a whole number >= 0");
   }
   if (!header.contains("data") || !header["data"].is_string()) {
-    return InvalidField("data", "must be a file name");
+    return InvalidField(ErrorReason::kMalformedFile, "data", "must be a file name");
   }
   if (!header.contains("metres_per_unit") || !header["metres_per_unit"].is_number() ||
       !(header["metres_per_unit"].get<double>() > 0.0)) {
-    return InvalidField("metres_per_unit", "must be a number > 0");
+    return InvalidField(ErrorReason::kMalformedFile, "metres_per_unit", "must be a number > 0");
   }
   return absl::OkStatus();
 }
@@ -98,7 +99,7 @@ absl::StatusOr<VertexGaps> ReadVertexGaps(const std::string& header_path) {
       ReadFileBytes(GapsDataPath(header_path, header["data"].get<std::string>())));
   const auto count = header["vertices"].get<std::uint64_t>();
   if (bytes.size() % 4 != 0 || bytes.size() / 4 != count) {
-    return InvalidField("data",
+    return InvalidField(ErrorReason::kMalformedFile, "data",
                         absl::StrCat("holds ", bytes.size(), " bytes, must hold 4 x ", count));
   }
   return VertexGaps{header["metres_per_unit"].get<double>(), GapsOf(bytes)};

@@ -41,7 +41,8 @@ absl::Status SetParts(const std::vector<std::string>& parts, MannequinOptions& o
   };
   if (has("all")) return absl::OkStatus();
   for (const char* const name : {"torso", "arms", "legs"}) {
-    if (!has(name)) return InvalidField("parts", absl::StrCat("must name ", name));
+    if (!has(name))
+      return InvalidField(ErrorReason::kMalformedFile, "parts", absl::StrCat("must name ", name));
   }
   options.with_head = has("head");
   options.with_hands = has("hands");
@@ -71,7 +72,7 @@ absl::StatusOr<MannequinOptions> ToOptions(const Arguments& arguments) {
 absl::Status Run(const Arguments& arguments) {
   const std::string ending = FileEnding(arguments.output);
   if (ending != ".obj" && ending != ".ply") {
-    return InvalidField("output",
+    return InvalidField(ErrorReason::kMalformedFile, "output",
                         absl::StrCat("is ", arguments.output, ", must end in .obj or .ply"));
   }
   CAPFIT_ASSIGN_OR_RETURN(const MannequinOptions options, ToOptions(arguments));

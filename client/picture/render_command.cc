@@ -60,25 +60,29 @@ const std::map<std::string, NamedView>& Views() {
 absl::Status CheckArguments(const RenderArguments& arguments) {
   const std::string ending = FileEnding(arguments.output);
   if (ending != ".png" && ending != ".svg") {
-    return InvalidField("output",
+    return InvalidField(ErrorReason::kMalformedFile, "output",
                         absl::StrCat("is ", arguments.output, ", must end in .png or .svg"));
   }
   const auto check = [](const char* field, double value, double low, double high) {
     if (value >= low && value <= high) return absl::OkStatus();
-    return InvalidField(field, absl::StrCat("is ", value, ", must be in [", low, ", ", high, "]"));
+    return InvalidField(ErrorReason::kMalformedFile, field,
+                        absl::StrCat("is ", value, ", must be in [", low, ", ", high, "]"));
   };
   CAPFIT_RETURN_IF_ERROR(check("width", arguments.width, 200, 6000));
   CAPFIT_RETURN_IF_ERROR(check("height", arguments.height, 300, 6000));
   CAPFIT_RETURN_IF_ERROR(check("heat_limit_mm", arguments.heat_limit_mm, 0.01, 1e4));
   CAPFIT_RETURN_IF_ERROR(check("mm_per_unit", arguments.mm_per_unit, 1e-6, 1e6));
   if (!arguments.gaps.empty() && !arguments.frames.empty()) {
-    return InvalidField("gaps", "are those of the body at rest: not with --frames");
+    return InvalidField(ErrorReason::kMalformedFile, "gaps",
+                        "are those of the body at rest: not with --frames");
   }
   if (arguments.result.empty() && (arguments.heat || !arguments.frames.empty())) {
-    return InvalidField("result", "is missing: --heat and --frames need the primitives");
+    return InvalidField(ErrorReason::kMalformedFile, "result",
+                        "is missing: --heat and --frames need the primitives");
   }
   if (arguments.frames.empty() != arguments.centers.empty()) {
-    return InvalidField(arguments.frames.empty() ? "frames" : "centers",
+    return InvalidField(ErrorReason::kMalformedFile,
+                        arguments.frames.empty() ? "frames" : "centers",
                         "is missing: an animation needs both frames and centers");
   }
   return absl::OkStatus();
@@ -86,16 +90,18 @@ absl::Status CheckArguments(const RenderArguments& arguments) {
 
 // Faces must stay within the vertices: a picture takes any other soup.
 absl::Status CheckSoup(const mesh::PolygonSoup& soup) {
-  if (soup.positions.empty()) return InvalidField("body", "has no vertices");
+  if (soup.positions.empty())
+    return InvalidField(ErrorReason::kMalformedFile, "body", "has no vertices");
   for (std::size_t i = 0; i < soup.positions.size(); ++i) {
     if (!soup.positions[i].allFinite()) {
-      return InvalidField(absl::StrCat("body.positions[", i, "]"), "must be finite");
+      return InvalidField(ErrorReason::kMalformedFile, absl::StrCat("body.positions[", i, "]"),
+                          "must be finite");
     }
   }
   for (std::size_t i = 0; i < soup.face_vertices.size(); ++i) {
     if (soup.face_vertices[i] < soup.positions.size()) continue;
     return InvalidField(
-        absl::StrCat("body.face_vertices[", i, "]"),
+        ErrorReason::kMalformedFile, absl::StrCat("body.face_vertices[", i, "]"),
         absl::StrCat("is ", soup.face_vertices[i], ", must be below ", soup.positions.size()));
   }
   return absl::OkStatus();
@@ -106,12 +112,14 @@ absl::StatusOr<std::vector<Vector3d>> FramePoints(const std::string& bytes, std:
                                                   std::size_t points, const std::string& field) {
   const std::size_t frame_bytes = points * 3 * sizeof(float);
   if (frame_bytes == 0 || bytes.size() % frame_bytes != 0) {
-    return InvalidField(field, absl::StrCat("has ", bytes.size(), " bytes, must be a multiple of ",
-                                            frame_bytes, " (", points, " points in each frame)"));
+    return InvalidField(ErrorReason::kMalformedFile, field,
+                        absl::StrCat("has ", bytes.size(), " bytes, must be a multiple of ",
+                                     frame_bytes, " (", points, " points in each frame)"));
   }
   if (frame >= bytes.size() / frame_bytes) {
-    return InvalidField("show", absl::StrCat("has frame ", frame, ", must be below ",
-                                             bytes.size() / frame_bytes, " for ", field));
+    return InvalidField(ErrorReason::kMalformedFile, "show",
+                        absl::StrCat("has frame ", frame, ", must be below ",
+                                     bytes.size() / frame_bytes, " for ", field));
   }
   std::vector<float> values(points * 3);
   std::memcpy(values.data(), bytes.data() + frame * frame_bytes, frame_bytes);
@@ -119,7 +127,8 @@ absl::StatusOr<std::vector<Vector3d>> FramePoints(const std::string& bytes, std:
   for (std::size_t i = 0; i < points; ++i) {
     positions.emplace_back(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
     if (positions.back().allFinite()) continue;
-    return InvalidField(absl::StrCat(field, "[", frame, "][", i, "]"), "must be finite");
+    return InvalidField(ErrorReason::kMalformedFile, absl::StrCat(field, "[", frame, "][", i, "]"),
+                        "must be finite");
   }
   return positions;
 }
@@ -172,8 +181,9 @@ absl::StatusOr<Scene> AnimatedScene(const RenderArguments& arguments, const Inpu
 absl::Status UseGapsFile(RenderArguments& arguments, Figure& figure) {
   CAPFIT_ASSIGN_OR_RETURN(const VertexGaps file, ReadVertexGaps(arguments.gaps));
   if (file.gaps.size() != figure.vertices.size()) {
-    return InvalidField("gaps", absl::StrCat("has ", file.gaps.size(), " vertices, the body has ",
-                                             figure.vertices.size()));
+    return InvalidField(
+        ErrorReason::kMalformedFile, "gaps",
+        absl::StrCat("has ", file.gaps.size(), " vertices, the body has ", figure.vertices.size()));
   }
   figure.gaps.assign(file.gaps.begin(), file.gaps.end());
   arguments.mm_per_unit = 1000.0 * file.metres_per_unit;

@@ -15,12 +15,13 @@ using nlohmann::json;
 absl::StatusOr<std::vector<double>> Numbers(const json& value, std::size_t count,
                                             const std::string& field) {
   if (!value.is_array() || value.size() != count) {
-    return InvalidField(field, absl::StrCat("must be an array of ", count, " numbers"));
+    return InvalidField(ErrorReason::kMalformedFile, field,
+                        absl::StrCat("must be an array of ", count, " numbers"));
   }
   std::vector<double> numbers;
   for (const json& number : value) {
     if (!number.is_number() || !std::isfinite(number.get<double>())) {
-      return InvalidField(field, "must hold finite numbers only");
+      return InvalidField(ErrorReason::kMalformedFile, field, "must hold finite numbers only");
     }
     numbers.push_back(number.get<double>());
   }
@@ -29,12 +30,14 @@ absl::StatusOr<std::vector<double>> Numbers(const json& value, std::size_t count
 
 absl::Status ReadSpheres(const json& root, ResultSet& set) {
   if (!root.contains("spheres") || !root["spheres"].is_array()) {
-    return InvalidField("spheres", "is missing, must be an array of [x, y, z, r]");
+    return InvalidField(ErrorReason::kMalformedFile, "spheres",
+                        "is missing, must be an array of [x, y, z, r]");
   }
   for (const json& entry : root["spheres"]) {
     const std::string field = absl::StrCat("spheres[", set.spheres.size(), "]");
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<double> n, Numbers(entry, 4, field));
-    if (n[3] < 0.0) return InvalidField(field, "has a negative radius");
+    if (n[3] < 0.0)
+      return InvalidField(ErrorReason::kMalformedFile, field, "has a negative radius");
     set.spheres.push_back({{n[0], n[1], n[2]}, n[3]});
   }
   return absl::OkStatus();
@@ -42,14 +45,15 @@ absl::Status ReadSpheres(const json& root, ResultSet& set) {
 
 absl::Status ReadCapsules(const json& root, ResultSet& set) {
   if (!root.contains("capsules")) return absl::OkStatus();
-  if (!root["capsules"].is_array()) return InvalidField("capsules", "must be an array of [i, j]");
+  if (!root["capsules"].is_array())
+    return InvalidField(ErrorReason::kMalformedFile, "capsules", "must be an array of [i, j]");
   for (const json& entry : root["capsules"]) {
     const std::string field = absl::StrCat("capsules[", set.capsules.size(), "]");
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<double> ends, Numbers(entry, 2, field));
     for (std::size_t k = 0; k < 2; ++k) {
       const double limit = static_cast<double>(set.spheres.size());
       if (ends[k] >= 0.0 && ends[k] < limit && ends[k] == std::floor(ends[k])) continue;
-      return InvalidField(absl::StrCat(field, "[", k, "]"),
+      return InvalidField(ErrorReason::kMalformedFile, absl::StrCat(field, "[", k, "]"),
                           absl::StrCat("is ", ends[k], ", must be a whole number below ", limit));
     }
     set.capsules.push_back({static_cast<int>(ends[0]), static_cast<int>(ends[1])});
@@ -62,7 +66,7 @@ absl::Status ReadParts(const json& root, ResultSet& set) {
   if (!root.contains("sphere_parts")) return absl::OkStatus();
   const json& parts = root["sphere_parts"];
   if (!parts.is_array() || parts.size() != set.spheres.size()) {
-    return InvalidField("sphere_parts",
+    return InvalidField(ErrorReason::kMalformedFile, "sphere_parts",
                         absl::StrCat("must be an array of ", set.spheres.size(), " words"));
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -92,7 +96,8 @@ void ReadMetrics(const json& root, ResultSet& set) {
 
 absl::StatusOr<ResultSet> ParseResultSet(const std::string& json_text) {
   const json root = json::parse(json_text, nullptr, /*allow_exceptions=*/false);
-  if (!root.is_object()) return InvalidField("result", "is not a JSON object");
+  if (!root.is_object())
+    return InvalidField(ErrorReason::kMalformedFile, "result", "is not a JSON object");
   ResultSet set;
   CAPFIT_RETURN_IF_ERROR(ReadSpheres(root, set));
   CAPFIT_RETURN_IF_ERROR(ReadCapsules(root, set));

@@ -6,15 +6,15 @@
 
 namespace capfit {
 
-// The stages of a fit, in order. Each is the name of a room.
+// The stages of a fit, in the order in which a fit goes through them. Each is the name of a room.
 enum class Stage {
   kMesh,
   kBody,
   kSection,
   kCircle,
   kCapsule,
-  kCoverage,
   kRefine,
+  kCoverage,
   kMetrics,
   kSkinning
 };
@@ -28,7 +28,8 @@ inline constexpr int kStageCount = 9;
 class FitObserver {
  public:
   virtual ~FitObserver() = default;
-  // `stage` begins. `fraction_done` in [0, 1] is an estimate for the whole fit.
+  // `stage` begins or has come further. `fraction_done` in [0, 1] is an estimate for the whole fit
+  // and never falls.
   virtual void OnStage(Stage stage, double fraction_done) = 0;
   // Polled between chunks of parallel work, at least every 50 ms or so.
   [[nodiscard]] virtual bool IsCancelled() const = 0;

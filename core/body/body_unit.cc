@@ -28,10 +28,10 @@ absl::StatusOr<LengthUnit> ChooseUnit(Unit wanted, double height) {
   }
   const double height_m = height * best->metres;
   if (height_m < kMinHeightM || height_m > kMaxHeightM) {
-    return CannotFit("UNIT_UNKNOWN",
-                     absl::StrCat("the body is ", height,
-                                  " units tall, which is no human height in metres, centimetres, "
-                                  "millimetres or inches; name the unit"));
+    return Refused(ErrorReason::kUnitUnknown,
+                   absl::StrCat("the body is ", height,
+                                " units tall, which is no human height in metres, centimetres, "
+                                "millimetres or inches; name the unit"));
   }
   return *best;
 }

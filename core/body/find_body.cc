@@ -151,14 +151,16 @@ void AssignSides(const Extremities& extremities, const IntrinsicFrame& frame, Sh
 absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const WorkingCopy& copy,
                                          const Extremities& extremities) {
   if (extremities.found() < kMinExtremities) {
-    return CannotFit("NOT_A_BODY", absl::StrCat("not a human body: found ", extremities.found(),
-                                                " of 5 extremities (head, hands, feet)"));
+    return Refused(ErrorReason::kNotABody,
+                   absl::StrCat("not a human body: found ", extremities.found(),
+                                " of 5 extremities (head, hands, feet)"));
   }
   std::optional<Eigen::Vector3d> up = UpDirection(options.up);
   if (up) up = Snap(copy.axes * *up, kFineGrid).normalized();
   IntrinsicFrame frame = FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, up);
   if (up && frame.up_agreement < 0.0) {
-    return InvalidField("up", "points from the head to the feet of this body");
+    return InvalidField(ErrorReason::kContradictsBody, "mesh.up_axis",
+                        "points from the head to the feet of this body");
   }
   TurnToToldSides(options, copy, frame);
   return frame;
@@ -194,7 +196,8 @@ absl::Status CheckRequired(const Body& body, const PartSelection& required) {
     absl::StrAppend(&missing, missing.empty() ? "" : ", ", std::string(PartName(part)));
   }
   if (missing.empty()) return absl::OkStatus();
-  return CannotFit("PART_MISSING", absl::StrCat("required but not found on this body: ", missing));
+  return Refused(ErrorReason::kPartMissing,
+                 absl::StrCat("required but not found on this body: ", missing));
 }
 
 // Landmarks, segments and curves, once the frame is known.
@@ -221,9 +224,9 @@ class Anatomist {
                                                            extremities_, shape_, body_.warnings));
     CAPFIT_RETURN_IF_ERROR(FindLandmarks(extremities_, shape_, body_.landmarks, body_.warnings));
     if (!AllLandmarksFinite()) {
-      return CannotFit("NOT_A_BODY",
-                       "not a human body: a limb has no sections from which its landmarks could be "
-                       "measured");
+      return Refused(ErrorReason::kNotABody,
+                     "not a human body: a limb has no sections from which its landmarks could be "
+                     "measured");
     }
     if (observer.IsCancelled()) return absl::CancelledError("cancelled while finding landmarks");
     body_.is_symmetric = IsSymmetric(shape_, body_.landmarks);

@@ -215,7 +215,7 @@ absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
                      std::vector<Warning>& warnings) {
   MakeProfiles(fields, shape);
   if (!shape.legs[kLeft] && !shape.legs[kRight] && !shape.arms[kLeft] && !shape.arms[kRight]) {
-    return CannotFit("NOT_A_BODY", "not a human body: no arm and no leg was found on it");
+    return Refused(ErrorReason::kNotABody, "not a human body: no arm and no leg was found on it");
   }
   WarnOfMissingLimbs(shape, warnings);
   FindEnds(shape, landmarks);

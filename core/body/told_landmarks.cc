@@ -116,7 +116,9 @@ absl::StatusOr<Landmarks> ToldLandmarks(const BodyOptions& options,
   for (const auto& [id, position] : options.landmarks) {
     const Eigen::Vector3d at = Snap(body_from_caller.Apply(position), kFineGrid);
     if (const auto objection = judge.Objection(id, at, kCallersReach)) {
-      return InvalidField(absl::StrCat("landmarks.", std::string(LandmarkName(id))), *objection);
+      return InvalidField(ErrorReason::kContradictsBody,
+                          absl::StrCat("options.landmarks.", std::string(LandmarkName(id))),
+                          *objection);
     }
     told[Index(id)] = Landmark{at, LandmarkMethod::kCaller, 1.0};
   }

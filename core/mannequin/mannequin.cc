@@ -29,7 +29,8 @@ struct Range {
 absl::Status CheckRange(const std::string& field, double value, const Range& range) {
   if (value >= range.low && value <= range.high) return absl::OkStatus();
   return InvalidField(
-      field, absl::StrCat("is ", value, ", must be in [", range.low, ", ", range.high, "]"));
+      ErrorReason::kOutOfRange, field,
+      absl::StrCat("is ", value, ", must be in [", range.low, ", ", range.high, "]"));
 }
 
 absl::Status CheckGirth(const std::string& field, const std::optional<double>& girth_m,
@@ -38,8 +39,9 @@ absl::Status CheckGirth(const std::string& field, const std::optional<double>& g
   CAPFIT_RETURN_IF_ERROR(CheckRange(field, *girth_m, {0.5, 1.8}));
   const Range human{usual_m * (1.0 - spread), usual_m * (1.0 + spread)};
   if (*girth_m >= human.low && *girth_m <= human.high) return absl::OkStatus();
-  return InvalidField(field, absl::StrCat("is ", *girth_m, ", must be in [", human.low, ", ",
-                                          human.high, "] for this sex and height"));
+  return InvalidField(ErrorReason::kOutOfRange, field,
+                      absl::StrCat("is ", *girth_m, ", must be in [", human.low, ", ", human.high,
+                                   "] for this sex and height"));
 }
 
 absl::Status Validate(const MannequinOptions& options) {

@@ -94,7 +94,8 @@ class HoleCloser {
 
   absl::StatusOr<ClosedHoles> Run() {
     const std::optional<std::vector<Loop>> loops = LoopFinder(surface_).Run();
-    if (!loops.has_value()) return CannotFit("HOLE_NOT_CLOSED", "open edges do not form loops");
+    if (!loops.has_value())
+      return Refused(ErrorReason::kHoleNotClosed, "open edges do not form loops");
     NoteEdges(*loops);
     for (const Loop& loop : *loops) CAPFIT_RETURN_IF_ERROR(Close(loop));
     return report_;
@@ -133,10 +134,10 @@ class HoleCloser {
     }
     const std::optional<std::vector<Triangle>> filling = Fill(corners, points);
     if (!filling.has_value()) {
-      return CannotFit("HOLE_NOT_CLOSED",
-                       absl::StrCat("a hole of ", loop.size(),
-                                    " edges cannot be closed with the vertices around it; close "
-                                    "it in a modelling program"));
+      return Refused(ErrorReason::kHoleNotClosed,
+                     absl::StrCat("a hole of ", loop.size(),
+                                  " edges cannot be closed with the vertices around it; close "
+                                  "it in a modelling program"));
     }
     Report(points, *filling);
     Append(loop, corners, *filling);

@@ -80,13 +80,16 @@ std::optional<std::size_t> SizeAt(const json& parent, const char* key, std::size
 
 absl::StatusOr<GlbFile> OpenGlb(std::span<const std::byte> bytes) {
   if (bytes.size() < 20 || WordAt(bytes, 0) != 0x46546C67) {
-    return InvalidField("file", "is no GLB file: it must begin with 'glTF' and a header");
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        "is no GLB file: it must begin with 'glTF' and a header");
   }
-  if (WordAt(bytes, 4) != 2) return InvalidField("file", "must be of glTF version 2");
+  if (WordAt(bytes, 4) != 2)
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "must be of glTF version 2");
   const std::size_t length = WordAt(bytes, 8);
   if (length > bytes.size()) {
-    return InvalidField("file", absl::StrCat("ends early: its header claims ", length,
-                                             " bytes, but it has only ", bytes.size()));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat("ends early: its header claims ", length,
+                                     " bytes, but it has only ", bytes.size()));
   }
   bytes = bytes.first(std::max<std::size_t>(length, 20));
   GlbFile file;
@@ -96,19 +99,21 @@ absl::StatusOr<GlbFile> OpenGlb(std::span<const std::byte> bytes) {
     const std::uint32_t type = WordAt(bytes, offset + 4);
     offset += 8;
     if (size > bytes.size() - offset) {
-      return InvalidField("file",
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
                           absl::StrCat("ends early: a chunk claims ", size, " bytes, but only ",
                                        bytes.size() - offset, " follow"));
     }
     const std::span<const std::byte> chunk = bytes.subspan(offset, size);
     if (type == kJsonChunk && !has_json) {
       if (size > kMostJsonBytes) {
-        return InvalidField("file", absl::StrCat("has ", size, " bytes of JSON, must have at most ",
-                                                 kMostJsonBytes));
+        return InvalidField(
+            ErrorReason::kMalformedFile, "mesh.file",
+            absl::StrCat("has ", size, " bytes of JSON, must have at most ", kMostJsonBytes));
       }
       std::optional<json> parsed = ParseGltfJson(AsText(chunk));
       if (!parsed.has_value()) {
-        return InvalidField("file", "has a JSON chunk that is no JSON object");
+        return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                            "has a JSON chunk that is no JSON object");
       }
       file.json = *std::move(parsed);
       has_json = true;
@@ -117,7 +122,7 @@ absl::StatusOr<GlbFile> OpenGlb(std::span<const std::byte> bytes) {
     }
     offset += std::min(bytes.size() - offset, (size + 3) / 4 * 4);
   }
-  if (!has_json) return InvalidField("file", "has no JSON chunk");
+  if (!has_json) return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has no JSON chunk");
   return file;
 }
 
@@ -141,17 +146,20 @@ absl::StatusOr<GltfAccessor> GltfAccessor::Create(const GlbFile& file, std::size
                                                   const std::string& type) {
   const std::string name = absl::StrCat("accessor ", index);
   const json& accessors = ArrayAt(file.json, "accessors");
-  if (index >= accessors.size()) return InvalidField("file", "has no " + name);
+  if (index >= accessors.size())
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has no " + name);
   const json& accessor = accessors[index];
   GltfAccessor result;
   result.components_ = ComponentsOf(type);
   if (!accessor.is_object() || !accessor.contains("type") || accessor["type"] != type) {
-    return InvalidField("file", absl::StrCat("must have ", name, " of type ", type));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat("must have ", name, " of type ", type));
   }
   if (accessor.contains("sparse")) {
-    return InvalidField("file", name +
-                                    " is sparse, which is not read: export without morph data "
-                                    "or with plain accessors");
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        name +
+                            " is sparse, which is not read: export without morph data "
+                            "or with plain accessors");
   }
   result.normalized_ = accessor.contains("normalized") && accessor["normalized"] == true;
   CAPFIT_RETURN_IF_ERROR(result.FindBytes(file, accessor, name));
@@ -162,30 +170,36 @@ absl::Status GltfAccessor::FindBytes(const GlbFile& file, const json& accessor,
                                      const std::string& name) {
   const json& views = ArrayAt(file.json, "bufferViews");
   const std::optional<std::size_t> view_index = IndexAt(accessor, "bufferView", views.size());
-  if (!view_index.has_value()) return InvalidField("file", name + " has no buffer view");
+  if (!view_index.has_value())
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file", name + " has no buffer view");
   const json& view = views[*view_index];
   if (view.is_object() && view.contains("extensions")) {
     const json& extensions = view["extensions"];
     if (extensions.is_object() && extensions.contains("EXT_meshopt_compression")) {
-      return InvalidField("file", "is compressed with EXT_meshopt_compression, which is not read");
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "is compressed with EXT_meshopt_compression, which is not read");
     }
   }
   const std::string view_name = absl::StrCat("buffer view ", *view_index);
   const json& buffers = ArrayAt(file.json, "buffers");
   const std::optional<std::size_t> buffer = IndexAt(view, "buffer", buffers.size());
   if (buffer != std::size_t{0} || !buffers[0].is_object() || buffers[0].contains("uri")) {
-    return InvalidField("file", view_name + " is not in the file's own binary chunk");
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        view_name + " is not in the file's own binary chunk");
   }
   const std::optional<std::size_t> view_offset = SizeAt(view, "byteOffset", 0);
   const std::optional<std::size_t> view_size = IndexAt(view, "byteLength", std::size_t{1} << 48);
   if (!view_offset.has_value() || !view_size.has_value() || *view_offset > file.binary.size() ||
       *view_size > file.binary.size() - *view_offset) {
-    return InvalidField("file", absl::StrCat(view_name, " is out of range: it must lie within the ",
-                                             file.binary.size(), " bytes of the binary chunk"));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat(view_name, " is out of range: it must lie within the ",
+                                     file.binary.size(), " bytes of the binary chunk"));
   }
   const std::optional<std::size_t> type = IndexAt(accessor, "componentType", 10'000);
   const std::optional<std::size_t> size = SizeOfComponent(static_cast<int>(type.value_or(0)));
-  if (!size.has_value()) return InvalidField("file", name + " has no known component type");
+  if (!size.has_value())
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        name + " has no known component type");
   component_type_ = static_cast<int>(*type);
   const std::size_t element = *size * components_;
   const std::optional<std::size_t> stride = SizeAt(view, "byteStride", element);
@@ -193,13 +207,15 @@ absl::Status GltfAccessor::FindBytes(const GlbFile& file, const json& accessor,
   const std::optional<std::size_t> count = IndexAt(accessor, "count", std::size_t{1} << 32);
   if (!stride.has_value() || *stride < element || *stride > 255 || !offset.has_value() ||
       !count.has_value()) {
-    return InvalidField("file", name + " has a bad stride, offset or count");
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        name + " has a bad stride, offset or count");
   }
   // count < 2^32 and stride < 2^8: no overflow.
   const std::size_t needed = *count == 0 ? 0 : *offset + (*count - 1) * *stride + element;
   if (needed > *view_size) {
-    return InvalidField("file", absl::StrCat(name, " is out of range: it needs ", needed,
-                                             " bytes of ", view_name, ", which has ", *view_size));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat(name, " is out of range: it needs ", needed, " bytes of ",
+                                     view_name, ", which has ", *view_size));
   }
   count_ = *count;
   stride_ = *stride;

@@ -63,14 +63,16 @@ class NodeTree {
   absl::StatusOr<GltfNodes> Run() {
     if (nodes_.size() > kMostNodes) {
       return InvalidField(
-          "file", absl::StrCat("has ", nodes_.size(), " nodes, must have at most ", kMostNodes));
+          ErrorReason::kMalformedFile, "mesh.file",
+          absl::StrCat("has ", nodes_.size(), " nodes, must have at most ", kMostNodes));
     }
     CAPFIT_RETURN_IF_ERROR(FindChildren());
     result_.to_world.assign(nodes_.size(), Eigen::Matrix4d::Identity());
     // What stays unplaced hangs on a ring of nodes.
     const std::vector<std::size_t> placed = Walk(roots_, true);
     if (placed.size() != nodes_.size()) {
-      return InvalidField("file", "has nodes that are their own ancestors");
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "has nodes that are their own ancestors");
     }
     const json& scenes = ArrayAt(gltf_, "scenes");
     if (scenes.empty()) {
@@ -90,7 +92,8 @@ class NodeTree {
       children_[n] = IndicesAt(nodes_[n], "children", nodes_.size());
       for (const std::size_t child : children_[n]) {
         if (has_parent[child]) {
-          return InvalidField("file", absl::StrCat("gives node ", child, " two parents"));
+          return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                              absl::StrCat("gives node ", child, " two parents"));
         }
         has_parent[child] = true;
       }

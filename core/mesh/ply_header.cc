@@ -108,7 +108,8 @@ class HeaderReader {
   }
 
   absl::Status Error(const std::string& problem) const {
-    return InvalidField("file", absl::StrCat("line ", lines_.number(), ": ", problem));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat("line ", lines_.number(), ": ", problem));
   }
 
   std::string_view text_;

@@ -81,9 +81,9 @@ class MeshMender {
     Join();
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     if (surface_.triangles.empty()) {
-      return CannotFit("NO_SURFACE", absl::StrCat("all ", degenerate_,
-                                                  " faces are degenerate: none has three "
-                                                  "different vertices"));
+      return Refused(ErrorReason::kNoSurface, absl::StrCat("all ", degenerate_,
+                                                           " faces are degenerate: none has three "
+                                                           "different vertices"));
     }
     CAPFIT_RETURN_IF_ERROR(KeepMainPart());
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
@@ -156,10 +156,10 @@ class MeshMender {
     CAPFIT_RETURN_IF_ERROR(CheckVolume(main->volume, found.parts.size()));
     if (found.parts.size() > 1) CAPFIT_RETURN_IF_ERROR(CheckRivals(found, main_index));
     if (main->conflicts > 0) {
-      return CannotFit("NOT_ORIENTABLE",
-                       absl::StrCat("the surface has no inside: its faces cannot be turned the "
-                                    "same way round at ",
-                                    main->conflicts, " edges"));
+      return Refused(ErrorReason::kNotOrientable,
+                     absl::StrCat("the surface has no inside: its faces cannot be turned the "
+                                  "same way round at ",
+                                  main->conflicts, " edges"));
     }
     turned_ = main->turned;
     if (found.parts.size() > 1) KeepPart(found, main_index, surface_);
@@ -169,11 +169,11 @@ class MeshMender {
   absl::Status CheckVolume(double volume, std::size_t parts) const {
     const double least = kLeastVolumeShare * diagonal_ * diagonal_ * diagonal_;
     if (std::abs(volume) > least) return absl::OkStatus();
-    return CannotFit("NO_VOLUME",
-                     absl::StrFormat("the surface encloses no volume; it has %d parts that share "
-                                     "no edge: do neighbouring faces have the same vertices, or "
-                                     "equal ones to within %g of the diagonal?",
-                                     parts, kWeldShare));
+    return Refused(ErrorReason::kNoVolume,
+                   absl::StrFormat("the surface encloses no volume; it has %d parts that share "
+                                   "no edge: do neighbouring faces have the same vertices, or "
+                                   "equal ones to within %g of the diagonal?",
+                                   parts, kWeldShare));
   }
 
   // A part of similar size is another body, unless it lies within the main part's box: then it is
@@ -186,10 +186,10 @@ class MeshMender {
       const double share = std::abs(found.parts[p].volume) / main_volume;
       if (p == main || share < kRivalShare) continue;
       if (++rivals > kMostInnerWalls || !main_box.Holds(BoxOf(found, p))) {
-        return CannotFit("TWO_BODIES",
-                         absl::StrFormat("two separate parts are of similar size (the second has "
-                                         "%.0f %% of the first one's volume); send one body",
-                                         100.0 * share));
+        return Refused(ErrorReason::kTwoBodies,
+                       absl::StrFormat("two separate parts are of similar size (the second has "
+                                       "%.0f %% of the first one's volume); send one body",
+                                       100.0 * share));
       }
     }
     Warn("PARTS_LEFT_OUT", static_cast<std::int64_t>(found.parts.size() - 1),
@@ -220,10 +220,10 @@ class MeshMender {
         absl::StrFormat("%d holes (the largest is %.3g round, near %s)", closed.holes,
                         closed.longest_perimeter, PointText(closed.largest_middle));
     if (closed.area > kLargestHoleShare * own_area) {
-      return CannotFit("OPEN_SURFACE",
-                       absl::StrFormat("the surface is not closed: filling its %s would take "
-                                       "%.0f %% of its area; close it in a modelling program",
-                                       what, 100.0 * closed.area / own_area));
+      return Refused(ErrorReason::kOpenSurface,
+                     absl::StrFormat("the surface is not closed: filling its %s would take "
+                                     "%.0f %% of its area; close it in a modelling program",
+                                     what, 100.0 * closed.area / own_area));
     }
     Warn("HOLES_CLOSED", static_cast<std::int64_t>(closed.holes), what + " were closed");
     return absl::OkStatus();
@@ -297,11 +297,11 @@ class MeshMender {
     if (warnings_.empty() && degenerate_ + duplicates_ + welded_ == 0) return absl::OkStatus();
     const EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size() + copied_.size());
     if (mates.IsClosedAndOriented()) return absl::OkStatus();
-    return CannotFit("NOT_MANIFOLD",
-                     absl::StrCat("the surface cannot be taken apart at ",
-                                  mates.crowded_sizes.size() + mates.misdirected,
-                                  " edges where it touches itself; mend it in a modelling "
-                                  "program"));
+    return Refused(ErrorReason::kNotManifold,
+                   absl::StrCat("the surface cannot be taken apart at ",
+                                mates.crowded_sizes.size() + mates.misdirected,
+                                " edges where it touches itself; mend it in a modelling "
+                                "program"));
   }
 
   PreparedMesh Finish() {

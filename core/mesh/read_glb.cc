@@ -60,7 +60,7 @@ class GlbReader {
       base_of_positions_.clear();
       const json& primitives = ArrayAt(meshes[*mesh], "primitives");
       if (primitives.size() > primitives_left_) {
-        return InvalidField("file",
+        return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
                             absl::StrCat("draws more than ", kMostPrimitives, " primitives"));
       }
       primitives_left_ -= primitives.size();
@@ -69,7 +69,8 @@ class GlbReader {
       }
     }
     if (soup_.face_vertices.empty()) {
-      return InvalidField("file", "has no mesh: its scene draws no triangles");
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "has no mesh: its scene draws no triangles");
     }
     // (What no transform moved is for PrepareMesh to look at.)
     if (rounding_ > 0.0) {
@@ -124,13 +125,15 @@ class GlbReader {
   absl::StatusOr<std::vector<std::size_t>> JointsOf(const json& skin) const {
     const json& entries = ArrayAt(skin, "joints");
     if (entries.size() > kMostJoints) {
-      return InvalidField("file", absl::StrCat("has a skin with ", entries.size(),
-                                               " joints, must have at most ", kMostJoints));
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          absl::StrCat("has a skin with ", entries.size(),
+                                       " joints, must have at most ", kMostJoints));
     }
     std::vector<std::size_t> joints;
     for (const json& entry : entries) {
       if (!entry.is_number_unsigned() || entry.get<std::uint64_t>() >= nodes_.to_world.size()) {
-        return InvalidField("file", "has a skin whose joint is no node");
+        return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                            "has a skin whose joint is no node");
       }
       joints.push_back(entry.get<std::size_t>());
     }
@@ -144,12 +147,15 @@ class GlbReader {
     if (!skin.is_object() || !skin.contains("inverseBindMatrices")) return matrices;
     const std::optional<std::size_t> index =
         IndexAt(skin, "inverseBindMatrices", ArrayAt(file_.json, "accessors").size());
-    if (!index.has_value()) return InvalidField("file", "has a skin without its matrices");
+    if (!index.has_value())
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "has a skin without its matrices");
     CAPFIT_ASSIGN_OR_RETURN(const GltfAccessor accessor,
                             GltfAccessor::Create(file_, *index, "MAT4"));
     if (accessor.count() < joints) {
-      return InvalidField("file", absl::StrCat("has a skin of ", joints, " joints with only ",
-                                               accessor.count(), " matrices"));
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          absl::StrCat("has a skin of ", joints, " joints with only ",
+                                       accessor.count(), " matrices"));
     }
     for (std::size_t j = 0; j < joints; ++j) {
       Eigen::Matrix4d& matrix = matrices.emplace_back();
@@ -159,15 +165,19 @@ class GlbReader {
   }
 
   absl::Status AddPrimitive(const json& primitive, const Eigen::Matrix4d& to_world) {
-    if (!primitive.is_object()) return InvalidField("file", "has a primitive that is no object");
+    if (!primitive.is_object())
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "has a primitive that is no object");
     const std::size_t mode =
         primitive.contains("mode") ? IndexAt(primitive, "mode", 7).value_or(7) : kTriangles;
     if (mode < kTriangles) return absl::OkStatus();  // points and lines
-    if (mode > kTriangleFan) return InvalidField("file", "has a primitive of unknown mode");
+    if (mode > kTriangleFan)
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "has a primitive of unknown mode");
     const auto extensions = primitive.find("extensions");
     if (extensions != primitive.end() && extensions->is_object() &&
         extensions->contains("KHR_draco_mesh_compression")) {
-      return InvalidField("file",
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
                           "is compressed with Draco, which is not read: export uncompressed");
     }
     const auto attributes = primitive.find("attributes");
@@ -175,7 +185,9 @@ class GlbReader {
         attributes == primitive.end()
             ? std::nullopt
             : IndexAt(*attributes, "POSITION", ArrayAt(file_.json, "accessors").size());
-    if (!position.has_value()) return InvalidField("file", "has a primitive without POSITION");
+    if (!position.has_value())
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "has a primitive without POSITION");
     CAPFIT_ASSIGN_OR_RETURN(const GltfAccessor positions,
                             GltfAccessor::Create(file_, *position, "VEC3"));
     CAPFIT_ASSIGN_OR_RETURN(const std::size_t base, AddPositions(*position, positions, to_world));
@@ -192,7 +204,7 @@ class GlbReader {
         base_of_positions_.try_emplace(accessor_index, soup_.positions.size());
     if (!is_new) return entry->second;
     if (positions.count() > limits_.max_vertices - soup_.positions.size()) {
-      return InvalidField("file",
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
                           absl::StrCat("has more than ", limits_.max_vertices, " vertices"));
     }
     soup_.positions.reserve(soup_.positions.size() + positions.count());
@@ -220,20 +232,23 @@ class GlbReader {
     }
     const std::optional<std::size_t> index =
         IndexAt(primitive, "indices", ArrayAt(file_.json, "accessors").size());
-    if (!index.has_value()) return InvalidField("file", "has a primitive without its indices");
+    if (!index.has_value())
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "has a primitive without its indices");
     CAPFIT_ASSIGN_OR_RETURN(const GltfAccessor indices,
                             GltfAccessor::Create(file_, *index, "SCALAR"));
     if (!indices.IsUnsigned()) {
-      return InvalidField("file", absl::StrCat("must have unsigned indices in accessor ", *index));
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          absl::StrCat("must have unsigned indices in accessor ", *index));
     }
     if (indices.count() > 3 * limits_.max_faces) return TooManyFaces();
     corners.reserve(indices.count());
     for (std::size_t i = 0; i < indices.count(); ++i) {
       const double vertex = indices.At(i, 0);
       if (!(vertex < static_cast<double>(vertices))) {
-        return InvalidField(
-            "file", absl::StrCat("has the index ", vertex, " at ", i, " of accessor ", *index,
-                                 ", must be below ", vertices));
+        return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                            absl::StrCat("has the index ", vertex, " at ", i, " of accessor ",
+                                         *index, ", must be below ", vertices));
       }
       corners.push_back(static_cast<std::uint32_t>(base + static_cast<std::size_t>(vertex)));
     }
@@ -260,7 +275,8 @@ class GlbReader {
   }
 
   absl::Status TooManyFaces() const {
-    return InvalidField("file", absl::StrCat("has more than ", limits_.max_faces, " faces"));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat("has more than ", limits_.max_faces, " faces"));
   }
 
   const GlbFile& file_;

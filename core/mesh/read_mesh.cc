@@ -73,7 +73,7 @@ MeshFormat FormatFromBytes(std::span<const std::byte> bytes) {
 
 absl::StatusOr<PolygonSoup> ReadMesh(std::span<const std::byte> bytes, MeshFormat format,
                                      const MeshLimits& limits) {
-  if (bytes.empty()) return InvalidField("file", "is empty");
+  if (bytes.empty()) return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "is empty");
   if (format == MeshFormat::kUnknown) format = FormatFromBytes(bytes);
   switch (format) {
     case MeshFormat::kObj:
@@ -89,7 +89,8 @@ absl::StatusOr<PolygonSoup> ReadMesh(std::span<const std::byte> bytes, MeshForma
     case MeshFormat::kUnknown:
       break;
   }
-  return InvalidField("file", "has no known format: give an OBJ, PLY, STL, OFF or GLB file");
+  return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                      "has no known format: give an OBJ, PLY, STL, OFF or GLB file");
 }
 
 }  // namespace capfit::mesh

@@ -29,13 +29,14 @@ class ObjReader {
   absl::StatusOr<PolygonSoup> Run() {
     while (!lines_.AtEnd()) CAPFIT_RETURN_IF_ERROR(ReadLine(NextStatement()));
     if (soup_.positions.empty()) {
-      return InvalidField("file", "holds nothing to read: an OBJ file has lines 'v x y z'");
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "holds nothing to read: an OBJ file has lines 'v x y z'");
     }
     if (highest_index_ >= soup_.positions.size() && !soup_.face_vertices.empty()) {
-      return InvalidField(
-          "file", absl::StrCat("line ", highest_index_line_, ": face ", highest_index_face_,
-                               " names vertex ", highest_index_ + 1, ", but there are only ",
-                               soup_.positions.size()));
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          absl::StrCat("line ", highest_index_line_, ": face ", highest_index_face_,
+                                       " names vertex ", highest_index_ + 1,
+                                       ", but there are only ", soup_.positions.size()));
     }
     return std::move(soup_);
   }
@@ -120,7 +121,8 @@ class ObjReader {
   }
 
   absl::Status Error(const std::string& problem) const {
-    return InvalidField("file", absl::StrCat("line ", lines_.number(), ": ", problem));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat("line ", lines_.number(), ": ", problem));
   }
   absl::Status FaceError(const std::string& problem) const {
     return Error(absl::StrCat("face ", soup_.face_sizes.size(), " ", problem));

@@ -115,7 +115,8 @@ class OffReader {
   }
 
   absl::Status Error(const std::string& problem) const {
-    return InvalidField("file", absl::StrCat("line ", lines_.number(), ": ", problem));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat("line ", lines_.number(), ": ", problem));
   }
 
   LineScanner lines_;

@@ -89,7 +89,8 @@ class BodyReader {
       CAPFIT_RETURN_IF_ERROR(CheckCount(element));
       CAPFIT_RETURN_IF_ERROR(ReadElement(element));
     }
-    if (soup_.positions.empty()) return InvalidField("file", "has no element 'vertex'");
+    if (soup_.positions.empty())
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has no element 'vertex'");
     return std::move(soup_);
   }
 
@@ -98,16 +99,17 @@ class BodyReader {
     const std::size_t fewest = MinimumBytes(element, header_.encoding);
     // One byte more: the last value of a text needs no separator.
     if (element.count > (values_.BytesLeft() + 1) / fewest) {
-      return InvalidField(
-          "file", absl::StrCat("ends early: element ", Named(element), " claims ", element.count,
-                               " records of at least ", fewest, " bytes, but only ",
-                               values_.BytesLeft(), " bytes follow"));
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          absl::StrCat("ends early: element ", Named(element), " claims ",
+                                       element.count, " records of at least ", fewest,
+                                       " bytes, but only ", values_.BytesLeft(), " bytes follow"));
     }
     const bool is_face = element.name == "face";
     const std::size_t limit = is_face ? limits_.max_faces : limits_.max_vertices;
     if ((is_face || element.name == "vertex") && element.count > limit) {
-      return InvalidField("file", absl::StrCat("has ", element.count, " records of element ",
-                                               Named(element), ", must have at most ", limit));
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          absl::StrCat("has ", element.count, " records of element ",
+                                       Named(element), ", must have at most ", limit));
     }
     return absl::OkStatus();
   }
@@ -116,7 +118,8 @@ class BodyReader {
     if (element.name == "vertex") return ReadVertices(element);
     if (element.name == "face") return ReadFaces(element);
     if (element.name == "tristrips") {
-      return InvalidField("file", "stores triangle strips, store an element 'face' instead");
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "stores triangle strips, store an element 'face' instead");
     }
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties) {
@@ -127,7 +130,8 @@ class BodyReader {
   }
 
   absl::Status ReadVertices(const PlyElement& element) {
-    if (!soup_.positions.empty()) return InvalidField("file", "has two elements 'vertex'");
+    if (!soup_.positions.empty())
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has two elements 'vertex'");
     std::vector<int> axis_of(element.properties.size(), -1);
     std::array<int, 3> found = {0, 0, 0};
     for (std::size_t k = 0; k < axis_of.size(); ++k) {
@@ -139,7 +143,8 @@ class BodyReader {
       ++found[axis - 'x'];
     }
     if (found != std::array<int, 3>{1, 1, 1}) {
-      return InvalidField("file", "has no properties x, y and z of element 'vertex'");
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "has no properties x, y and z of element 'vertex'");
     }
     soup_.positions.resize(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -162,9 +167,11 @@ class BodyReader {
   }
 
   absl::Status ReadFaces(const PlyElement& element) {
-    if (!soup_.face_sizes.empty()) return InvalidField("file", "has two elements 'face'");
+    if (!soup_.face_sizes.empty())
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has two elements 'face'");
     if (std::count_if(element.properties.begin(), element.properties.end(), IsCornerList) != 1) {
-      return InvalidField("file", "has no list vertex_indices of element 'face'");
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "has no list vertex_indices of element 'face'");
     }
     soup_.face_sizes.reserve(element.count);
     soup_.face_vertices.reserve(3 * element.count);
@@ -191,7 +198,8 @@ class BodyReader {
     }
     const auto count = static_cast<std::uint32_t>(*corners);
     if (!triangles_.Add(count)) {
-      return InvalidField("file", "has faces that " + TooManyTriangles(limits_));
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                          "has faces that " + TooManyTriangles(limits_));
     }
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::optional<double> index = values_.Next(property.type);
@@ -216,12 +224,13 @@ class BodyReader {
   }
 
   absl::Status EndsEarly(const PlyElement& element, std::uint64_t record) const {
-    return InvalidField("file",
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
                         absl::StrCat("ends early or has a bad value in record ", record, " of ",
                                      element.count, " of element ", Named(element)));
   }
   static absl::Status FaceError(std::uint64_t face, const std::string& problem) {
-    return InvalidField("file", absl::StrCat("face ", face, " ", problem));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat("face ", face, " ", problem));
   }
   static std::string Named(const PlyElement& element) {
     return absl::StrCat("'", element.name.substr(0, 20), "'");
@@ -254,7 +263,7 @@ absl::StatusOr<PolygonSoup> ReadPly(std::span<const std::byte> bytes, const Mesh
     case PlyEncoding::kBigEndian:
       return ReadBody<BinaryValues<true>>(header, body, limits);
   }
-  return InvalidField("file", "has no known encoding");
+  return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has no known encoding");
 }
 
 }  // namespace capfit::mesh

@@ -56,16 +56,17 @@ class CornerMerger {
 };
 
 absl::Status TooMany(const char* what, std::size_t limit) {
-  return InvalidField("file", absl::StrCat("has more than ", limit, " ", what));
+  return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                      absl::StrCat("has more than ", limit, " ", what));
 }
 
 absl::StatusOr<PolygonSoup> ReadBinary(std::span<const std::byte> bytes, const MeshLimits& limits) {
   const std::uint32_t count = CountIn(bytes);
   const std::uint64_t needed = kHeaderBytes + std::uint64_t{kBytesPerTriangle} * count;
   if (bytes.size() < needed) {
-    return InvalidField(
-        "file", absl::StrCat("ends early: it claims ", count, " triangles, which take ", needed,
-                             " bytes, but has only ", bytes.size()));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat("ends early: it claims ", count, " triangles, which take ",
+                                     needed, " bytes, but has only ", bytes.size()));
   }
   if (count > limits.max_faces) return TooMany("faces", limits.max_faces);
   CornerMerger<float, std::uint32_t> corners;
@@ -77,7 +78,7 @@ absl::StatusOr<PolygonSoup> ReadBinary(std::span<const std::byte> bytes, const M
     for (int k = 1; k < 4; ++k) corners.Add(normal_and_corners[k]);
   }
   if (corners.vertices() > limits.max_vertices) return TooMany("vertices", limits.max_vertices);
-  if (count == 0) return InvalidField("file", "has no triangles");
+  if (count == 0) return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has no triangles");
   return corners.Take();
 }
 
@@ -97,7 +98,8 @@ class TextReader {
       if (keyword == "outer") loop_start_ = corners_.corners();
     }
     if (!is_finished_) return Error("the file ends before 'endsolid'");
-    if (corners_.corners() == 0) return InvalidField("file", "has no triangles");
+    if (corners_.corners() == 0)
+      return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has no triangles");
     if (corners_.corners() != loop_start_ + 3) return Error("a loop must have three vertices");
     return corners_.Take();
   }
@@ -120,7 +122,8 @@ class TextReader {
   }
 
   absl::Status Error(const char* problem) const {
-    return InvalidField("file", absl::StrCat("line ", lines_.number(), ": ", problem));
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
+                        absl::StrCat("line ", lines_.number(), ": ", problem));
   }
 
   LineScanner lines_;
@@ -144,7 +147,7 @@ absl::StatusOr<PolygonSoup> ReadStl(std::span<const std::byte> bytes, const Mesh
   // below 400 MB, for those bytes are printable.
   if (begins_as_text && !HasSizeOfBinaryStl(bytes)) return TextReader(text, limits).Run();
   if (bytes.size() < kHeaderBytes) {
-    return InvalidField("file",
+    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
                         "is neither a text STL ('solid ...') nor has it the 84 bytes that "
                         "begin a binary one");
   }

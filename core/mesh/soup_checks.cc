@@ -1,5 +1,6 @@
 #include "core/mesh/soup_checks.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -18,20 +19,20 @@ std::size_t FaceCount(const PolygonSoup& soup) {
 }
 
 absl::Status CheckLimits(const PolygonSoup& soup, const MeshLimits& limits) {
-  if (soup.positions.empty())
-    return InvalidField("positions", "is empty: the mesh has no vertices");
+  if (soup.positions.empty()) {
+    return InvalidField(ErrorReason::kMissing, "mesh.arrays.positions",
+                        "is empty: the mesh has no vertices");
+  }
   if (soup.face_vertices.empty()) {
-    return InvalidField("triangle_indices", "is empty: the mesh has no faces");
+    return InvalidField(ErrorReason::kMissing, "mesh.arrays.triangle_indices",
+                        "is empty: the mesh has no faces");
   }
   if (soup.positions.size() > limits.max_vertices) {
-    return InvalidField("positions",
-                        absl::StrCat("has ", soup.positions.size(), " vertices, must have at most ",
-                                     limits.max_vertices));
+    return TooLarge("mesh.arrays.positions", soup.positions.size(), "vertices",
+                    limits.max_vertices);
   }
   if (FaceCount(soup) > limits.max_faces) {
-    return InvalidField(
-        "triangle_indices",
-        absl::StrCat("has ", FaceCount(soup), " faces, must have at most ", limits.max_faces));
+    return TooLarge("mesh.arrays.triangle_indices", FaceCount(soup), "faces", limits.max_faces);
   }
   return absl::OkStatus();
 }
@@ -39,25 +40,28 @@ absl::Status CheckLimits(const PolygonSoup& soup, const MeshLimits& limits) {
 absl::Status CheckFaceSizes(const PolygonSoup& soup, const MeshLimits& limits) {
   if (soup.face_sizes.empty()) {
     if (soup.face_vertices.size() % 3 == 0) return absl::OkStatus();
-    return InvalidField("triangle_indices", absl::StrCat("has ", soup.face_vertices.size(),
-                                                         " entries, must have 3 per triangle"));
+    return InvalidField(
+        ErrorReason::kCountMismatch, "mesh.arrays.triangle_indices",
+        absl::StrCat("has ", soup.face_vertices.size(), " entries, must have 3 per triangle"));
   }
   TriangleCounter triangles(limits);
   std::size_t corners = 0;
   for (std::size_t f = 0; f < soup.face_sizes.size(); ++f) {
     if (soup.face_sizes[f] > limits.max_corners_per_face) {
-      return InvalidField(absl::StrCat("face_sizes[", f, "]"),
-                          absl::StrCat("is ", soup.face_sizes[f], ", must be at most ",
-                                       limits.max_corners_per_face));
+      return OutOfRange(absl::StrCat("mesh.arrays.face_sizes[", f, "]"),
+                        std::size_t{soup.face_sizes[f]}, std::size_t{3},
+                        limits.max_corners_per_face);
     }
     if (!triangles.Add(soup.face_sizes[f])) {
-      return InvalidField("face_sizes", TooManyTriangles(limits));
+      return InvalidField(ErrorReason::kTooLarge, "mesh.arrays.face_sizes",
+                          TooManyTriangles(limits));
     }
     corners += soup.face_sizes[f];
   }
   if (corners == soup.face_vertices.size()) return absl::OkStatus();
-  return InvalidField("face_sizes", absl::StrCat("adds up to ", corners, ", must add up to the ",
-                                                 soup.face_vertices.size(), " face corners"));
+  return InvalidField(ErrorReason::kCountMismatch, "mesh.arrays.face_sizes",
+                      absl::StrCat("adds up to ", corners, ", must add up to the ",
+                                   soup.face_vertices.size(), " face corners"));
 }
 
 absl::Status CheckPositions(const PolygonSoup& soup) {
@@ -66,10 +70,17 @@ absl::Status CheckPositions(const PolygonSoup& soup) {
     if (soup.positions[i].cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kLargestCoordinate) {
       continue;
     }
-    const bool finite = soup.positions[i].allFinite();
-    return InvalidField(absl::StrCat("positions[", i, "]"),
-                        finite ? absl::StrCat("must be within ", kLargestCoordinate)
-                               : std::string("must be finite"));
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double value = soup.positions[i][axis];
+      if (std::abs(value) <= kLargestCoordinate) continue;
+      const std::string field = absl::StrCat("mesh.arrays.positions[", 3 * i + axis, "]");
+      if (std::isfinite(value)) {
+        return OutOfRange(field, value, -kLargestCoordinate, kLargestCoordinate);
+      }
+      return InvalidField(ErrorReason::kNotFinite, field,
+                          absl::StrCat("is ", value, ", must be finite"),
+                          {{"value", absl::StrCat(value)}, {"limit", "finite"}});
+    }
   }
   return absl::OkStatus();
 }
@@ -78,9 +89,9 @@ absl::Status CheckIndices(const PolygonSoup& soup) {
   const std::size_t count = soup.positions.size();
   for (std::size_t i = 0; i < soup.face_vertices.size(); ++i) {
     if (soup.face_vertices[i] < count) continue;
-    const char* const field = soup.face_sizes.empty() ? "triangle_indices[" : "face_vertices[";
-    return InvalidField(absl::StrCat(field, i, "]"),
-                        absl::StrCat("is ", soup.face_vertices[i], ", must be below ", count));
+    const char* const field = soup.face_sizes.empty() ? "triangle_indices" : "face_indices";
+    return IndexOutOfRange(absl::StrCat("mesh.arrays.", field, "[", i, "]"), soup.face_vertices[i],
+                           count);
   }
   return absl::OkStatus();
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/status.h"
+#include "core/base/version.h"
 #include "core/circle/error_curve.h"
 #include "core/coverage/cover_vertices.h"
 #include "core/mesh/prepare_mesh.h"
@@ -43,8 +44,8 @@ class StageClock {
  private:
   // Shares of the whole as measured on a 64k-triangle body with 64 primitives, rounded.
   static double FractionBefore(Stage stage) {
-    static constexpr std::array<double, kStageCount> kBefore = {0.0,  0.1, 0.3, 0.35, 0.5,
-                                                                0.55, 0.5, 0.8, 0.9};
+    static constexpr std::array<double, kStageCount> kBefore = {0.0, 0.1,  0.3, 0.35, 0.5,
+                                                                0.5, 0.55, 0.8, 0.9};
     return kBefore[static_cast<std::size_t>(stage)];
   }
 
@@ -207,8 +208,8 @@ class BodyFit {
 
   absl::Status CheckFound() const {
     if (!set_.spheres.empty()) return absl::OkStatus();
-    return CannotFit("NOTHING_TO_FIT",
-                     "none of the parts asked for was found on this body; see the warnings");
+    return Refused(ErrorReason::kNothingToFit,
+                   "none of the parts asked for was found on this body; see the warnings");
   }
 
   // Encloses what is not enclosed yet, and proves it; after refining, that is part of it. The best
@@ -291,6 +292,7 @@ absl::StatusOr<FitResult> Fit(const mesh::PolygonSoup& soup, const FitOptions& o
                               const ThreadPool& pool, FitObserver& observer) {
   CAPFIT_RETURN_IF_ERROR(ValidateOptions(options));
   FitResult result;
+  result.version = std::string(Version());
   StageClock clock(observer, result);
   clock.Begin(Stage::kMesh);
   CAPFIT_ASSIGN_OR_RETURN(mesh::PreparedMesh prepared, mesh::PrepareMesh(soup, {}, observer));

@@ -94,9 +94,22 @@ struct LandmarkResult {
   double confidence = 1.0;
 };
 
+// The mesh that was fitted, as it came, so that a result can be told from that of another body.
+struct BodyFacts {
+  std::int64_t vertex_count = 0;                      // of the caller's mesh
+  std::int64_t face_count = 0;                        // of the caller's mesh
+  Eigen::Vector3d box_min = Eigen::Vector3d::Zero();  // of the vertices that were fitted, in the
+  Eigen::Vector3d box_max = Eigen::Vector3d::Zero();  // caller's unit and axes
+  double height_m = 0.0;                              // along the body's own up axis
+  bool is_symmetric = false;                          // as body::Body
+};
+
 // Everything in the caller's unit and axes, but for metrics in metres where the name says so.
 struct FitResult {
   capsule::PrimitiveSet primitives;
+  // For each sphere: unique, the same for the sphere on the other side but for left and right; see
+  // sphere_names.h.
+  std::vector<std::string> sphere_names;
   std::vector<LandmarkResult> landmarks;
   std::vector<PolygonResult> polygons;  // where asked for
   metrics::Metrics metrics;
@@ -108,6 +121,12 @@ struct FitResult {
   std::vector<float> vertex_gaps;
   std::vector<Warning> warnings;
   geometry::Similarity body_from_caller;  // scale: metres per caller's unit
+  // What held in the end: the options with their defaults filled in and the engine's limits
+  // applied, `unit` and `up` as told or found (kAuto where no positive axis is within 15 degrees of
+  // up).
+  FitOptions effective_options;
+  BodyFacts body;
+  std::string version;  // of the program that fitted, e.g. "0.1.0"
   std::array<double, kStageCount> stage_seconds{};
   double seconds = 0.0;  // of the whole fit, reading the file not included
 };

@@ -13,16 +13,14 @@ namespace {
 absl::Status CheckCount(const std::string& field, const std::optional<int>& value,
                         const CountRange& range) {
   if (!value.has_value() || (*value >= range.low && *value <= range.high)) return absl::OkStatus();
-  return InvalidField(field,
-                      absl::StrCat("is ", *value, ", must be ", range.low, " to ", range.high));
+  return OutOfRange(field, *value, range.low, range.high);
 }
 
 absl::Status CheckPolygonError(const std::optional<double>& value) {
   if (!value.has_value() || (*value >= kMinPolygonError && *value <= kMaxPolygonError)) {
     return absl::OkStatus();
   }
-  return InvalidField("polygon_error", absl::StrCat("is ", *value, ", must be ", kMinPolygonError,
-                                                    " to ", kMaxPolygonError));
+  return OutOfRange("options.budget.max_polygon_error", *value, kMinPolygonError, kMaxPolygonError);
 }
 
 absl::Status CheckOneBudget(const FitOptions& options) {
@@ -30,22 +28,25 @@ absl::Status CheckOneBudget(const FitOptions& options) {
                    (options.max_spheres.has_value() || options.max_capsules.has_value() ? 1 : 0) +
                    (options.polygon_error.has_value() ? 1 : 0);
   if (ways <= 1) return absl::OkStatus();
-  return InvalidField("budget",
+  return InvalidField(ErrorReason::kConflict, "options.budget",
                       "is given in more than one way, must be one of max_primitives, "
-                      "max_spheres/max_capsules, polygon_error");
+                      "spheres_and_capsules, max_polygon_error");
 }
 
 absl::Status CheckEngine(const FitOptions& options) {
   if (options.engine.empty()) return absl::OkStatus();
   const Engine* const engine = FindEngine(options.engine);
   if (engine == nullptr) {
-    return InvalidField("engine", absl::StrCat("is \"", options.engine.substr(0, 40),
-                                               "\", must be one of ", EngineNames()));
+    return InvalidField(
+        ErrorReason::kUnknownValue, "options.engine",
+        absl::StrCat("is \"", options.engine.substr(0, 40), "\", must be one of ", EngineNames()),
+        {{"value", options.engine.substr(0, 40)}, {"limit", EngineNames()}});
   }
   if (options.polygon_error.has_value() &&
       engine->max_spheres + engine->max_capsules + engine->max_shapes > 0) {
-    return InvalidField("polygon_error", absl::StrCat("cannot be promised within the limits of ",
-                                                      options.engine, "; leave one of them out"));
+    return InvalidField(ErrorReason::kConflict, "options.budget.max_polygon_error",
+                        absl::StrCat("cannot be promised within the limits of ", options.engine,
+                                     "; leave one of them out"));
   }
   return absl::OkStatus();
 }
@@ -54,17 +55,17 @@ absl::Status CheckParts(const body::PartSelection& parts) {
   if (parts.torso || parts.arms || parts.legs || parts.head || parts.hands || parts.feet) {
     return absl::OkStatus();
   }
-  return InvalidField("parts",
+  return InvalidField(ErrorReason::kMissing, "options.parts",
                       "is empty, must name at least one of torso, arms, legs, head, hands, feet");
 }
 
 absl::Status CheckTolerance(const FitOptions& options) {
   if (!(options.tolerance_m >= 0.0 && options.tolerance_m <= kMaxToleranceM)) {
-    return InvalidField(
-        "tolerance_m", absl::StrCat("is ", options.tolerance_m, ", must be 0 to ", kMaxToleranceM));
+    return OutOfRange("options.tolerance_m", options.tolerance_m, 0.0, kMaxToleranceM);
   }
   if (options.tolerance_m > 0.0 && options.fit == FitMode::kBestFit) {
-    return InvalidField("tolerance_m", "is for fit enclose; the best fit encloses nothing");
+    return InvalidField(ErrorReason::kConflict, "options.tolerance_m",
+                        "is for fit enclose; the best fit encloses nothing");
   }
   return absl::OkStatus();
 }
@@ -72,7 +73,8 @@ absl::Status CheckTolerance(const FitOptions& options) {
 absl::Status CheckLandmarks(const FitOptions& options) {
   for (const auto& [id, position] : options.landmarks) {
     if (position.allFinite()) continue;
-    return InvalidField(absl::StrCat("landmarks.", std::string(body::LandmarkName(id))),
+    return InvalidField(ErrorReason::kNotFinite,
+                        absl::StrCat("options.landmarks.", std::string(body::LandmarkName(id))),
                         "must be finite");
   }
   return absl::OkStatus();
@@ -82,15 +84,19 @@ absl::Status CheckLandmarks(const FitOptions& options) {
 
 absl::Status ValidateOptions(const FitOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckOneBudget(options));
-  CAPFIT_RETURN_IF_ERROR(CheckCount("max_primitives", options.max_primitives, kMaxPrimitivesRange));
-  CAPFIT_RETURN_IF_ERROR(CheckCount("max_spheres", options.max_spheres, kMaxSpheresRange));
-  CAPFIT_RETURN_IF_ERROR(CheckCount("max_capsules", options.max_capsules, kMaxCapsulesRange));
+  CAPFIT_RETURN_IF_ERROR(
+      CheckCount("options.budget.max_primitives", options.max_primitives, kMaxPrimitivesRange));
+  CAPFIT_RETURN_IF_ERROR(CheckCount("options.budget.spheres_and_capsules.max_spheres",
+                                    options.max_spheres, kMaxSpheresRange));
+  CAPFIT_RETURN_IF_ERROR(CheckCount("options.budget.spheres_and_capsules.max_capsules",
+                                    options.max_capsules, kMaxCapsulesRange));
   CAPFIT_RETURN_IF_ERROR(CheckPolygonError(options.polygon_error));
   CAPFIT_RETURN_IF_ERROR(CheckEngine(options));
   CAPFIT_RETURN_IF_ERROR(CheckParts(options.parts));
   CAPFIT_RETURN_IF_ERROR(CheckLandmarks(options));
   if (options.grows_only && options.quality != Quality::kPaper) {
-    return InvalidField("grows_only", "is for quality paper, must be false for others");
+    return InvalidField(ErrorReason::kConflict, "grows_only",
+                        "is for quality paper, must be false for others");
   }
   return CheckTolerance(options);
 }

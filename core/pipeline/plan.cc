@@ -81,8 +81,10 @@ int CountBalls(const body::Body& body, const body::PartSelection& parts) {
 
 absl::Status CheckLimit(const std::string& field, int limit, int least) {
   if (limit >= least) return absl::OkStatus();
-  return InvalidField(field, absl::StrCat("is ", limit, ", must be at least ", least,
-                                          " for the parts asked for on this body"));
+  return InvalidField(ErrorReason::kBudgetTooSmall, field,
+                      absl::StrCat("is ", limit, ", must be at least ", least,
+                                   " for the parts asked for on this body"),
+                      {{"value", absl::StrCat(limit)}, {"limit", absl::StrCat(">= ", least)}});
 }
 
 int Reduced(int limit, int by) {
@@ -124,9 +126,12 @@ absl::Status CheckBudget(const body::Body& body, const body::PartSelection& part
                          const circle::Budget& total) {
   circle::PrimitiveCount least = Cost(kLadder.front(), CountChains(body, parts), 1);
   least.spheres += CountBalls(body, parts);
-  CAPFIT_RETURN_IF_ERROR(CheckLimit("max_primitives", total.max_primitives, least.total()));
-  CAPFIT_RETURN_IF_ERROR(CheckLimit("max_spheres", total.max_spheres, least.spheres));
-  return CheckLimit("max_capsules", total.max_capsules, least.capsules);
+  CAPFIT_RETURN_IF_ERROR(
+      CheckLimit("options.budget.max_primitives", total.max_primitives, least.total()));
+  CAPFIT_RETURN_IF_ERROR(CheckLimit("options.budget.spheres_and_capsules.max_spheres",
+                                    total.max_spheres, least.spheres));
+  return CheckLimit("options.budget.spheres_and_capsules.max_capsules", total.max_capsules,
+                    least.capsules);
 }
 
 circle::Budget ChainBudget(const circle::Budget& total, const Overhead& overhead) {

@@ -14,7 +14,7 @@
 
 namespace capfit::section {
 
-enum class Sex { kAuto, kFemale, kMale, kNone };  // kNone: never split the bust
+enum class Sex { kAuto, kFemale, kMale };  // kFemale: always split the bust; kMale: never
 
 struct SectionOptions {
   // Planes on each chain (torso, arm, leg); the paper's twenty are 6, 3 and 4. At least 2.

@@ -27,16 +27,18 @@ double SignedArea(const std::vector<Eigen::Vector2d>& vertices) {
 
 absl::StatusOr<Polygon> Polygon::Create(std::vector<Eigen::Vector2d> vertices_m) {
   if (vertices_m.size() < 3) {
-    return InvalidField("polygon",
+    return InvalidField(ErrorReason::kOutOfRange, "polygon",
                         "has " + std::to_string(vertices_m.size()) + " vertices, needs at least 3");
   }
   for (std::size_t i = 0; i < vertices_m.size(); ++i) {
     if (!vertices_m[i].allFinite()) {
-      return InvalidField("polygon[" + std::to_string(i) + "]", "must be finite");
+      return InvalidField(ErrorReason::kOutOfRange, "polygon[" + std::to_string(i) + "]",
+                          "must be finite");
     }
   }
   const double area = SignedArea(vertices_m);
-  if (!(std::abs(area) > 0.0)) return InvalidField("polygon", "has no area");
+  if (!(std::abs(area) > 0.0))
+    return InvalidField(ErrorReason::kOutOfRange, "polygon", "has no area");
   if (area < 0.0) std::reverse(vertices_m.begin(), vertices_m.end());
   return Polygon(std::move(vertices_m), std::abs(area));
 }

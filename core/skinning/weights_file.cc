@@ -32,33 +32,40 @@ std::uint32_t LittleEndian(std::uint32_t word) {
 
 absl::StatusOr<std::string> TextMember(const Json& header, const std::string& name) {
   const auto found = header.find(name);
-  if (found == header.end()) return InvalidField(name, "is missing from the weights header");
-  if (!found->is_string()) return InvalidField(name, "must be a text");
+  if (found == header.end())
+    return InvalidField(ErrorReason::kMalformedFile, name, "is missing from the weights header");
+  if (!found->is_string()) return InvalidField(ErrorReason::kMalformedFile, name, "must be a text");
   return found->get<std::string>();
 }
 
 absl::Status ExpectText(const Json& header, const std::string& name, const std::string& expected) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string text, TextMember(header, name));
   if (text == expected) return absl::OkStatus();
-  return InvalidField(name, absl::StrCat("is \"", text, "\", must be \"", expected, "\""));
+  return InvalidField(ErrorReason::kMalformedFile, name,
+                      absl::StrCat("is \"", text, "\", must be \"", expected, "\""));
 }
 
 absl::StatusOr<std::uint64_t> CountMember(const Json& header, const std::string& name,
                                           std::uint64_t limit) {
   const auto found = header.find(name);
-  if (found == header.end()) return InvalidField(name, "is missing from the weights header");
+  if (found == header.end())
+    return InvalidField(ErrorReason::kMalformedFile, name, "is missing from the weights header");
   if (!found->is_number_unsigned()) {
-    return InvalidField(name, absl::StrCat("is ", found->dump(), ", must be a whole number >= 0"));
+    return InvalidField(ErrorReason::kMalformedFile, name,
+                        absl::StrCat("is ", found->dump(), ", must be a whole number >= 0"));
   }
   const auto count = found->get<std::uint64_t>();
   if (count <= limit) return count;
-  return InvalidField(name, absl::StrCat("is ", count, ", must be at most ", limit));
+  return InvalidField(ErrorReason::kMalformedFile, name,
+                      absl::StrCat("is ", count, ", must be at most ", limit));
 }
 
 absl::Status CheckKind(const Json& header) {
   CAPFIT_RETURN_IF_ERROR(ExpectText(header, "format", "capfit-dense-weights"));
   CAPFIT_ASSIGN_OR_RETURN(const std::uint64_t version, CountMember(header, "version", kMaxCount));
-  if (version != 1) return InvalidField("version", absl::StrCat("is ", version, ", must be 1"));
+  if (version != 1)
+    return InvalidField(ErrorReason::kMalformedFile, "version",
+                        absl::StrCat("is ", version, ", must be 1"));
   CAPFIT_RETURN_IF_ERROR(ExpectText(header, "dtype", "float32"));
   CAPFIT_RETURN_IF_ERROR(ExpectText(header, "byte_order", "little"));
   return ExpectText(header, "layout", "row-major");
@@ -66,7 +73,7 @@ absl::Status CheckKind(const Json& header) {
 
 absl::Status WrongSize(const WeightsHeader& header, const std::string& found) {
   return InvalidField(
-      "weights",
+      ErrorReason::kMalformedFile, "weights",
       absl::StrCat("hold ", found, " bytes, must hold ", header.data_bytes(), " (",
                    header.sphere_count, " spheres x ", header.vertex_count, " vertices x 4)"));
 }
@@ -98,7 +105,7 @@ std::string FormatWeightsHeader(const DenseWeights& weights, const std::string& 
 absl::StatusOr<WeightsHeader> ParseWeightsHeader(const std::string& text) {
   const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (json.is_discarded() || !json.is_object()) {
-    return InvalidField("header", "must be one JSON object");
+    return InvalidField(ErrorReason::kMalformedFile, "header", "must be one JSON object");
   }
   CAPFIT_RETURN_IF_ERROR(CheckKind(json));
   CAPFIT_ASSIGN_OR_RETURN(const std::uint64_t spheres, CountMember(json, "spheres", kMaxCount));
@@ -106,7 +113,7 @@ absl::StatusOr<WeightsHeader> ParseWeightsHeader(const std::string& text) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string data_file, TextMember(json, "data"));
   WeightsHeader header{spheres, vertices, data_file};
   if (spheres != 0 && vertices > kMaxWeightsBytes / 4 / spheres) {
-    return InvalidField("spheres * vertices * 4",
+    return InvalidField(ErrorReason::kMalformedFile, "spheres * vertices * 4",
                         absl::StrCat("is more than ", kMaxWeightsBytes, " bytes"));
   }
   return header;
@@ -147,6 +154,7 @@ absl::StatusOr<DenseWeights> ReadWeightsData(const WeightsHeader& header, std::i
   if (in.peek() != std::istream::traits_type::eof()) return WrongSize(header, "more");
   if (const auto at = FirstNotFinite(result.weights)) {
     return InvalidField(
+        ErrorReason::kMalformedFile,
         absl::StrCat("weights[", *at / header.vertex_count, "][", *at % header.vertex_count, "]"),
         absl::StrCat("is ", result.weights[*at], ", must be finite"));
   }

@@ -61,10 +61,9 @@ constexpr Table<Stage, v1::Stage, 9> kStages = {{{Stage::kMesh, v1::STAGE_MESH},
                                                  {Stage::kSkinning, v1::STAGE_SKINNING}}};
 static_assert(kStages.size() == kStageCount);
 
-constexpr Table<section::Sex, v1::Sex, 5> kSexes = {{{section::Sex::kAuto, v1::SEX_AUTO},
+constexpr Table<section::Sex, v1::Sex, 4> kSexes = {{{section::Sex::kAuto, v1::SEX_AUTO},
                                                      {section::Sex::kFemale, v1::SEX_FEMALE},
                                                      {section::Sex::kMale, v1::SEX_MALE},
-                                                     {section::Sex::kNone, v1::SEX_NONE},
                                                      {section::Sex::kAuto, v1::SEX_UNSPECIFIED}}};
 
 constexpr Table<pipeline::FitMode, v1::FitMode, 3> kFitModes = {

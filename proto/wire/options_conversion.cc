@@ -17,7 +17,8 @@ absl::Status Read(const char* field, Wire value, Core& target) {
   const std::optional<Core> known = FromWire(value);
   if (!known) {
     return InvalidField(
-        field, absl::StrCat("is ", static_cast<int>(value), ", which this version does not know"));
+        ErrorReason::kOutOfRange, field,
+        absl::StrCat("is ", static_cast<int>(value), ", which this version does not know"));
   }
   target = *known;
   return absl::OkStatus();
@@ -34,7 +35,7 @@ absl::Status ReadBudget(const v1::Budget& budget, pipeline::FitOptions& options)
     case v1::Budget::kSpheresAndCapsules: {
       const v1::SphereAndCapsuleLimit& limit = budget.spheres_and_capsules();
       if (!limit.has_max_spheres() && !limit.has_max_capsules()) {
-        return InvalidField("options.budget.spheres_and_capsules",
+        return InvalidField(ErrorReason::kOutOfRange, "options.budget.spheres_and_capsules",
                             "is empty, must name max_spheres, max_capsules or both");
       }
       if (limit.has_max_spheres()) options.max_spheres = limit.max_spheres();
@@ -77,9 +78,10 @@ absl::Status ReadParts(const google::protobuf::RepeatedField<int>& groups, const
     bool* const part = SwitchOf(static_cast<v1::BodyPartGroup>(groups.Get(i)), parts);
     if (part == nullptr) {
       return InvalidField(
-          field, absl::StrCat("is ", groups.Get(i), ", must be one of BodyPartGroup, 1 to 6"));
+          ErrorReason::kOutOfRange, field,
+          absl::StrCat("is ", groups.Get(i), ", must be one of BodyPartGroup, 1 to 6"));
     }
-    if (*part) return InvalidField(field, "is there twice");
+    if (*part) return InvalidField(ErrorReason::kOutOfRange, field, "is there twice");
     *part = true;
   }
   return absl::OkStatus();
@@ -98,15 +100,18 @@ absl::Status ReadLandmark(const v1::Landmark& wire, const std::string& field,
                           pipeline::FitOptions& options) {
   const std::optional<body::LandmarkId> id = body::LandmarkFromName(wire.name());
   if (!id) {
-    return InvalidField(field + ".name", absl::StrCat("is \"", wire.name().substr(0, 40),
-                                                      "\", which is no landmark's name"));
+    return InvalidField(
+        ErrorReason::kOutOfRange, field + ".name",
+        absl::StrCat("is \"", wire.name().substr(0, 40), "\", which is no landmark's name"));
   }
   const Eigen::Vector3d position(wire.position().x(), wire.position().y(), wire.position().z());
   if (!wire.has_position() || !position.allFinite()) {
-    return InvalidField(field + ".position", "must be three finite numbers");
+    return InvalidField(ErrorReason::kOutOfRange, field + ".position",
+                        "must be three finite numbers");
   }
   if (!options.landmarks.emplace(*id, position).second) {
-    return InvalidField(field + ".name", absl::StrCat("is \"", wire.name(), "\" a second time"));
+    return InvalidField(ErrorReason::kOutOfRange, field + ".name",
+                        absl::StrCat("is \"", wire.name(), "\" a second time"));
   }
   return absl::OkStatus();
 }

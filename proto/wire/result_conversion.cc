@@ -24,7 +24,8 @@ Eigen::Vector3d VectorOf(const v1::Vector3& wire) { return {wire.x(), wire.y(), 
 
 absl::Status UnknownPart(const std::string& field, v1::BodyPart part) {
   return InvalidField(
-      field, absl::StrCat("is ", static_cast<int>(part), ", which this version does not know"));
+      ErrorReason::kOutOfRange, field,
+      absl::StrCat("is ", static_cast<int>(part), ", which this version does not know"));
 }
 
 // What the metrics of the whole and those of a part have in common.
@@ -109,7 +110,7 @@ void SimilarityToWire(const geometry::Similarity& similarity, v1::Similarity& wi
 
 absl::Status SimilarityFromWire(const v1::Similarity& wire, geometry::Similarity& similarity) {
   if (wire.rotation_size() != 9) {
-    return InvalidField("summary.body_from_caller.rotation",
+    return InvalidField(ErrorReason::kOutOfRange, "summary.body_from_caller.rotation",
                         absl::StrCat("has ", wire.rotation_size(), " numbers, must have 9"));
   }
   for (int i = 0; i < 9; ++i) similarity.rotation(i / 3, i % 3) = wire.rotation(i);
@@ -288,7 +289,7 @@ absl::StatusOr<capsule::PrimitiveSet> PrimitivesFromWire(const v1::PrimitiveSet&
     const v1::Capsule& capsule = wire.capsules(i);
     if (!EndsAreValid(capsule, wire.spheres_size())) {
       return InvalidField(
-          absl::StrCat("primitives.capsules[", i, "]"),
+          ErrorReason::kOutOfRange, absl::StrCat("primitives.capsules[", i, "]"),
           absl::StrCat("joins ", capsule.first_sphere(), " and ", capsule.second_sphere(),
                        ", must be in order and below ", wire.spheres_size()));
     }
@@ -308,20 +309,23 @@ absl::Status SummaryFromWire(const v1::Summary& wire, pipeline::FitResult& resul
 }
 
 absl::Status AppendWeights(const v1::SkinningChunk& wire, skinning::DenseWeights& weights) {
-  if (!wire.has_dense()) return InvalidField("skinning.weights", "is of an unknown form");
+  if (!wire.has_dense())
+    return InvalidField(ErrorReason::kOutOfRange, "skinning.weights", "is of an unknown form");
   if (weights.weights.empty()) {
     weights.sphere_count = static_cast<std::size_t>(std::max(0, wire.total_sphere_count()));
     weights.vertex_count =
         static_cast<std::size_t>(std::max<std::int64_t>(0, wire.total_vertex_count()));
     if (weights.sphere_count > kMaxMatrixRows || weights.vertex_count > kMaxMatrixColumns) {
-      return InvalidField("skinning.total_vertex_count", "is beyond all reason");
+      return InvalidField(ErrorReason::kOutOfRange, "skinning.total_vertex_count",
+                          "is beyond all reason");
     }
   }
   const auto count = static_cast<std::size_t>(wire.dense().weights_size());
   if (!StartsAt(wire, weights) ||
       weights.weights.size() + count > weights.sphere_count * weights.vertex_count) {
-    return InvalidField("skinning", absl::StrCat("block at sphere ", wire.first_sphere(),
-                                                 " does not follow the one before it"));
+    return InvalidField(ErrorReason::kOutOfRange, "skinning",
+                        absl::StrCat("block at sphere ", wire.first_sphere(),
+                                     " does not follow the one before it"));
   }
   weights.weights.insert(weights.weights.end(), wire.dense().weights().begin(),
                          wire.dense().weights().end());
@@ -331,13 +335,13 @@ absl::Status AppendWeights(const v1::SkinningChunk& wire, skinning::DenseWeights
 absl::Status AppendGaps(const v1::VertexGapsChunk& wire, std::vector<float>& gaps) {
   const std::int64_t count = wire.total_vertex_count();
   if (count < 1 || static_cast<std::uint64_t>(count) > kMaxMatrixColumns) {
-    return InvalidField("vertex_gaps.total_vertex_count",
+    return InvalidField(ErrorReason::kOutOfRange, "vertex_gaps.total_vertex_count",
                         absl::StrCat("is ", count, ", must be in [1, ", kMaxMatrixColumns, "]"));
   }
   const auto added = static_cast<std::size_t>(wire.gaps_size());
   if (wire.first_vertex() != static_cast<std::int64_t>(gaps.size()) || added == 0 ||
       gaps.size() + added > static_cast<std::size_t>(count)) {
-    return InvalidField("vertex_gaps",
+    return InvalidField(ErrorReason::kOutOfRange, "vertex_gaps",
                         absl::StrCat("piece of ", added, " at vertex ", wire.first_vertex(), " of ",
                                      count, " does not follow ", gaps.size()));
   }

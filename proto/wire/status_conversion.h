@@ -4,7 +4,7 @@
 
 #include <grpcpp/support/status.h>
 
-#include <string>
+#include <optional>
 
 #include "absl/status/status.h"
 
@@ -14,15 +14,15 @@ namespace capfit::wire {
 inline constexpr char kErrorDomain[] = "capfit";
 
 // The one function that makes a wire status. The details (trailer grpc-status-details-bin) are a
-// google.rpc.Status with ErrorInfo (reason: the one that CannotFit named, else a word that follows
-// from the code) and, where InvalidField named a field, BadRequest.
-[[nodiscard]] grpc::Status ToGrpcStatus(const absl::Status& status);
+// google.rpc.Status with ErrorInfo (a reason of v1.ErrorReason; field, value and limit as
+// metadata), BadRequest where a field is at fault, RetryInfo where `retry_ms` is given, and the
+// warnings that WithWarnings put there, as many as 4 KiB hold.
+[[nodiscard]] grpc::Status ToGrpcStatus(const absl::Status& status,
+                                        std::optional<int> retry_ms = std::nullopt);
 
-// The way back: the same code and message, and the same FieldOf and ReasonOf.
+// The way back: the same code and message, and the same FieldOf, ReasonOf, FactsOf (in the order of
+// their names) and WarningsOf.
 [[nodiscard]] absl::Status FromGrpcStatus(const grpc::Status& status);
-
-// ErrorInfo.reason of a status: stable UPPER_SNAKE_CASE words.
-[[nodiscard]] std::string ErrorReason(const absl::Status& status);
 
 }  // namespace capfit::wire
 

@@ -81,7 +81,8 @@ TEST(BodyClient, ErrorsComeWithCodeMessageAndField) {
   FitBackend backend = server::InstantBackend();
   backend.fit = [](const mesh::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&,
                    FitObserver&) -> absl::StatusOr<pipeline::FitResult> {
-    return InvalidField("triangle_indices[17]", "is 90210, must be below 6890");
+    return InvalidField(ErrorReason::kOutOfRange, "triangle_indices[17]",
+                        "is 90210, must be below 6890");
   };
   const auto server = StartServer(backend);
   const absl::Status status =

@@ -26,8 +26,8 @@ TEST(StatusConversion, OkHasNoDetails) {
 }
 
 TEST(StatusConversion, AWrongFieldBecomesABadRequest) {
-  const grpc::Status status =
-      ToGrpcStatus(InvalidField("triangle_indices[17]", "is 90210, must be below 6890"));
+  const grpc::Status status = ToGrpcStatus(InvalidField(
+      ErrorReason::kOutOfRange, "triangle_indices[17]", "is 90210, must be below 6890"));
   EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_EQ(status.error_message(), "triangle_indices[17] is 90210, must be below 6890");
   const auto bad_request = Find<google::rpc::BadRequest>(status);
@@ -39,7 +39,8 @@ TEST(StatusConversion, AWrongFieldBecomesABadRequest) {
 }
 
 TEST(StatusConversion, AReasonBecomesErrorInfo) {
-  const grpc::Status status = ToGrpcStatus(CannotFit("NOT_A_BODY", "found 0 of 5 extremities"));
+  const grpc::Status status =
+      ToGrpcStatus(Refused(ErrorReason::kNotABody, "found 0 of 5 extremities"));
   EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   EXPECT_EQ(Find<google::rpc::ErrorInfo>(status)->reason(), "NOT_A_BODY");
   EXPECT_FALSE(Find<google::rpc::BadRequest>(status));
@@ -47,10 +48,10 @@ TEST(StatusConversion, AReasonBecomesErrorInfo) {
 
 TEST(StatusConversion, CodeMessageFieldAndReasonComeBack) {
   for (const absl::Status& status :
-       {InvalidField("a[1].b", "is 3, limit 2"), CannotFit("PART_MISSING", "no left arm"),
-        absl::UnimplementedError("later"), absl::ResourceExhaustedError("full"),
-        absl::CancelledError("gone"), absl::InternalError("bug"),
-        absl::InvalidArgumentError("plain")}) {
+       {InvalidField(ErrorReason::kOutOfRange, "a[1].b", "is 3, limit 2"),
+        Refused(ErrorReason::kPartMissing, "no left arm"), absl::UnimplementedError("later"),
+        absl::ResourceExhaustedError("full"), absl::CancelledError("gone"),
+        absl::InternalError("bug"), absl::InvalidArgumentError("plain")}) {
     const absl::Status back = FromGrpcStatus(ToGrpcStatus(status));
     EXPECT_EQ(back.code(), status.code());
     EXPECT_EQ(back.message(), status.message());
@@ -71,8 +72,8 @@ TEST(StatusConversion, EveryErrorHasAStableReason) {
 }
 
 TEST(StatusConversion, HostileTextIsMadeFitToSend) {
-  const grpc::Status status =
-      ToGrpcStatus(InvalidField(std::string("x\xff\n"), std::string(20'000, 'y')));
+  const grpc::Status status = ToGrpcStatus(
+      InvalidField(ErrorReason::kOutOfRange, std::string("x\xff\n"), std::string(20'000, 'y')));
   EXPECT_LE(status.error_message().size(), 1000U);
   EXPECT_LE(status.error_details().size(), 4000U) << "trailers have a limit of 8 KiB";
   EXPECT_EQ(Find<google::rpc::BadRequest>(status)->field_violations(0).field(), "x??");

@@ -7,7 +7,8 @@ namespace capfit {
 namespace {
 
 absl::StatusOr<int> Half(int value) {
-  if (value % 2 != 0) return InvalidField("value", "is odd, must be even");
+  if (value % 2 != 0)
+    return InvalidField(ErrorReason::kOutOfRange, "value", "is odd, must be even");
   return value / 2;
 }
 
@@ -18,18 +19,43 @@ absl::StatusOr<int> Quarter(int value) {
 }
 
 TEST(Status, InvalidFieldNamesTheFieldInMessageAndPayload) {
-  const absl::Status status = InvalidField("triangle_indices[17]", "is 90210, must be below 6890");
+  const absl::Status status =
+      IndexOutOfRange("mesh.arrays.triangle_indices[17]", 90210, std::size_t{6890});
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_EQ(status.message(), "triangle_indices[17] is 90210, must be below 6890");
-  EXPECT_EQ(FieldOf(status), "triangle_indices[17]");
-  EXPECT_EQ(ReasonOf(status), std::nullopt);
+  EXPECT_EQ(status.message(), "mesh.arrays.triangle_indices[17] is 90210, must be below 6890");
+  EXPECT_EQ(FieldOf(status), "mesh.arrays.triangle_indices[17]");
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kOutOfRange);
+  EXPECT_THAT(FactsOf(status), testing::ElementsAre(testing::Pair("value", "90210"),
+                                                    testing::Pair("limit", "[0, 6890)")));
 }
 
-TEST(Status, CannotFitCarriesAReason) {
-  const absl::Status status = CannotFit("NOT_A_BODY", "found 0 of 5 extremities");
-  EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
-  EXPECT_EQ(ReasonOf(status), "NOT_A_BODY");
-  EXPECT_EQ(FieldOf(status), std::nullopt);
+TEST(Status, RangesNameBothEnds) {
+  const absl::Status status = OutOfRange("options.tolerance_m", 0.25, 0.0, 0.1);
+  EXPECT_EQ(status.message(), "options.tolerance_m is 0.25, must be in [0, 0.1]");
+  EXPECT_THAT(FactsOf(status), testing::Contains(testing::Pair("limit", "[0, 0.1]")));
+}
+
+TEST(Status, EveryReasonHasItsNameAndCode) {
+  for (const KnownReason& known : ErrorReasons()) {
+    EXPECT_EQ(ErrorReasonFromName(known.name), known.reason) << known.name;
+    const absl::Status status = Refused(known.reason, "message");
+    EXPECT_EQ(ReasonOf(status), known.reason) << known.name;
+    EXPECT_EQ(status.code(), known.code) << known.name;
+  }
+  EXPECT_EQ(ErrorReasonFromName("NO_SUCH_REASON"), std::nullopt);
+}
+
+TEST(Status, WarningsTravelWithAnErrorAndNotWithSuccess) {
+  const std::vector<Warning> warnings = {{"HOLES_CLOSED", "two holes\twere\nclosed", 2},
+                                         {"UNIT_ASSUMED", "taken to be in inches", 0}};
+  const std::vector<Warning> back =
+      WarningsOf(WithWarnings(Refused(ErrorReason::kNotABody, "a chair"), warnings));
+  ASSERT_EQ(back.size(), 2U);
+  EXPECT_EQ(back[0].code, "HOLES_CLOSED");
+  EXPECT_EQ(back[0].message, "two holes were closed");
+  EXPECT_EQ(back[0].count, 2);
+  EXPECT_EQ(back[1].message, "taken to be in inches");
+  EXPECT_TRUE(WithWarnings(absl::OkStatus(), warnings).ok());
 }
 
 TEST(Status, MacrosHandErrorsUpUnchanged) {

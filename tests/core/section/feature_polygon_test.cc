@@ -232,7 +232,7 @@ TEST_F(RealBodyTest, SexIsToldByTheBreasts) {
     EXPECT_EQ(Named(result, "bust").split.has_value(), is_female);
     EXPECT_TRUE(Named(result, "hip").split.has_value());
     SectionOptions options;
-    options.sex = is_female ? Sex::kNone : Sex::kFemale;
+    options.sex = is_female ? Sex::kMale : Sex::kFemale;
     EXPECT_EQ(Extract(body, options).bust_is_split, !is_female);
   }
 }
