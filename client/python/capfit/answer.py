@@ -75,7 +75,8 @@ class Answer:
 
     def _add_feature_polygon(self, polygon: Any) -> None:
         members = message_document(polygon)
-        members["circles"] = [[*circle["center"], circle["radius"]] for circle in members["circles"]]
+        circles = members["circles"]
+        members["circles"] = [[*circle["center"], circle["radius"]] for circle in circles]
         self._polygons.append(members)
 
     def _add_primitives(self, primitives: Any) -> None:

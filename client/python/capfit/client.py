@@ -197,7 +197,7 @@ def _pause_after(error: CapfitError, attempt: int) -> Optional[float]:
 
 
 def _with_port(address: str) -> str:
-    """HOST:PORT of HOST, [V6] or HOST:PORT; gRPC's own targets (unix:..., dns:///...) as they are."""
+    """HOST:PORT of HOST, [V6] or HOST:PORT; gRPC's own targets (unix:..., dns:///...) as is."""
     if re.match(r"(unix|unix-abstract|vsock|ipv4|ipv6):|[a-z]+:///", address):
         return address
     match = re.fullmatch(r"(\[[0-9a-fA-F:.%]+\]|[^:\[\]/]+)(?::([0-9]+))?", address)

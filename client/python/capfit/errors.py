@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Dict, Optional, Tuple
 
 from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+from google.protobuf.message import DecodeError
 
 from capfit.v1 import result_pb2
 
@@ -102,7 +103,11 @@ def _retry_seconds(pushback: Optional[str], details: Dict[str, Any]) -> Optional
 def _details_of(trailer: bytes) -> Dict[str, Any]:
     """The messages of a google.rpc.Status by their types' names; those not known are left out."""
     messages: Dict[str, Any] = {}
-    for detail in _rpc_message("Status").FromString(trailer).details:
+    try:
+        status = _rpc_message("Status").FromString(trailer)
+    except DecodeError:
+        return messages  # a proxy's, say; the code and the message are there all the same
+    for detail in status.details:
         name = detail.type_url.rpartition("/")[2]
         if name == "capfit.v1.Warning":
             kind: Any = result_pb2.Warning

@@ -114,5 +114,6 @@ def _pretty(value: Any, indent: int, used: int) -> str:
     if not items or used + len(line) < _LINE_COLUMNS:
         return line
     margin = "\n" + " " * (indent + 2)
-    lines = [margin + name + _pretty(one, indent + 2, indent + 2 + len(name)) for name, one in items]
+    inner = indent + 2
+    lines = [margin + name + _pretty(one, inner, inner + len(name)) for name, one in items]
     return line[0] + ",".join(lines) + margin[:-2] + line[-1]

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 import pathlib
-from typing import Any, Callable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Iterator, List, Optional, Sequence, Tuple, Union, cast
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -86,7 +86,7 @@ def _face_fields(faces: Faces) -> Tuple[int, List[Tuple[str, NDArray[Any]]]]:
         sizes = numpy.full(len(rows), rows.shape[1])
         corners = rows.ravel()
     else:
-        polygons = [numpy.asarray(face) for face in faces]  # type: ignore[union-attr]
+        polygons = [numpy.asarray(face) for face in cast(Any, faces)]
         sizes = numpy.array([len(face) for face in polygons])
         corners = numpy.concatenate(polygons) if polygons else numpy.empty(0, numpy.int64)
     return len(sizes), [("face_sizes", _indices(sizes)), ("face_indices", _indices(corners))]
@@ -94,9 +94,10 @@ def _face_fields(faces: Faces) -> Tuple[int, List[Tuple[str, NDArray[Any]]]]:
 
 def _rectangular(faces: Faces) -> Optional[NDArray[Any]]:
     """The faces as an array, or None where they have different numbers of corners."""
-    if not isinstance(faces, numpy.ndarray) and len({len(face) for face in faces}) != 1:  # type: ignore
+    polygons: Any = faces
+    if not isinstance(polygons, numpy.ndarray) and len({len(face) for face in polygons}) != 1:
         return None
-    rows = numpy.asarray(faces)
+    rows = numpy.asarray(polygons)
     if rows.ndim != 2:
         raise ValueError(f"faces is of shape {rows.shape}, must be (m, corners) or a list of lists")
     return rows

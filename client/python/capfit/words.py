@@ -18,7 +18,7 @@ _FOUND_BY_DEFAULT = ("LengthUnit", "UpAxis", "MeshFileFormat")
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """"; did you mean 'tight'?" where something known is near, or has the word in it ("fit" in
+    """'; did you mean 'tight'?" where something known is near, or has the word in it ("fit" in
     "fit_mode"); else nothing."""
     names = sorted(known)
     near = difflib.get_close_matches(word, names, n=1)
@@ -36,7 +36,9 @@ def word_of(enum: Any, number: int) -> Optional[str]:
 
 def number_of(enum: Any, name: str, word: str) -> int:
     """The way back, for the option `name`. ValueError lists the words and names the nearest."""
-    numbers: Dict[str, int] = {_word(enum, value.name): value.number for value in enum.values if value.number}
+    numbers: Dict[str, int] = {
+        _word(enum, value.name): value.number for value in enum.values if value.number
+    }
     if enum.name in _FOUND_BY_DEFAULT:
         numbers["auto"] = 0
     short = _SHORT_WORDS.get(enum.name, {})
