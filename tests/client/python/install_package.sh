@@ -9,7 +9,7 @@ python=/usr/bin/python3
 export PATH=/usr/bin:$PATH PIP_ROOT_USER_ACTION=ignore PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_CACHE_DIR=1
 
 skip() { echo "SKIPPED: $*; deploy/install_packages.sh test" >&2; exit 77; }
-"$python" -c 'import google.protobuf, grpc, jsonschema, numpy, setuptools, wheel, pip' ||
+"$python" -W ignore -c "import google.protobuf, grpc, jsonschema, numpy, setuptools, pip, wheel" ||
   skip "Debian's /usr/bin/python3 lacks a package"
 command -v grpc_python_plugin protoc >/dev/null || skip "no protoc or grpc_python_plugin"
 
