@@ -21,6 +21,16 @@ _PARTS = {"progress": True, "warning": True, "landmarks": False, "feature_polygo
 _ORDER = list(_PARTS)
 
 
+def _float_array(message: Any, name: str) -> NDArray[Any]:
+    """A repeated float as an array, a hundred times as fast as element by element: packed, the
+    numbers are the end of the bytes of a message that has nothing else."""
+    values = getattr(message, name)
+    alone = type(message)()
+    getattr(alone, name).MergeFrom(values)
+    data = alone.SerializeToString()
+    return numpy.frombuffer(data, "<f4", len(values), len(data) - 4 * len(values))
+
+
 class Answer:
     """Use: add() each message in order, then result(). Both raise CapfitError "INTERNAL" where the
     answer breaks the contract. Parts of a later version of the contract are ignored."""
@@ -108,7 +118,7 @@ class Answer:
                 or self._weights[rows, columns].size != len(dense.weights)):
             raise contract_broken(f"{len(dense.weights)} weights for spheres {rows} and vertices "
                                   f"{columns} of {self._weights.shape}")
-        numbers = numpy.array(dense.weights, numpy.float32)
+        numbers = _float_array(dense, "weights")
         self._weights[rows, columns] = numbers.reshape(block.sphere_count, dense.vertex_count)
         self._weight_count += len(numbers)
 
@@ -119,7 +129,7 @@ class Answer:
         if chunk.first_vertex != self._gap_count or end > self._gaps.size:
             raise contract_broken(f"gaps of vertices {chunk.first_vertex} to {end} of "
                                   f"{self._gaps.size}")
-        self._gaps[chunk.first_vertex:end] = chunk.gaps
+        self._gaps[chunk.first_vertex:end] = _float_array(chunk, "gaps")
         self._gap_count = end
 
     def _add_summary(self, summary: Any) -> None:
