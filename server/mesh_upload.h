@@ -46,7 +46,6 @@ class MeshUpload {
   [[nodiscard]] absl::Status CountBytes(const char* field, std::size_t bytes);
   [[nodiscard]] absl::Status CheckArraySizes() const;
   [[nodiscard]] absl::Status CheckComplete() const;
-  [[nodiscard]] std::size_t face_count() const;
 
   UploadLimits limits_;
   bool has_header_ = false;
