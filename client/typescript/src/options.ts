@@ -15,7 +15,8 @@ import {
 /** x, y, z. */
 export type Vector = [number, number, number];
 
-/** What is wanted. The budget is maxPrimitives, or maxSpheres and maxCapsules, or maxPolygonError. */
+/** What is wanted. The budget is one of: maxPrimitives; maxSpheres, maxCapsules or both;
+ *  maxPolygonError. */
 export interface FitOptions {
   /** Spheres and cones together, a sphere that several cones share counted once: 15 to 1000.
    *  Default: 64, where nothing else limits. */
@@ -120,11 +121,11 @@ function apartLimit(wire: WireOptions): NonNullable<Budget["spheresAndCapsules"]
 }
 
 function partsOf(value: unknown, field: string): BodyPartGroupName[] {
-  if (value === "all") return bodyPartGroups.words.map((word) => bodyPartGroups.toWire(word, field));
-  if (!Array.isArray(value)) {
+  const words: unknown = value === "all" ? bodyPartGroups.words : value;
+  if (!Array.isArray(words)) {
     throw invalidField("UNKNOWN_VALUE", field, 'must be "all" or a list of parts', value);
   }
-  return value.map((word, index) => bodyPartGroups.toWire(word, `${field}[${index}]`));
+  return words.map((word, index) => bodyPartGroups.toWire(word, `${field}[${index}]`));
 }
 
 function landmarksOf(value: unknown): WireLandmark[] {

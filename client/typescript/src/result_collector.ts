@@ -18,7 +18,7 @@ import { type Stage, stages } from "./words";
 /** How far a fit is. */
 export interface Progress {
   stage: Stage;
-  /** Estimate for the whole fit, from 0 to 1; does not fall, but begins again with a new attempt. */
+  /** Estimate for the whole fit, from 0 to 1. Falls only where a new attempt begins. */
   fractionDone: number;
 }
 

@@ -6,8 +6,8 @@ import { CapfitError, cancelled } from "./errors";
 const MAX_ATTEMPTS = 4;
 const FIRST_PAUSE_MS = 200;
 
-// How long to wait before the next attempt: what the server asked for, else twice as long each time.
-// undefined: another attempt is of no use.
+// How long to wait before the next attempt: what the server asked for, else twice as long each
+// time. undefined: another attempt is of no use.
 function pauseAfter(error: unknown, attempt: number): number | undefined {
   if (!(error instanceof CapfitError) || attempt === MAX_ATTEMPTS) return undefined;
   if (error.code !== "UNAVAILABLE" && error.code !== "RESOURCE_EXHAUSTED") return undefined;
