@@ -47,7 +47,8 @@ class SphereMeshFitter {
 
   FitOptions options_;
   VolumeError error_;
-  std::vector<Eigen::Vector3d> points_;
+  std::vector<Eigen::Vector3d> drop_points_;
+  std::vector<Eigen::Vector3d> settle_points_;
   std::vector<std::vector<SphereMesh>> series_;  // for each radius bound
 };
 
