@@ -31,6 +31,8 @@ class FitObserver {
   // `stage` begins or has come further. `fraction_done` in [0, 1] is an estimate for the whole fit
   // and never falls.
   virtual void OnStage(Stage stage, double fraction_done) = 0;
+  // The stage that is under way has come this far, in [0, 1]: from the thread that runs the fit.
+  virtual void OnFraction(double fraction_of_stage) { (void)fraction_of_stage; }
   // Polled between chunks of parallel work, at least every 50 ms or so.
   [[nodiscard]] virtual bool IsCancelled() const = 0;
 };

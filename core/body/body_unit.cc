@@ -36,4 +36,11 @@ absl::StatusOr<LengthUnit> ChooseUnit(Unit wanted, double height) {
   return *best;
 }
 
+Unit UnitOf(double metres) {
+  for (const LengthUnit& u : kUnits) {
+    if (u.metres == metres) return u.unit;
+  }
+  return Unit::kAuto;
+}
+
 }  // namespace capfit::body

@@ -20,6 +20,9 @@ struct LengthUnit {
 // shorter than 0.4 m or taller than 2.8 m. A unit that is named is taken for any height.
 [[nodiscard]] absl::StatusOr<LengthUnit> ChooseUnit(Unit wanted, double height);
 
+// The unit of this many metres; kAuto where there is none.
+[[nodiscard]] Unit UnitOf(double metres);
+
 }  // namespace capfit::body
 
 #endif  // CAPFIT_CORE_BODY_BODY_UNIT_H_

@@ -1,6 +1,16 @@
 #include "core/capsule/primitive_set.h"
 
+#include <algorithm>
+
 namespace capfit::capsule {
+
+body::Part PartOfCapsule(const PrimitiveSet& set, std::size_t capsule) {
+  const auto part_of = [&](int sphere) {
+    return set.origins[static_cast<std::size_t>(sphere)].part;
+  };
+  const CapsuleEnds& ends = set.capsules[capsule];
+  return std::max(part_of(ends[0]), part_of(ends[1]));
+}
 
 std::vector<geometry::TaperedCapsule> Solids(const PrimitiveSet& set) {
   std::vector<geometry::TaperedCapsule> solids;

@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_CAPSULE_PRIMITIVE_SET_H_
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "core/body/anatomy.h"
@@ -35,6 +36,9 @@ struct PrimitiveSet {
             spheres[static_cast<std::size_t>(capsules[index][1])]};
   }
 };
+
+// The part that a capsule belongs to: of two that it joins, the later one in Part.
+[[nodiscard]] body::Part PartOfCapsule(const PrimitiveSet& set, std::size_t capsule);
 
 // The solid that the set stands for, ready to be asked: every capsule, and every sphere that no
 // capsule uses.

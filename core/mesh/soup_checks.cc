@@ -14,10 +14,6 @@ namespace {
 // Beyond this, in any unit, a double keeps too few digits for a body, and products overflow.
 constexpr double kLargestCoordinate = 1e12;
 
-std::size_t FaceCount(const PolygonSoup& soup) {
-  return soup.face_sizes.empty() ? soup.face_vertices.size() / 3 : soup.face_sizes.size();
-}
-
 absl::Status CheckLimits(const PolygonSoup& soup, const MeshLimits& limits) {
   if (soup.positions.empty()) {
     return InvalidField(ErrorReason::kMissing, "mesh.arrays.positions",
@@ -31,8 +27,8 @@ absl::Status CheckLimits(const PolygonSoup& soup, const MeshLimits& limits) {
     return TooLarge("mesh.arrays.positions", soup.positions.size(), "vertices",
                     limits.max_vertices);
   }
-  if (FaceCount(soup) > limits.max_faces) {
-    return TooLarge("mesh.arrays.triangle_indices", FaceCount(soup), "faces", limits.max_faces);
+  if (soup.face_count() > limits.max_faces) {
+    return TooLarge("mesh.arrays.triangle_indices", soup.face_count(), "faces", limits.max_faces);
   }
   return absl::OkStatus();
 }

@@ -1,6 +1,6 @@
 #include "core/pipeline/fit.h"
 
-#include <chrono>
+#include <string>
 #include <utility>
 
 #include "core/base/status.h"
@@ -8,53 +8,16 @@
 #include "core/circle/error_curve.h"
 #include "core/coverage/cover_vertices.h"
 #include "core/mesh/prepare_mesh.h"
+#include "core/pipeline/effective_options.h"
 #include "core/pipeline/engines.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
+#include "core/pipeline/stage_clock.h"
 #include "core/pipeline/to_caller_frame.h"
 #include "core/refine/refine.h"
 
 namespace capfit::pipeline {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double SecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Tells the observer which stage begins and keeps the time of each.
-class StageClock {
- public:
-  StageClock(FitObserver& observer, FitResult& result) : observer_(observer), result_(result) {}
-
-  void Begin(Stage stage) {
-    End();
-    current_ = stage;
-    stage_start_ = Clock::now();
-    observer_.OnStage(stage, FractionBefore(stage));
-  }
-  void End() {
-    if (!current_.has_value()) return;
-    result_.stage_seconds[static_cast<std::size_t>(*current_)] += SecondsSince(stage_start_);
-    result_.seconds = SecondsSince(start_);
-    current_.reset();
-  }
-
- private:
-  // Shares of the whole as measured on a 64k-triangle body with 64 primitives, rounded.
-  static double FractionBefore(Stage stage) {
-    static constexpr std::array<double, kStageCount> kBefore = {0.0, 0.1,  0.3, 0.35, 0.5,
-                                                                0.5, 0.55, 0.8, 0.9};
-    return kBefore[static_cast<std::size_t>(stage)];
-  }
-
-  FitObserver& observer_;
-  FitResult& result_;
-  std::optional<Stage> current_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point stage_start_ = start_;
-};
 
 absl::Status CheckCancelled(const FitObserver& observer) {
   if (observer.IsCancelled()) return absl::CancelledError("the caller gave up");
@@ -74,17 +37,15 @@ struct Alternative {
 // The rooms behind the mesh, in their order.
 class BodyFit {
  public:
-  BodyFit(const FitOptions& options, const ThreadPool& pool, FitObserver& observer,
-          StageClock& clock, FitResult& result)
+  BodyFit(const FitOptions& options, const ThreadPool& pool, StageClock& clock, FitResult& result)
       : asked_(options),
         options_(WithEngineLimits(options)),
         pool_(pool),
-        observer_(observer),
         clock_(clock),
         result_(result) {}
 
-  absl::Status Run(const mesh::BodyMesh& mesh, const std::vector<mesh::NamedJoint>& skeleton) {
-    CAPFIT_RETURN_IF_ERROR(Understand(mesh, skeleton));
+  absl::Status Run(const mesh::PolygonSoup& soup, const mesh::BodyMesh& mesh) {
+    CAPFIT_RETURN_IF_ERROR(Understand(soup, mesh));
     CAPFIT_RETURN_IF_ERROR(BuildWithinLimits());
     CAPFIT_RETURN_IF_ERROR(Cover());
     CAPFIT_RETURN_IF_ERROR(Measure());
@@ -93,22 +54,23 @@ class BodyFit {
   }
 
  private:
-  absl::Status Understand(const mesh::BodyMesh& mesh,
-                          const std::vector<mesh::NamedJoint>& skeleton) {
+  absl::Status Understand(const mesh::PolygonSoup& soup, const mesh::BodyMesh& mesh) {
     clock_.Begin(Stage::kBody);
     body::BodyOptions body_options;
     body_options.unit = options_.unit;
     body_options.up = options_.up;
     body_options.landmarks = options_.landmarks;
-    body_options.skeleton = skeleton;
+    body_options.skeleton = soup.joints;
     body_options.required = options_.require_parts;
-    CAPFIT_ASSIGN_OR_RETURN(body_, body::FindBody(mesh, body_options, pool_, observer_));
+    CAPFIT_ASSIGN_OR_RETURN(body_, body::FindBody(mesh, body_options, pool_, clock_));
     Append(body_->warnings, result_.warnings);
     result_.body_from_caller = body_->body_from_caller;
     caller_from_body_ = body_->body_from_caller.Inverse();
     target_ = coverage::TargetOf(*body_, options_.parts);
+    result_.effective_options = EffectiveOptions(asked_, body_->body_from_caller);
+    result_.body = FactsOf(soup, mesh, *body_);
     result_.landmarks = LandmarkResults(*body_, caller_from_body_);
-    return CheckCancelled(observer_);
+    return CheckCancelled(clock_);
   }
 
   // Capsules that share no spheres cost more than the budget of capsules tells, where there are
@@ -135,10 +97,7 @@ class BodyFit {
     }
   }
 
-  capsule::CapsuleProfile Profile() const {
-    const Engine* const engine = FindEngine(options_.engine);
-    return engine == nullptr ? capsule::CapsuleProfile::kTangentHull : engine->profile;
-  }
+  capsule::CapsuleProfile Profile() const { return ProfileOf(options_); }
 
   // The tight fit needs them only to be shown, or to count what an error threshold asks for.
   bool NeedsPolygons() const {
@@ -163,23 +122,27 @@ class BodyFit {
     section::FeaturePolygons features =
         section::ExtractFeaturePolygons(*body_, PlanSections(options_, *body_, chains), pool_);
     Append(std::move(features.warnings), result_.warnings);
-    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer_));
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
 
     clock_.Begin(Stage::kCircle);
     circle::CircleOptions circle_options;
     circle_options.seed = options_.seed;
     const circle::ErrorCurves curves(features.polygons, kMaxCirclesPerPolygon, circle_options,
-                                     observer_);
+                                     clock_);
     curves.Prepare(kCirclesFittedAhead, pool_);
-    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer_));
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
 
     clock_.Begin(Stage::kCapsule);
     PrimitiveStage stage = BuildUnderBudget(*body_, options_, features.polygons, curves);
     set_ = std::move(stage.set);
+    if (options_.quality == Quality::kPaper && options_.fit == FitMode::kBestFit) {
+      clock_.Begin(Stage::kRefine);
+      set_ = SettleBestFit(*body_, options_, std::move(set_));
+    }
     if (options_.want_polygons) {
       result_.polygons = PolygonResults(features.polygons, stage.approximations, caller_from_body_);
     }
-    return CheckCancelled(observer_);
+    return CheckCancelled(clock_);
   }
 
   absl::Status Refine() {
@@ -198,12 +161,12 @@ class BodyFit {
     refine_options.parts = options_.parts;
     refine_options.seed = options_.seed;
     std::vector<capsule::PrimitiveSet> found =
-        refine::RefineSet(*body_, target_, refine_options, pool_, observer_);
+        refine::RefineSet(*body_, target_, refine_options, pool_, clock_);
     set_ = std::move(found.front());
     for (std::size_t i = 1; i < found.size(); ++i) {
       alternatives_.push_back({std::move(found[i]), /*has_shape=*/true});
     }
-    return CheckCancelled(observer_);
+    return CheckCancelled(clock_);
   }
 
   absl::Status CheckFound() const {
@@ -215,10 +178,10 @@ class BodyFit {
   // Encloses what is not enclosed yet, and proves it; after refining, that is part of it. The best
   // fit is only measured.
   absl::Status Cover() {
-    if (options_.quality == Quality::kPaper) clock_.Begin(Stage::kCoverage);
+    clock_.Begin(Stage::kCoverage);
     if (options_.fit == FitMode::kBestFit) {
       max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
-      return CheckCancelled(observer_);
+      return CheckCancelled(clock_);
     }
     coverage::CoverReport report = Enclose(options_.quality == Quality::kTight, set_);
     for (Alternative& alternative : alternatives_) {
@@ -229,7 +192,7 @@ class BodyFit {
     }
     max_gap_m_ = report.certified_gap_m;
     if (Profile() == capsule::CapsuleProfile::kLerpedRadius) capsule::GrowForLerpedRadius(set_);
-    return CheckCancelled(observer_);
+    return CheckCancelled(clock_);
   }
 
   // `has_shape`: as refined sets do, but for those whose spheres have just been made uniform.
@@ -239,31 +202,35 @@ class BodyFit {
     cover_options.tighten = !options_.grows_only;
     cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
     cover_options.loosen = !has_shape || cover_options.uniform_radius;
-    return coverage::CoverBody(target_, cover_options, pool_, observer_, set);
+    return coverage::CoverBody(target_, cover_options, pool_, clock_, set);
   }
 
   absl::Status Measure() {
     clock_.Begin(Stage::kMetrics);
     metrics::MeasureOptions measure_options;
     measure_options.parts = options_.parts;
-    result_.metrics = metrics::Measure(*body_, set_, measure_options, pool_, observer_);
+    result_.metrics = metrics::Measure(*body_, set_, measure_options, pool_, clock_);
     result_.metrics.max_gap_m = max_gap_m_;
     if (options_.want_vertex_gaps) {
       result_.vertex_gaps = VertexGaps(
           body_->mesh, metrics::SignedGaps(*body_, set_, options_.parts, pool_), caller_from_body_);
     }
-    return CheckCancelled(observer_);
+    return CheckCancelled(clock_);
   }
 
   absl::Status Bind() {
     result_.primitives = ToCallerFrame(set_, caller_from_body_);
+    if (!options_.want_polygons || options_.quality == Quality::kTight) {
+      // An index of a polygon that is not in the result would say nothing.
+      for (capsule::SphereOrigin& origin : result_.primitives.origins) origin.polygon = -1;
+    }
     if (options_.skinning == SkinningMode::kNone) return absl::OkStatus();
     clock_.Begin(Stage::kSkinning);
     // In the body frame, near the origin: the coordinates do not depend on the frame, digits do.
     std::vector<Eigen::Vector3d> centers_m;
     for (const geometry::Sphere& sphere : set_.spheres) centers_m.push_back(sphere.center_m);
-    result_.weights = skinning::MeanValueWeights(body_->mesh, centers_m, pool_, observer_);
-    return CheckCancelled(observer_);
+    result_.weights = skinning::MeanValueWeights(body_->mesh, centers_m, pool_, clock_);
+    return CheckCancelled(clock_);
   }
 
   static constexpr int kMaxCirclesPerPolygon = 8;
@@ -275,7 +242,6 @@ class BodyFit {
   const FitOptions& asked_;
   FitOptions options_;  // with the limits of the engine
   const ThreadPool& pool_;
-  FitObserver& observer_;
   StageClock& clock_;
   FitResult& result_;
   std::optional<body::Body> body_;  // set by Understand
@@ -293,13 +259,13 @@ absl::StatusOr<FitResult> Fit(const mesh::PolygonSoup& soup, const FitOptions& o
   CAPFIT_RETURN_IF_ERROR(ValidateOptions(options));
   FitResult result;
   result.version = std::string(Version());
-  StageClock clock(observer, result);
+  StageClock clock(options, observer, result);
   clock.Begin(Stage::kMesh);
-  CAPFIT_ASSIGN_OR_RETURN(mesh::PreparedMesh prepared, mesh::PrepareMesh(soup, {}, observer));
+  CAPFIT_ASSIGN_OR_RETURN(mesh::PreparedMesh prepared, mesh::PrepareMesh(soup, {}, clock));
   Append(std::move(prepared.warnings), result.warnings);
-  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  CAPFIT_RETURN_IF_ERROR(
-      BodyFit(options, pool, observer, clock, result).Run(prepared.mesh, soup.joints));
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock));
+  const absl::Status status = BodyFit(options, pool, clock, result).Run(soup, prepared.mesh);
+  if (!status.ok()) return WithWarnings(status, result.warnings);
   clock.End();
   return result;
 }

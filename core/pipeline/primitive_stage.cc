@@ -78,24 +78,9 @@ circle::Budget Raised(circle::Budget budget, int more) {
   return budget;
 }
 
-// Centres and radii with the smallest E_r, and what becomes useless by that spent elsewhere.
-capsule::PrimitiveSet SettledForBestFit(const body::Body& body, const FitOptions& options,
-                                        const circle::Budget& total, capsule::PrimitiveSet set) {
-  const refine::OccupancyGrid grid = refine::BestFitGrid(body, options.parts);
-  double rate_m = kRateFromCirclesM;
-  for (int round = 0; round < kMaxSettlings; ++round) {
-    set = refine::SettleBestFit(grid, rate_m, options.seed, std::move(set));
-    capsule::RemoveCoveredCapsules(set);
-    const Counts spent = CountsOf(set);
-    if (Unused(spent, total) <= kUnusedAllowed) break;
-    SpendRest(SpareOf(spent, total), set);
-    rate_m = kRateFromCutsM;
-  }
-  return set;
-}
+}  // namespace
 
-// The stage without the settling of a best fit.
-PrimitiveStage BuildAsPublished(const body::Body& body, const FitOptions& options,
+PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
                                 std::span<const section::FeaturePolygon> polygons,
                                 const circle::ErrorCurves& curves) {
   if (options.polygon_error.has_value()) {
@@ -130,17 +115,21 @@ PrimitiveStage BuildAsPublished(const body::Body& body, const FitOptions& option
   return best;
 }
 
-}  // namespace
-
-PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
-                                std::span<const section::FeaturePolygon> polygons,
-                                const circle::ErrorCurves& curves) {
-  PrimitiveStage stage = BuildAsPublished(body, options, polygons, curves);
-  if (options.quality != Quality::kPaper || options.fit != FitMode::kBestFit) return stage;
+capsule::PrimitiveSet SettleBestFit(const body::Body& body, const FitOptions& options,
+                                    capsule::PrimitiveSet set) {
   circle::Budget total = TotalBudget(options);
-  if (options.polygon_error.has_value()) total.max_primitives = stage.set.primitive_count();
-  stage.set = SettledForBestFit(body, options, total, std::move(stage.set));
-  return stage;
+  if (options.polygon_error.has_value()) total.max_primitives = set.primitive_count();
+  const refine::OccupancyGrid grid = refine::BestFitGrid(body, options.parts);
+  double rate_m = kRateFromCirclesM;
+  for (int round = 0; round < kMaxSettlings; ++round) {
+    set = refine::SettleBestFit(grid, rate_m, options.seed, std::move(set));
+    capsule::RemoveCoveredCapsules(set);
+    const Counts spent = CountsOf(set);
+    if (Unused(spent, total) <= kUnusedAllowed) break;
+    SpendRest(SpareOf(spent, total), set);
+    rate_m = kRateFromCutsM;
+  }
+  return set;
 }
 
 }  // namespace capfit::pipeline

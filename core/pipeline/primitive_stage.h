@@ -18,19 +18,21 @@ namespace capfit::pipeline {
 // What the circles of the feature polygons became.
 struct PrimitiveStage {
   std::vector<circle::PolygonApproximation> approximations;  // one for each polygon
-  capsule::PrimitiveSet set;  // before coverage, or settled for the best fit
+  capsule::PrimitiveSet set;                                 // before coverage
 };
 
 // Allocates circles, builds spheres and capsules, removes the covered ones, and gives what the
 // removal freed to more circles, until the budget is used up (within 3 primitives) or nothing more
-// can be bought. Never above the budget unless one circle per polygon already is. A best fit of
-// quality paper, which nothing encloses later, is settled on top of that: circles and capsules stay
-// as the topology, centres and radii move to the smallest E_r (core/refine), capsules that others
-// cover by then go, and what that frees is spent by cutting capsules in two. About 60 ms more at 64
-// primitives.
+// can be bought. Never above the budget unless one circle per polygon already is.
 [[nodiscard]] PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
                                               std::span<const section::FeaturePolygon> polygons,
                                               const circle::ErrorCurves& curves);
+
+// A best fit of quality paper, which nothing encloses later: circles and capsules stay as the
+// topology, centres and radii move to the smallest E_r (core/refine), capsules that others cover by
+// then go, and what that frees is spent by cutting capsules in two. About 60 ms at 64 primitives.
+[[nodiscard]] capsule::PrimitiveSet SettleBestFit(const body::Body& body, const FitOptions& options,
+                                                  capsule::PrimitiveSet set);
 
 }  // namespace capfit::pipeline
 
