@@ -1,6 +1,14 @@
 #include "core/capsule/primitive_set.h"
 
+#include <algorithm>
+
 namespace capfit::capsule {
+
+body::Part PartOfCapsule(const PrimitiveSet& set, std::size_t index) {
+  const auto [first, second] = set.capsules[index];
+  return std::max(set.origins[static_cast<std::size_t>(first)].part,
+                  set.origins[static_cast<std::size_t>(second)].part);
+}
 
 std::vector<geometry::TaperedCapsule> Solids(const PrimitiveSet& set) {
   std::vector<geometry::TaperedCapsule> solids;

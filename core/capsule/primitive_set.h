@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_CAPSULE_PRIMITIVE_SET_H_
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "core/body/anatomy.h"
@@ -35,6 +36,10 @@ struct PrimitiveSet {
             spheres[static_cast<std::size_t>(capsules[index][1])]};
   }
 };
+
+// The part that a capsule counts to: that of its ends; between two parts the later in body::Part,
+// which is the one further out.
+[[nodiscard]] body::Part PartOfCapsule(const PrimitiveSet& set, std::size_t index);
 
 // The solid that the set stands for, ready to be asked: every capsule, and every sphere that no
 // capsule uses.
