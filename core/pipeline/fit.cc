@@ -12,6 +12,7 @@
 #include "core/pipeline/engines.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
+#include "core/pipeline/sphere_names.h"
 #include "core/pipeline/stage_clock.h"
 #include "core/pipeline/to_caller_frame.h"
 #include "core/refine/refine.h"
@@ -220,6 +221,7 @@ class BodyFit {
 
   absl::Status Bind() {
     result_.primitives = ToCallerFrame(set_, caller_from_body_);
+    result_.sphere_names = SphereNames(*body_, set_);
     if (!options_.want_polygons || options_.quality == Quality::kTight) {
       // An index of a polygon that is not in the result would say nothing.
       for (capsule::SphereOrigin& origin : result_.primitives.origins) origin.polygon = -1;
