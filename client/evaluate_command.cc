@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 
@@ -42,15 +41,6 @@ absl::StatusOr<body::Body> LoadBody(const EvaluateArguments& arguments, const Th
   return UnderstandBody(soup, arguments.frame, pool);
 }
 
-// As in RESULT.json, and the two lengths in metres.
-std::string ReportJson(const metrics::Metrics& metrics, double metres_per_unit) {
-  auto json = nlohmann::ordered_json::parse(FormatMetrics(metrics, metres_per_unit));
-  json["metres_per_unit"] = metres_per_unit;
-  json["max_gap_m"] = metrics.max_gap_m;
-  json["max_out_m"] = metrics.max_out_m;
-  return json.dump() + "\n";
-}
-
 absl::Status RunEvaluate(const EvaluateArguments& arguments) {
   const ThreadPool pool(arguments.threads);
   CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(arguments.result));
@@ -62,7 +52,7 @@ absl::Status RunEvaluate(const EvaluateArguments& arguments) {
   metrics::Metrics metrics = metrics::Measure(body, set, options, pool, NullObserver());
   metrics.max_gap_m =
       coverage::CertifiedGap(coverage::TargetOf(body, options.parts), set, kGapToleranceM, pool);
-  const std::string report = arguments.as_json ? ReportJson(metrics, body.body_from_caller.scale)
+  const std::string report = arguments.as_json ? FormatMetrics(metrics) + "\n"
                                                : PartsTable(metrics) + "\n" + MetricsTable(metrics);
   std::fputs(report.c_str(), stdout);
   return absl::OkStatus();
@@ -84,7 +74,8 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code) {
   command->add_option("--threads", arguments->threads, "Threads; 0: one per core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  command->add_flag("--json", arguments->as_json, "Print JSON instead of a table");
+  command->add_flag("--json", arguments->as_json,
+                    "Print the object \"metrics\" of RESULT.json instead of a table");
   command->callback([arguments, &exit_code] { exit_code = Report(RunEvaluate(*arguments)); });
 }
 

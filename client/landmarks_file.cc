@@ -8,9 +8,10 @@
 namespace capfit::client {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-absl::StatusOr<Eigen::Vector3d> PositionOf(const json& value, const std::string& field) {
+absl::StatusOr<Eigen::Vector3d> PositionOf(const Json& value, const std::string& field) {
+  if (value.is_object() && value.contains("position")) return PositionOf(value["position"], field);
   Eigen::Vector3d position = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   if (value.is_array() && value.size() == 3) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -27,11 +28,11 @@ absl::StatusOr<Eigen::Vector3d> PositionOf(const json& value, const std::string&
 
 absl::StatusOr<std::map<body::LandmarkId, Eigen::Vector3d>> ParseLandmarks(
     const std::string& json_text) {
-  const json root = json::parse(json_text, nullptr, /*allow_exceptions=*/false);
+  const Json root = Json::parse(json_text, nullptr, /*allow_exceptions=*/false);
   if (!root.is_object())
     return InvalidField(ErrorReason::kMalformedFile, "landmarks", "is not a JSON object");
   const auto inner = root.find("landmarks");
-  const json& landmarks = inner != root.end() && inner->is_object() ? *inner : root;
+  const Json& landmarks = inner != root.end() && inner->is_object() ? *inner : root;
   std::map<body::LandmarkId, Eigen::Vector3d> positions;
   for (const auto& [name, value] : landmarks.items()) {
     const std::string field = absl::StrCat("landmarks.", name);

@@ -1,4 +1,5 @@
-// The file of --landmarks: {"left_wrist": [x, y, z], ...} in the mesh's unit and axes.
+// The file of --landmarks: {"left_wrist": [x, y, z], ...} in the mesh's unit and axes, or a whole
+// RESULT.json.
 #ifndef CAPFIT_CLIENT_LANDMARKS_FILE_H_
 #define CAPFIT_CLIENT_LANDMARKS_FILE_H_
 
@@ -11,8 +12,8 @@
 
 namespace capfit::client {
 
-// A whole RESULT.json does as well: its "landmarks" are taken. INVALID_ARGUMENT names the landmark
-// that is unknown or has no three finite numbers.
+// Of a RESULT.json all "landmarks" are taken, whatever their method and confidence.
+// INVALID_ARGUMENT names the landmark that is unknown or has no three finite numbers.
 [[nodiscard]] absl::StatusOr<std::map<body::LandmarkId, Eigen::Vector3d>> ParseLandmarks(
     const std::string& json_text);
 

@@ -61,10 +61,8 @@ absl::Status ResultCollector::AddPart(const v1::ApproximateBodyResponse& respons
       result_.polygons.push_back(std::move(polygon));
       return absl::OkStatus();
     }
-    case Response::kPrimitives: {
-      CAPFIT_ASSIGN_OR_RETURN(result_.primitives, wire::PrimitivesFromWire(response.primitives()));
-      return absl::OkStatus();
-    }
+    case Response::kPrimitives:
+      return wire::PrimitivesFromWire(response.primitives(), result_);
     case Response::kSkinning:
       if (!result_.weights) result_.weights.emplace();
       return wire::AppendWeights(response.skinning(), *result_.weights);

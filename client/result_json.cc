@@ -1,40 +1,73 @@
 #include "client/result_json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include "client/message_json.h"
+#include "proto/wire/enum_conversion.h"
+#include "proto/wire/result_conversion.h"
 
 namespace capfit::client {
 namespace {
 
 using nlohmann::ordered_json;
 
+constexpr std::size_t kLineColumns = 100;
+
 ordered_json VectorJson(const Eigen::Vector3d& v) {
   return ordered_json::array({v.x(), v.y(), v.z()});
 }
 
-ordered_json SphereJson(const geometry::Sphere& sphere) {
-  ordered_json json = VectorJson(sphere.center_m);
-  json.push_back(sphere.radius_m);
-  return json;
-}
-
 ordered_json SpheresJson(const std::vector<geometry::Sphere>& spheres) {
   ordered_json json = ordered_json::array();
-  for (const geometry::Sphere& sphere : spheres) json.push_back(SphereJson(sphere));
-  return json;
-}
-
-ordered_json PartsJson(const capsule::PrimitiveSet& set) {
-  ordered_json json = ordered_json::array();
-  for (const capsule::SphereOrigin& origin : set.origins) {
-    json.push_back(std::string(body::PartName(origin.part)));
+  for (const geometry::Sphere& sphere : spheres) {
+    json.push_back(VectorJson(sphere.center_m));
+    json.back().push_back(sphere.radius_m);
   }
   return json;
 }
 
+ordered_json PartJson(body::Part part) { return std::string(body::PartName(part)); }
+
+// Where they were asked for there is a list of them, though it may be empty.
+bool HasPolygons(const pipeline::FitResult& result) {
+  return result.effective_options.want_polygons || !result.polygons.empty();
+}
+
+// null for -1.
+ordered_json IndexJson(int index) {
+  return index < 0 ? ordered_json(nullptr) : ordered_json(index);
+}
+
+// What is known of each sphere and capsule, in lists beside them.
+void AddPrimitives(const pipeline::FitResult& result, ordered_json& root) {
+  const capsule::PrimitiveSet& set = result.primitives;
+  root["spheres"] = SpheresJson(set.spheres);
+  root["capsules"] = set.capsules;
+  root["sphere_names"] = result.sphere_names;
+  ordered_json& parts = root["sphere_parts"] = ordered_json::array();
+  ordered_json mirrors = ordered_json::array();
+  ordered_json polygons = ordered_json::array();
+  for (const capsule::SphereOrigin& origin : set.origins) {
+    parts.push_back(PartJson(origin.part));
+    mirrors.push_back(IndexJson(origin.mirror));
+    polygons.push_back(IndexJson(origin.polygon));
+  }
+  root["sphere_mirrors"] = mirrors;
+  if (HasPolygons(result)) root["sphere_polygons"] = polygons;
+  ordered_json& capsule_parts = root["capsule_parts"] = ordered_json::array();
+  for (const capsule::CapsuleEnds& ends : set.capsules) {
+    const auto part = [&](int end) { return set.origins[static_cast<std::size_t>(end)].part; };
+    capsule_parts.push_back(PartJson(std::max(part(ends[0]), part(ends[1]))));
+  }
+}
+
 ordered_json LandmarksJson(const pipeline::FitResult& result) {
   ordered_json json = ordered_json::object();
-  for (const pipeline::LandmarkResult& landmark : result.landmarks) {
-    json[landmark.name] = VectorJson(landmark.position);
+  const v1::Landmarks landmarks = wire::LandmarksToWire(result);
+  for (const v1::Landmark& landmark : landmarks.landmarks()) {
+    ordered_json& one = json[landmark.name()] = MessageJson(landmark);
+    one.erase("name");
   }
   return json;
 }
@@ -42,58 +75,29 @@ ordered_json LandmarksJson(const pipeline::FitResult& result) {
 ordered_json WarningsJson(const std::vector<Warning>& warnings) {
   ordered_json json = ordered_json::array();
   for (const Warning& warning : warnings) {
-    json.push_back(
-        {{"code", warning.code}, {"message", warning.message}, {"count", warning.count}});
+    json.push_back(MessageJson(wire::WarningToWire(warning)));
   }
   return json;
 }
 
-ordered_json GapJson(const metrics::GapStatistics& gap, double metres_per_unit) {
-  return {{"mean", gap.mean_m / metres_per_unit},
-          {"p95", gap.p95_m / metres_per_unit},
-          {"max", gap.max_m / metres_per_unit}};
+// As on the wire, but the parts under their names.
+ordered_json MetricsJson(const v1::Metrics& metrics) {
+  ordered_json json = MessageJson(metrics);
+  ordered_json parts = ordered_json::object();
+  for (ordered_json& part : json["parts"]) {
+    const auto name = part["part"].get<std::string>();
+    part.erase("part");
+    parts[name] = std::move(part);
+  }
+  json["parts"] = std::move(parts);
+  return json;
 }
 
-ordered_json PartJson(const metrics::PartMetrics& part, double metres_per_unit) {
-  return {{"spheres", part.spheres},
-          {"capsules", part.capsules},
-          {"volume", part.volume_m3 / (metres_per_unit * metres_per_unit * metres_per_unit)},
-          {"E_r", part.E_r},
-          {"outside", part.outside},
-          {"uncovered", part.uncovered},
-          {"E_M", part.E_M},
-          {"volume_ratio", part.volume_ratio},
-          {"gap", GapJson(part.gap, metres_per_unit)},
-          {"surface_out", part.surface_out},
-          {"vertices_out", part.vertices_out},
-          {"max_out", part.max_out_m / metres_per_unit}};
-}
-
-// All but the parts.
-ordered_json WholeJson(const metrics::Metrics& metrics, double metres_per_unit) {
-  return {{"n_p", metrics.n_p},
-          {"spheres", metrics.spheres},
-          {"capsules", metrics.capsules},
-          {"E_r", metrics.E_r},
-          {"outside", metrics.outside},
-          {"uncovered", metrics.uncovered},
-          {"E_M", metrics.E_M},
-          {"max_gap", metrics.max_gap_m / metres_per_unit},
-          {"hausdorff", metrics.hausdorff},
-          {"volume_ratio", metrics.volume_ratio},
-          {"iou", metrics.iou},
-          {"mirror_error", metrics.mirror_error},
-          {"gap", GapJson(metrics.gap, metres_per_unit)},
-          {"surface_out", metrics.surface_out},
-          {"vertices_out", metrics.vertices_out},
-          {"max_out", metrics.max_out_m / metres_per_unit}};
-}
-
-ordered_json StagesJson(const pipeline::FitResult& result) {
+ordered_json StagesJson(const v1::Summary& summary) {
   ordered_json json = ordered_json::object();
-  for (std::size_t i = 0; i < result.stage_seconds.size(); ++i) {
-    if (result.stage_seconds[i] <= 0.0) continue;
-    json[std::string(StageName(static_cast<Stage>(i)))] = result.stage_seconds[i];
+  for (const v1::StageTime& time : summary.stages()) {
+    const ordered_json stage = MessageJson(time);
+    json[stage["stage"].get<std::string>()] = time.seconds();
   }
   return json;
 }
@@ -104,63 +108,74 @@ ordered_json PolygonsJson(const std::vector<pipeline::PolygonResult>& polygons) 
     ordered_json outline = ordered_json::array();
     for (const Eigen::Vector3d& point : polygon.outline) outline.push_back(VectorJson(point));
     json.push_back({{"name", polygon.name},
-                    {"part", std::string(body::PartName(polygon.part))},
-                    {"outline", outline},
+                    {"part", PartJson(polygon.part)},
+                    {"outline", std::move(outline)},
                     {"circles", SpheresJson(polygon.circles)},
                     {"outside_area_ratio", polygon.outside_area_ratio}});
   }
   return json;
 }
 
-// One line for each element of a list, so that people and diff can read it. Names from a file may
-// be any bytes: those that are not UTF-8 are replaced.
-std::string Dump(const ordered_json& json) {
+// What the file is, and how its numbers are to be read.
+ordered_json HeadJson(const v1::Summary& summary) {
+  const ordered_json options = MessageJson(summary.options());
+  ordered_json root = {{"format", "capfit-result"},
+                       {"format_version", kResultFormatVersion},
+                       {"version", summary.version()},
+                       {"unit", options["unit"]},
+                       {"metres_per_unit", summary.body_from_caller().scale()},
+                       {"up_axis", options["up_axis"]}};
+  if (!summary.request_id().empty()) root["request_id"] = summary.request_id();
+  root["body_from_caller"] = MessageJson(summary.body_from_caller());
+  root["body"] = MessageJson(summary.body());
+  root["options"] = options;
+  return root;
+}
+
+bool HasStructure(const ordered_json& json) {
+  return std::any_of(json.begin(), json.end(),
+                     [](const ordered_json& one) { return one.is_structured(); });
+}
+
+// Broken where it does not fit into a line, so that people and diff can read it; lists of plain
+// values never are. Names from a file may be any bytes: those that are not UTF-8 are replaced.
+std::string Pretty(const ordered_json& json, std::size_t indent, std::size_t used) {
   const auto text = [](const ordered_json& one) {
     return one.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   };
-  if (!json.is_array() || json.empty() || !json[0].is_structured()) return text(json);
-  std::string lines = "[";
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    lines += (i == 0 ? "\n    " : ",\n    ") + text(json[i]);
+  std::string line = text(json);
+  const bool is_broken = json.is_object() || (json.is_array() && HasStructure(json));
+  if (!is_broken || json.empty() || used + line.size() < kLineColumns) return line;
+  const std::string margin = "\n" + std::string(indent + 2, ' ');
+  std::string lines;
+  for (const auto& [name, value] : json.items()) {
+    const std::string label = json.is_object() ? text(name) + ": " : "";
+    lines += (lines.empty() ? "" : ",") + margin + label +
+             Pretty(value, indent + 2, indent + 2 + label.size());
   }
-  return lines + "]";
+  const char* const ends = json.is_object() ? "{}" : "[]";
+  return ends[0] + lines + margin.substr(0, margin.size() - 2) + ends[1];
 }
 
 }  // namespace
 
-std::string FormatMetrics(const metrics::Metrics& metrics, double metres_per_unit) {
-  std::string text = WholeJson(metrics, metres_per_unit).dump();
-  text.pop_back();
-  text += ",\n    \"parts\": {";
-  bool is_first = true;
-  for (std::size_t p = 0; p < metrics.parts.size(); ++p) {
-    if (!metrics.parts[p]) continue;
-    text += (is_first ? "\n      \"" : ",\n      \"") +
-            std::string(body::PartName(static_cast<body::Part>(p))) +
-            "\": " + PartJson(*metrics.parts[p], metres_per_unit).dump();
-    is_first = false;
-  }
-  return text + "}}";
+std::string FormatMetrics(const metrics::Metrics& metrics) {
+  pipeline::FitResult result;
+  result.metrics = metrics;
+  return Pretty(MetricsJson(wire::SummaryToWire(result, "").metrics()), 0, 0);
 }
 
-std::string FormatResult(const pipeline::FitResult& result) {
-  ordered_json root;
-  root["spheres"] = SpheresJson(result.primitives.spheres);
-  root["capsules"] = ordered_json(result.primitives.capsules);
-  root["sphere_parts"] = PartsJson(result.primitives);
+std::string FormatResult(const pipeline::FitResult& result, const std::string& request_id) {
+  const v1::Summary summary = wire::SummaryToWire(result, request_id);
+  ordered_json root = HeadJson(summary);
+  AddPrimitives(result, root);
   root["landmarks"] = LandmarksJson(result);
   root["warnings"] = WarningsJson(result.warnings);
-  root["metrics"] = nullptr;  // keeps the place
-  root["stages"] = StagesJson(result);
-  root["seconds"] = result.seconds;
-  if (!result.polygons.empty()) root["polygons"] = PolygonsJson(result.polygons);
-  std::string text;
-  for (const auto& [name, value] : root.items()) {
-    text += (text.empty() ? "{\n  \"" : ",\n  \"") + name + "\": " +
-            (name == "metrics" ? FormatMetrics(result.metrics, result.body_from_caller.scale)
-                               : Dump(value));
-  }
-  return text + "\n}\n";
+  root["metrics"] = MetricsJson(summary.metrics());
+  root["stages"] = StagesJson(summary);
+  root["seconds"] = summary.seconds();
+  if (HasPolygons(result)) root["feature_polygons"] = PolygonsJson(result.polygons);
+  return Pretty(root, 0, kLineColumns) + "\n";
 }
 
 }  // namespace capfit::client

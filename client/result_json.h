@@ -1,21 +1,24 @@
-// RESULT.json, the file that every other tool reads. Its shape is kept for good:
+// RESULT.json, the file that every other tool reads. docs/result.schema.json is its JSON Schema:
+// every member with its unit, and which of them are always there. In short, version 1:
 //
-//   {"spheres": [[x, y, z, r], ...], "capsules": [[i, j], ...], "sphere_parts": ["torso", ...],
-//    "landmarks": {"left_wrist": [x, y, z], ...},
-//    "warnings": [{"code": "HOLES_CLOSED", "message": "...", "count": 2}, ...],
-//    "metrics": {"n_p": .., "E_r": .., "outside": .., "uncovered": .., "E_M": .., "max_gap": ..,
-//                "gap": {"mean": .., "p95": .., "max": ..}, ..., "parts": {"torso": {...}, ...}},
-//    "stages": {"mesh": seconds, ...}, "seconds": total without reading the file}
+//   {"format": "capfit-result", "format_version": 1, "version": "0.1.0",
+//    "unit": "centimetre", "metres_per_unit": 0.01, "up_axis": "y", "request_id": "...",
+//    "body_from_caller": {"rotation": [9], "scale": .., "translation": [3]},
+//    "body": {"vertex_count": .., "box_min": [3], ...}, "options": {"budget": {...}, ...},
+//    "spheres": [[x, y, z, r], ...], "capsules": [[i, j], ...],
+//    "sphere_names": [...], "sphere_parts": [...], "sphere_mirrors": [...],
+//    "sphere_polygons": [...], "capsule_parts": [...],
+//    "landmarks": {"left_wrist": {"position": [3], "method": "measured", "confidence": 0.9}, ...},
+//    "warnings": [{"code": .., "message": .., "count": ..}, ...],
+//    "metrics": {"primitive_count": .., "volume_error": .., ..., "parts": {"torso": {...}, ...}},
+//    "stages": {"mesh": seconds, ...}, "seconds": total without reading the file,
+//    "feature_polygons": [{"name": .., "part": .., "outline": [[3], ...],
+//                          "circles": [[x, y, z, r], ...], "outside_area_ratio": ..}, ...]}
 //
-// All coordinates, radii, lengths (max_gap, max_out and gap too) and the parts' volumes are in the
-// unit and axes of the mesh file; E_M and hausdorff in percent; the rest of the metrics are shares
-// and counts. Those of a part are "spheres", "capsules", "volume", "E_r", "outside", "uncovered",
-// "E_M", "volume_ratio", "gap", "surface_out", "vertices_out" and "max_out"; what they mean, and by
-// which rule volumes are shared out among the parts: metrics::Metrics and metrics::Volumes. Where
-// feature polygons were asked for there is also
-//   "polygons": [{"name": "hip", "part": "torso", "outline": [[x, y, z], ...],
-//                 "circles": [[x, y, z, r], ...], "outside_area_ratio": ..}, ...].
-// Later versions may add members; readers ignore those that they do not know.
+// Points, radii and boxes are in the unit and axes of the mesh file, which "unit" and "up_axis"
+// tell; a length in metres says so in its name (max_gap_m). Names and words are those of the
+// contract (proto/capfit/v1), words in small letters without their enum's prefix. Later versions
+// may add members; readers ignore those that they do not know.
 #ifndef CAPFIT_CLIENT_RESULT_JSON_H_
 #define CAPFIT_CLIENT_RESULT_JSON_H_
 
@@ -25,12 +28,16 @@
 
 namespace capfit::client {
 
-// The file's text, ending with a newline. Doubles are written with as many digits as bring back the
-// same bits.
-[[nodiscard]] std::string FormatResult(const pipeline::FitResult& result);
+// Of the file's shape: it grows when a member changes its meaning or goes away.
+inline constexpr int kResultFormatVersion = 1;
 
-// The object "metrics" alone, a line for each part, no newline at the end.
-[[nodiscard]] std::string FormatMetrics(const metrics::Metrics& metrics, double metres_per_unit);
+// The file's text, ending with a newline. Doubles are written with as many digits as bring back the
+// same bits. No request id, no member.
+[[nodiscard]] std::string FormatResult(const pipeline::FitResult& result,
+                                       const std::string& request_id = "");
+
+// The object "metrics" alone, no newline at the end.
+[[nodiscard]] std::string FormatMetrics(const metrics::Metrics& metrics);
 
 }  // namespace capfit::client
 

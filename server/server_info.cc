@@ -5,6 +5,7 @@
 
 #include "core/base/version.h"
 #include "core/pipeline/engines.h"
+#include "proto/wire/enum_conversion.h"
 
 namespace capfit::server {
 namespace {
@@ -17,12 +18,11 @@ struct Feature {
   std::function<void(FitOptions&)> ask;
 };
 
+// In the order of the vocabulary in server_info.proto. The forms of weights that the core has no
+// word for yet are not here, so they are not promised.
 const std::vector<Feature>& Features() {
   static const std::vector<Feature> features = {
-      {"fit.enclose", [](FitOptions& o) { o.fit = pipeline::FitMode::kEnclose; }},
-      {"fit.best_fit", [](FitOptions& o) { o.fit = pipeline::FitMode::kBestFit; }},
-      {"quality.paper", [](FitOptions& o) { o.quality = pipeline::Quality::kPaper; }},
-      {"quality.tight", [](FitOptions& o) { o.quality = pipeline::Quality::kTight; }},
+      {"call.unary", [](FitOptions&) {}},
       {"budget.max_primitives", [](FitOptions& o) { o.max_primitives = 64; }},
       {"budget.spheres_and_capsules",
        [](FitOptions& o) {
@@ -30,12 +30,20 @@ const std::vector<Feature>& Features() {
          o.max_capsules = 32;
        }},
       {"budget.max_polygon_error", [](FitOptions& o) { o.polygon_error = 0.1; }},
+      {"budget.engine", [](FitOptions& o) { o.engine = "nvcloth"; }},
+      {"fit.enclose", [](FitOptions& o) { o.fit = pipeline::FitMode::kEnclose; }},
+      {"fit.best_fit", [](FitOptions& o) { o.fit = pipeline::FitMode::kBestFit; }},
+      {"quality.paper", [](FitOptions& o) { o.quality = pipeline::Quality::kPaper; }},
+      {"quality.tight", [](FitOptions& o) { o.quality = pipeline::Quality::kTight; }},
       {"skinning.dense", [](FitOptions& o) { o.skinning = pipeline::SkinningMode::kDense; }},
-      {"feature_polygons", [](FitOptions& o) { o.want_polygons = true; }},
-      {"vertex_gaps", [](FitOptions& o) { o.want_vertex_gaps = true; }},
-      {"require_parts", [](FitOptions& o) { o.require_parts.torso = true; }},
-      {"tolerance", [](FitOptions& o) { o.tolerance_m = 0.001; }},
-      {"engine", [](FitOptions& o) { o.engine = "nvcloth"; }},
+      {"option.landmarks",
+       [](FitOptions& o) { o.landmarks[body::LandmarkId::kNeck] = Eigen::Vector3d::Zero(); }},
+      {"option.require_parts", [](FitOptions& o) { o.require_parts.torso = true; }},
+      {"option.seed", [](FitOptions& o) { o.seed = 1; }},
+      {"option.sex", [](FitOptions& o) { o.sex = section::Sex::kFemale; }},
+      {"option.tolerance_m", [](FitOptions& o) { o.tolerance_m = 0.001; }},
+      {"option.feature_polygons", [](FitOptions& o) { o.want_polygons = true; }},
+      {"option.vertex_gaps", [](FitOptions& o) { o.want_vertex_gaps = true; }},
   };
   return features;
 }
@@ -48,18 +56,6 @@ void AddFeatures(const FitBackend& backend, v1::GetServerInfoResponse& info) {
   }
 }
 
-v1::CapsuleProfile ToWire(capsule::CapsuleProfile profile) {
-  switch (profile) {
-    case capsule::CapsuleProfile::kTangentHull:
-      return v1::CAPSULE_PROFILE_TANGENT_HULL;
-    case capsule::CapsuleProfile::kLerpedRadius:
-      return v1::CAPSULE_PROFILE_LERPED_RADIUS;
-    case capsule::CapsuleProfile::kUniformRadius:
-      return v1::CAPSULE_PROFILE_UNIFORM_RADIUS;
-  }
-  return v1::CAPSULE_PROFILE_UNSPECIFIED;
-}
-
 void AddEngines(v1::GetServerInfoResponse& info) {
   for (const pipeline::Engine& known : pipeline::Engines()) {
     v1::Engine& engine = *info.add_engines();
@@ -67,7 +63,7 @@ void AddEngines(v1::GetServerInfoResponse& info) {
     engine.set_max_spheres(known.max_spheres);
     engine.set_max_capsules(known.max_capsules);
     engine.set_max_shapes(known.max_shapes);
-    engine.set_profile(ToWire(known.profile));
+    engine.set_profile(wire::ToWire(known.profile));
   }
 }
 

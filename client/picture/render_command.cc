@@ -215,9 +215,9 @@ std::string Subtitle(const ResultSet& result) {
     std::snprintf(value, sizeof(value), format, found->second);
     absl::StrAppend(&text, "     ", value);
   };
-  add("n_p", "n_p %.0f");
-  add("E_r", "E_r %.3f");
-  add("E_M", "E_M %.2f %%");
+  add("primitive_count", "n_p %.0f");
+  add("volume_error", "E_r %.3f");
+  add("mean_distance_percent", "E_M %.2f %%");
   return text;
 }
 

@@ -43,6 +43,7 @@ capsule::PrimitiveSet InBodyFrame(const ResultSet& result,
 }
 
 body::PartSelection PartsOfResult(const ResultSet& result) {
+  if (result.parts) return *result.parts;
   body::PartSelection parts{.torso = false, .arms = false, .legs = false};
   bool is_told = false;
   for (const std::string& word : result.sphere_parts) {

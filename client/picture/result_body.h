@@ -20,7 +20,8 @@ namespace capfit::client {
 [[nodiscard]] capsule::PrimitiveSet InBodyFrame(const ResultSet& result,
                                                 const geometry::Similarity& body_from_caller);
 
-// The parts that the result has spheres for; torso, arms and legs where it does not say.
+// The parts that the result was asked to cover; of another program's, those that it has spheres
+// for; torso, arms and legs where it does not say.
 [[nodiscard]] body::PartSelection PartsOfResult(const ResultSet& result);
 
 }  // namespace capfit::client

@@ -1,5 +1,6 @@
 #include "client/picture/result_set.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,8 @@ namespace capfit::client {
 namespace {
 
 using nlohmann::json;
+
+constexpr int kReadFormatVersion = 1;
 
 // `value` as `count` finite numbers.
 absl::StatusOr<std::vector<double>> Numbers(const json& value, std::size_t count,
@@ -28,19 +31,29 @@ absl::StatusOr<std::vector<double>> Numbers(const json& value, std::size_t count
   return numbers;
 }
 
-absl::Status ReadSpheres(const json& root, ResultSet& set) {
-  if (!root.contains("spheres") || !root["spheres"].is_array()) {
-    return InvalidField(ErrorReason::kMalformedFile, "spheres",
-                        "is missing, must be an array of [x, y, z, r]");
+absl::Status Wrong(const std::string& field, const std::string& problem) {
+  return InvalidField(ErrorReason::kMalformedFile, field, problem);
+}
+
+absl::StatusOr<Eigen::Vector3d> Point(const json& value, const std::string& field) {
+  CAPFIT_ASSIGN_OR_RETURN(const std::vector<double> n, Numbers(value, 3, field));
+  return Eigen::Vector3d(n[0], n[1], n[2]);
+}
+
+// Balls, or circles: [x, y, z, r].
+absl::StatusOr<std::vector<geometry::Sphere>> Balls(const json& root, const std::string& name,
+                                                    const std::string& path) {
+  if (!root.contains(name) || !root[name].is_array()) {
+    return Wrong(path, "is missing, must be an array of [x, y, z, r]");
   }
-  for (const json& entry : root["spheres"]) {
-    const std::string field = absl::StrCat("spheres[", set.spheres.size(), "]");
+  std::vector<geometry::Sphere> balls;
+  for (const json& entry : root[name]) {
+    const std::string field = absl::StrCat(path, "[", balls.size(), "]");
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<double> n, Numbers(entry, 4, field));
-    if (n[3] < 0.0)
-      return InvalidField(ErrorReason::kMalformedFile, field, "has a negative radius");
-    set.spheres.push_back({{n[0], n[1], n[2]}, n[3]});
+    if (n[3] < 0.0) return Wrong(field, "has a negative radius");
+    balls.push_back({{n[0], n[1], n[2]}, n[3]});
   }
-  return absl::OkStatus();
+  return balls;
 }
 
 absl::Status ReadCapsules(const json& root, ResultSet& set) {
@@ -61,26 +74,27 @@ absl::Status ReadCapsules(const json& root, ResultSet& set) {
   return absl::OkStatus();
 }
 
-absl::Status ReadParts(const json& root, ResultSet& set) {
-  set.sphere_parts.assign(set.spheres.size(), "");
-  if (!root.contains("sphere_parts")) return absl::OkStatus();
-  const json& parts = root["sphere_parts"];
-  if (!parts.is_array() || parts.size() != set.spheres.size()) {
-    return InvalidField(ErrorReason::kMalformedFile, "sphere_parts",
-                        absl::StrCat("must be an array of ", set.spheres.size(), " words"));
+// A word for each sphere; "" for all where the list is not there.
+absl::StatusOr<std::vector<std::string>> SphereWords(const json& root, const std::string& name,
+                                                     std::size_t sphere_count) {
+  std::vector<std::string> words(sphere_count);
+  if (!root.contains(name)) return words;
+  const json& list = root[name];
+  if (!list.is_array() || list.size() != sphere_count) {
+    return Wrong(name, absl::StrCat("must be an array of ", sphere_count, " words"));
   }
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].is_string()) set.sphere_parts[i] = parts[i].get<std::string>();
+  for (std::size_t i = 0; i < sphere_count; ++i) {
+    if (list[i].is_string()) words[i] = list[i].get<std::string>();
   }
-  return absl::OkStatus();
+  return words;
 }
 
 absl::Status ReadLandmarks(const json& root, ResultSet& set) {
   if (!root.contains("landmarks") || !root["landmarks"].is_object()) return absl::OkStatus();
   for (const auto& [name, value] : root["landmarks"].items()) {
-    CAPFIT_ASSIGN_OR_RETURN(const std::vector<double> n,
-                            Numbers(value, 3, absl::StrCat("landmarks.", name)));
-    set.landmarks[name] = {n[0], n[1], n[2]};
+    const bool is_whole = value.is_object() && value.contains("position");
+    CAPFIT_ASSIGN_OR_RETURN(set.landmarks[name], Point(is_whole ? value["position"] : value,
+                                                       absl::StrCat("landmarks.", name)));
   }
   return absl::OkStatus();
 }
@@ -92,17 +106,92 @@ void ReadMetrics(const json& root, ResultSet& set) {
   }
 }
 
+absl::StatusOr<ResultPolygon> ReadPolygon(const json& entry, const std::string& field) {
+  if (!entry.is_object() || !entry.contains("outline") || !entry["outline"].is_array()) {
+    return Wrong(field, "must be an object with an outline");
+  }
+  ResultPolygon polygon;
+  polygon.name = entry.value("name", json()).is_string() ? entry["name"] : json("");
+  polygon.part = entry.value("part", json()).is_string() ? entry["part"] : json("");
+  for (const json& point : entry["outline"]) {
+    const std::string path = absl::StrCat(field, ".outline[", polygon.outline.size(), "]");
+    CAPFIT_ASSIGN_OR_RETURN(const Eigen::Vector3d corner, Point(point, path));
+    polygon.outline.push_back(corner);
+  }
+  CAPFIT_ASSIGN_OR_RETURN(polygon.circles, Balls(entry, "circles", field + ".circles"));
+  const json ratio = entry.value("outside_area_ratio", json(0.0));
+  if (ratio.is_number()) polygon.outside_area_ratio = ratio.get<double>();
+  return polygon;
+}
+
+absl::Status ReadPolygons(const json& root, ResultSet& set) {
+  if (!root.contains("feature_polygons")) return absl::OkStatus();
+  if (!root["feature_polygons"].is_array()) return Wrong("feature_polygons", "must be an array");
+  for (const json& entry : root["feature_polygons"]) {
+    const std::string field = absl::StrCat("feature_polygons[", set.polygons.size(), "]");
+    CAPFIT_ASSIGN_OR_RETURN(ResultPolygon polygon, ReadPolygon(entry, field));
+    set.polygons.push_back(std::move(polygon));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status ReadBody(const json& root, ResultSet& set) {
+  if (!root.contains("body") || !root["body"].is_object()) return Wrong("body", "is missing");
+  const json& body = root["body"];
+  ResultBodyFacts facts;
+  const json count = body.value("vertex_count", json());
+  if (!count.is_number_integer()) return Wrong("body.vertex_count", "must be a whole number");
+  facts.vertex_count = count.get<std::int64_t>();
+  CAPFIT_ASSIGN_OR_RETURN(facts.box_min, Point(body.value("box_min", json()), "body.box_min"));
+  CAPFIT_ASSIGN_OR_RETURN(facts.box_max, Point(body.value("box_max", json()), "body.box_max"));
+  set.body = facts;
+  return absl::OkStatus();
+}
+
+// options.parts: what the result is meant to cover, though the body may not have all of it.
+void ReadOptions(const json& root, ResultSet& set) {
+  const json options = root.value("options", json());
+  if (!options.is_object() || !options.contains("parts") || !options["parts"].is_array()) return;
+  const auto has = [&](const char* word) {
+    return std::find(options["parts"].begin(), options["parts"].end(), word) !=
+           options["parts"].end();
+  };
+  set.parts = {has("torso"), has("arms"), has("legs"), has("head"), has("hands"), has("feet")};
+}
+
+// What only capfit's own results have.
+absl::Status ReadOwn(const json& root, ResultSet& set) {
+  const json format = root.value("format", json());
+  if (format != "capfit-result") return absl::OkStatus();
+  const json version = root.value("format_version", json());
+  if (version != kReadFormatVersion) {
+    return Wrong("format_version",
+                 absl::StrCat("is ", version.dump(), ", this capfit reads ", kReadFormatVersion));
+  }
+  const json unit = root.value("unit", json());
+  if (unit.is_string()) set.unit = unit.get<std::string>();
+  const json scale = root.value("metres_per_unit", json());
+  if (!scale.is_number() || !(scale.get<double>() > 0.0)) {
+    return Wrong("metres_per_unit", "must be a number > 0");
+  }
+  set.metres_per_unit = scale.get<double>();
+  ReadOptions(root, set);
+  return ReadBody(root, set);
+}
+
 }  // namespace
 
 absl::StatusOr<ResultSet> ParseResultSet(const std::string& json_text) {
   const json root = json::parse(json_text, nullptr, /*allow_exceptions=*/false);
-  if (!root.is_object())
-    return InvalidField(ErrorReason::kMalformedFile, "result", "is not a JSON object");
+  if (!root.is_object()) return Wrong("result", "is not a JSON object");
   ResultSet set;
-  CAPFIT_RETURN_IF_ERROR(ReadSpheres(root, set));
+  CAPFIT_RETURN_IF_ERROR(ReadOwn(root, set));
+  CAPFIT_ASSIGN_OR_RETURN(set.spheres, Balls(root, "spheres", "spheres"));
   CAPFIT_RETURN_IF_ERROR(ReadCapsules(root, set));
-  CAPFIT_RETURN_IF_ERROR(ReadParts(root, set));
+  CAPFIT_ASSIGN_OR_RETURN(set.sphere_parts, SphereWords(root, "sphere_parts", set.spheres.size()));
+  CAPFIT_ASSIGN_OR_RETURN(set.sphere_names, SphereWords(root, "sphere_names", set.spheres.size()));
   CAPFIT_RETURN_IF_ERROR(ReadLandmarks(root, set));
+  CAPFIT_RETURN_IF_ERROR(ReadPolygons(root, set));
   ReadMetrics(root, set);
   return set;
 }

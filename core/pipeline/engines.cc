@@ -53,6 +53,11 @@ const Engine* FindEngine(std::string_view name) {
   return found == kEngines.end() ? nullptr : &*found;
 }
 
+CapsuleProfile ProfileOf(const FitOptions& options) {
+  const Engine* const engine = FindEngine(options.engine);
+  return engine == nullptr ? CapsuleProfile::kTangentHull : engine->profile;
+}
+
 std::string EngineNames() {
   std::string names;
   for (const Engine& engine : kEngines) {

@@ -23,6 +23,8 @@ struct Engine {
 [[nodiscard]] std::span<const Engine> Engines();
 // Nothing for an unknown name.
 [[nodiscard]] const Engine* FindEngine(std::string_view name);
+// What the options' engine makes of a capsule; the tangent hull without one.
+[[nodiscard]] capsule::CapsuleProfile ProfileOf(const FitOptions& options);
 // "nvcloth, unity_cloth, ...": for messages.
 [[nodiscard]] std::string EngineNames();
 

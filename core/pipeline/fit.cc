@@ -97,10 +97,7 @@ class BodyFit {
     }
   }
 
-  capsule::CapsuleProfile Profile() const {
-    const Engine* const engine = FindEngine(options_.engine);
-    return engine == nullptr ? capsule::CapsuleProfile::kTangentHull : engine->profile;
-  }
+  capsule::CapsuleProfile Profile() const { return ProfileOf(options_); }
 
   // The tight fit needs them only to be shown, or to count what an error threshold asks for.
   bool NeedsPolygons() const {

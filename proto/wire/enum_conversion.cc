@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
+
 namespace capfit::wire {
 namespace {
 
@@ -81,6 +84,11 @@ constexpr Table<pipeline::SkinningMode, v1::SkinningForm, 3> kSkinningForms = {
      {pipeline::SkinningMode::kDense, v1::SKINNING_FORM_DENSE},
      {pipeline::SkinningMode::kNone, v1::SKINNING_FORM_UNSPECIFIED}}};
 
+constexpr Table<capsule::CapsuleProfile, v1::CapsuleProfile, 3> kProfiles = {
+    {{capsule::CapsuleProfile::kTangentHull, v1::CAPSULE_PROFILE_TANGENT_HULL},
+     {capsule::CapsuleProfile::kLerpedRadius, v1::CAPSULE_PROFILE_LERPED_RADIUS},
+     {capsule::CapsuleProfile::kUniformRadius, v1::CAPSULE_PROFILE_UNIFORM_RADIUS}}};
+
 template <typename Core, typename Wire, std::size_t n>
 Wire WireOf(const Table<Core, Wire, n>& table, Core value) {
   for (const auto& [core, wire] : table) {
@@ -109,6 +117,7 @@ v1::Sex ToWire(section::Sex sex) { return WireOf(kSexes, sex); }
 v1::FitMode ToWire(pipeline::FitMode mode) { return WireOf(kFitModes, mode); }
 v1::Quality ToWire(pipeline::Quality quality) { return WireOf(kQualities, quality); }
 v1::SkinningForm ToWire(pipeline::SkinningMode mode) { return WireOf(kSkinningForms, mode); }
+v1::CapsuleProfile ToWire(capsule::CapsuleProfile profile) { return WireOf(kProfiles, profile); }
 
 std::optional<body::Unit> FromWire(v1::LengthUnit unit) { return CoreOf(kUnits, unit); }
 std::optional<body::UpAxis> FromWire(v1::UpAxis up) { return CoreOf(kUpAxes, up); }
@@ -127,6 +136,18 @@ std::optional<pipeline::Quality> FromWire(v1::Quality quality) {
 }
 std::optional<pipeline::SkinningMode> FromWire(v1::SkinningForm form) {
   return CoreOf(kSkinningForms, form);
+}
+
+absl::Status UnknownEnum(const std::string& field, int value,
+                         const google::protobuf::EnumDescriptor& known) {
+  std::string names;
+  for (int i = 1; i < known.value_count(); ++i) {
+    absl::StrAppend(&names, i == 1 ? "" : ", ", known.value(i)->name(), " (",
+                    known.value(i)->number(), ")");
+  }
+  return InvalidField(ErrorReason::kUnknownValue, field,
+                      absl::StrCat("is ", value, ", must be one of ", names),
+                      {{"value", absl::StrCat(value)}, {"limit", names}});
 }
 
 }  // namespace capfit::wire

@@ -5,14 +5,20 @@
 #ifndef CAPFIT_PROTO_WIRE_ENUM_CONVERSION_H_
 #define CAPFIT_PROTO_WIRE_ENUM_CONVERSION_H_
 
-#include <optional>
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/generated_enum_reflection.h>
 
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
 #include "capfit/v1/mesh.pb.h"
 #include "capfit/v1/options.pb.h"
 #include "capfit/v1/result.pb.h"
 #include "core/base/fit_observer.h"
 #include "core/body/anatomy.h"
 #include "core/body/find_body.h"
+#include "core/capsule/capsule_profile.h"
 #include "core/mesh/read_mesh.h"
 #include "core/pipeline/fit.h"
 #include "core/section/feature_polygon.h"
@@ -29,6 +35,7 @@ namespace capfit::wire {
 [[nodiscard]] v1::FitMode ToWire(pipeline::FitMode mode);
 [[nodiscard]] v1::Quality ToWire(pipeline::Quality quality);
 [[nodiscard]] v1::SkinningForm ToWire(pipeline::SkinningMode mode);
+[[nodiscard]] v1::CapsuleProfile ToWire(capsule::CapsuleProfile profile);
 
 [[nodiscard]] std::optional<body::Unit> FromWire(v1::LengthUnit unit);
 [[nodiscard]] std::optional<body::UpAxis> FromWire(v1::UpAxis up);
@@ -41,6 +48,14 @@ namespace capfit::wire {
 [[nodiscard]] std::optional<pipeline::Quality> FromWire(v1::Quality quality);
 // Nothing for the forms that the core does not have as well.
 [[nodiscard]] std::optional<pipeline::SkinningMode> FromWire(v1::SkinningForm form);
+
+// INVALID_ARGUMENT for a number that is no value of the enum, naming those that are.
+[[nodiscard]] absl::Status UnknownEnum(const std::string& field, int value,
+                                       const google::protobuf::EnumDescriptor& known);
+template <typename Wire>
+[[nodiscard]] absl::Status UnknownEnum(const std::string& field, Wire value) {
+  return UnknownEnum(field, static_cast<int>(value), *google::protobuf::GetEnumDescriptor<Wire>());
+}
 
 }  // namespace capfit::wire
 

@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/pipeline/engines.h"
 #include "proto/wire/enum_conversion.h"
 
 namespace capfit::wire {
@@ -13,13 +14,9 @@ namespace {
 
 // Fills `target` from an enum of the wire, or names the number that is not known.
 template <typename Core, typename Wire>
-absl::Status Read(const char* field, Wire value, Core& target) {
+absl::Status Read(const std::string& field, Wire value, Core& target) {
   const std::optional<Core> known = FromWire(value);
-  if (!known) {
-    return InvalidField(
-        ErrorReason::kOutOfRange, field,
-        absl::StrCat("is ", static_cast<int>(value), ", which this version does not know"));
-  }
+  if (!known) return UnknownEnum(field, value);
   target = *known;
   return absl::OkStatus();
 }
@@ -35,7 +32,7 @@ absl::Status ReadBudget(const v1::Budget& budget, pipeline::FitOptions& options)
     case v1::Budget::kSpheresAndCapsules: {
       const v1::SphereAndCapsuleLimit& limit = budget.spheres_and_capsules();
       if (!limit.has_max_spheres() && !limit.has_max_capsules()) {
-        return InvalidField(ErrorReason::kOutOfRange, "options.budget.spheres_and_capsules",
+        return InvalidField(ErrorReason::kMissing, "options.budget.spheres_and_capsules",
                             "is empty, must name max_spheres, max_capsules or both");
       }
       if (limit.has_max_spheres()) options.max_spheres = limit.max_spheres();
@@ -75,13 +72,14 @@ absl::Status ReadParts(const google::protobuf::RepeatedField<int>& groups, const
   parts = {.torso = false, .arms = false, .legs = false};
   for (int i = 0; i < groups.size(); ++i) {
     const std::string field = absl::StrCat("options.", list, "[", i, "]");
-    bool* const part = SwitchOf(static_cast<v1::BodyPartGroup>(groups.Get(i)), parts);
-    if (part == nullptr) {
-      return InvalidField(
-          ErrorReason::kOutOfRange, field,
-          absl::StrCat("is ", groups.Get(i), ", must be one of BodyPartGroup, 1 to 6"));
+    const auto group = static_cast<v1::BodyPartGroup>(groups.Get(i));
+    bool* const part = SwitchOf(group, parts);
+    if (part == nullptr) return UnknownEnum(field, group);
+    if (*part) {
+      return InvalidField(ErrorReason::kDuplicate, field,
+                          absl::StrCat("is ", v1::BodyPartGroup_Name(group), " a second time"),
+                          {{"value", v1::BodyPartGroup_Name(group)}});
     }
-    if (*part) return InvalidField(ErrorReason::kOutOfRange, field, "is there twice");
     *part = true;
   }
   return absl::OkStatus();
@@ -100,27 +98,34 @@ absl::Status ReadLandmark(const v1::Landmark& wire, const std::string& field,
                           pipeline::FitOptions& options) {
   const std::optional<body::LandmarkId> id = body::LandmarkFromName(wire.name());
   if (!id) {
-    return InvalidField(
-        ErrorReason::kOutOfRange, field + ".name",
-        absl::StrCat("is \"", wire.name().substr(0, 40), "\", which is no landmark's name"));
+    const std::string name = wire.name().substr(0, 40);
+    return InvalidField(ErrorReason::kUnknownValue, field + ".name",
+                        absl::StrCat("is \"", name, "\", which is no landmark's name"),
+                        {{"value", name}});
+  }
+  if (!wire.has_position()) {
+    return InvalidField(ErrorReason::kMissing, field + ".position", "is missing");
   }
   const Eigen::Vector3d position(wire.position().x(), wire.position().y(), wire.position().z());
-  if (!wire.has_position() || !position.allFinite()) {
-    return InvalidField(ErrorReason::kOutOfRange, field + ".position",
-                        "must be three finite numbers");
+  if (!position.allFinite()) {
+    return InvalidField(ErrorReason::kNotFinite, field + ".position",
+                        "must be three finite numbers", {{"limit", "finite"}});
   }
   if (!options.landmarks.emplace(*id, position).second) {
-    return InvalidField(ErrorReason::kOutOfRange, field + ".name",
-                        absl::StrCat("is \"", wire.name(), "\" a second time"));
+    return InvalidField(ErrorReason::kDuplicate, field + ".name",
+                        absl::StrCat("is \"", wire.name(), "\" a second time"),
+                        {{"value", wire.name()}});
   }
   return absl::OkStatus();
 }
 
 absl::Status ReadSkinning(v1::SkinningForm form, pipeline::SkinningMode& mode) {
   if (form == v1::SKINNING_FORM_SPARSE || form == v1::SKINNING_FORM_BONES) {
-    return absl::UnimplementedError(
-        absl::StrCat("options.skinning is ", v1::SkinningForm_Name(form),
-                     ", which this version does not make; it makes SKINNING_FORM_DENSE"));
+    return InvalidField(ErrorReason::kNotImplemented, "options.skinning",
+                        absl::StrCat("is ", v1::SkinningForm_Name(form),
+                                     ", which this version does not make; it makes "
+                                     "SKINNING_FORM_DENSE"),
+                        {{"value", v1::SkinningForm_Name(form)}, {"limit", "SKINNING_FORM_DENSE"}});
   }
   return Read("options.skinning", form, mode);
 }
@@ -183,6 +188,70 @@ void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeade
   wire.set_want_vertex_gaps(options.want_vertex_gaps);
   wire.set_tolerance_m(options.tolerance_m);
   wire.set_engine(options.engine);
+}
+
+absl::Status WithWirePaths(const absl::Status& status, const v1::FitOptions& options) {
+  constexpr char kLandmarks[] = "options.landmarks.";
+  const std::string field = FieldOf(status).value_or("");
+  if (field.rfind(kLandmarks, 0) != 0) return status;
+  const std::string name = field.substr(sizeof(kLandmarks) - 1);
+  for (int i = 0; i < options.landmarks_size(); ++i) {
+    if (options.landmarks(i).name() != name) continue;
+    return WithField(status, absl::StrCat("options.landmarks[", i, "].position"));
+  }
+  return status;
+}
+
+v1::EffectiveOptions EffectiveOptionsToWire(const pipeline::FitOptions& options) {
+  v1::EffectiveOptions wire;
+  v1::EffectiveBudget& budget = *wire.mutable_budget();
+  if (options.max_primitives) budget.set_max_primitives(*options.max_primitives);
+  if (options.max_spheres) budget.set_max_spheres(*options.max_spheres);
+  if (options.max_capsules) budget.set_max_capsules(*options.max_capsules);
+  if (options.polygon_error) budget.set_max_polygon_error(*options.polygon_error);
+  wire.set_fit_mode(ToWire(options.fit));
+  wire.set_quality(ToWire(options.quality));
+  WriteParts(options.parts, *wire.mutable_parts());
+  WriteParts(options.require_parts, *wire.mutable_require_parts());
+  wire.set_sex(ToWire(options.sex));
+  wire.set_skinning(ToWire(options.skinning));
+  wire.set_seed(options.seed);
+  wire.set_tolerance_m(options.tolerance_m);
+  wire.set_engine(options.engine);
+  wire.set_capsule_profile(ToWire(pipeline::ProfileOf(options)));
+  if (const pipeline::Engine* const engine = pipeline::FindEngine(options.engine)) {
+    if (engine->max_shapes > 0) budget.set_max_shapes(engine->max_shapes);
+  }
+  wire.set_unit(ToWire(options.unit));
+  wire.set_up_axis(ToWire(options.up));
+  wire.set_caller_landmark_count(static_cast<int>(options.landmarks.size()));
+  wire.set_want_feature_polygons(options.want_polygons);
+  wire.set_want_vertex_gaps(options.want_vertex_gaps);
+  return wire;
+}
+
+absl::StatusOr<pipeline::FitOptions> EffectiveOptionsFromWire(const v1::EffectiveOptions& wire) {
+  pipeline::FitOptions options;
+  if (wire.budget().has_max_primitives()) options.max_primitives = wire.budget().max_primitives();
+  if (wire.budget().has_max_spheres()) options.max_spheres = wire.budget().max_spheres();
+  if (wire.budget().has_max_capsules()) options.max_capsules = wire.budget().max_capsules();
+  if (wire.budget().has_max_polygon_error()) {
+    options.polygon_error = wire.budget().max_polygon_error();
+  }
+  CAPFIT_RETURN_IF_ERROR(Read("summary.options.fit_mode", wire.fit_mode(), options.fit));
+  CAPFIT_RETURN_IF_ERROR(Read("summary.options.quality", wire.quality(), options.quality));
+  CAPFIT_RETURN_IF_ERROR(ReadParts(wire.parts(), "parts", options.parts));
+  CAPFIT_RETURN_IF_ERROR(ReadParts(wire.require_parts(), "require_parts", options.require_parts));
+  CAPFIT_RETURN_IF_ERROR(Read("summary.options.sex", wire.sex(), options.sex));
+  CAPFIT_RETURN_IF_ERROR(Read("summary.options.skinning", wire.skinning(), options.skinning));
+  options.seed = wire.seed();
+  options.tolerance_m = wire.tolerance_m();
+  options.engine = wire.engine();
+  CAPFIT_RETURN_IF_ERROR(Read("summary.options.unit", wire.unit(), options.unit));
+  CAPFIT_RETURN_IF_ERROR(Read("summary.options.up_axis", wire.up_axis(), options.up));
+  options.want_polygons = wire.want_feature_polygons();
+  options.want_vertex_gaps = wire.want_vertex_gaps();
+  return options;
 }
 
 }  // namespace capfit::wire

@@ -17,6 +17,16 @@ namespace capfit::wire {
 // The other way: sets `options` and the mesh's unit and axis; OptionsFromWire gives the same back.
 void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeader& header);
 
+// An error of the core in the words of the request: the core knows landmarks by name, the request
+// by place. Others stay as they are.
+[[nodiscard]] absl::Status WithWirePaths(const absl::Status& status, const v1::FitOptions& options);
+
+// What held in the end (FitResult::effective_options), both ways; the landmarks themselves are not
+// sent back.
+[[nodiscard]] v1::EffectiveOptions EffectiveOptionsToWire(const pipeline::FitOptions& options);
+[[nodiscard]] absl::StatusOr<pipeline::FitOptions> EffectiveOptionsFromWire(
+    const v1::EffectiveOptions& wire);
+
 }  // namespace capfit::wire
 
 #endif  // CAPFIT_PROTO_WIRE_OPTIONS_CONVERSION_H_

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
+#include "proto/wire/options_conversion.h"
 
 namespace capfit::wire {
 namespace {
@@ -23,9 +24,7 @@ void SetVector(const Eigen::Vector3d& vector, v1::Vector3& wire) {
 Eigen::Vector3d VectorOf(const v1::Vector3& wire) { return {wire.x(), wire.y(), wire.z()}; }
 
 absl::Status UnknownPart(const std::string& field, v1::BodyPart part) {
-  return InvalidField(
-      ErrorReason::kOutOfRange, field,
-      absl::StrCat("is ", static_cast<int>(part), ", which this version does not know"));
+  return UnknownEnum(field, part);
 }
 
 // What the metrics of the whole and those of a part have in common.
@@ -119,6 +118,20 @@ absl::Status SimilarityFromWire(const v1::Similarity& wire, geometry::Similarity
   return absl::OkStatus();
 }
 
+void FactsToWire(const pipeline::BodyFacts& facts, v1::BodyFacts& wire) {
+  wire.set_vertex_count(facts.vertex_count);
+  wire.set_face_count(facts.face_count);
+  SetVector(facts.box_min, *wire.mutable_box_min());
+  SetVector(facts.box_max, *wire.mutable_box_max());
+  wire.set_height_m(facts.height_m);
+  wire.set_is_symmetric(facts.is_symmetric);
+}
+
+pipeline::BodyFacts FactsFromWire(const v1::BodyFacts& wire) {
+  return {wire.vertex_count(),      wire.face_count(), VectorOf(wire.box_min()),
+          VectorOf(wire.box_max()), wire.height_m(),   wire.is_symmetric()};
+}
+
 // Whether the capsule's ends are two spheres in order.
 bool EndsAreValid(const v1::Capsule& capsule, int sphere_count) {
   return capsule.first_sphere() >= 0 && capsule.first_sphere() < capsule.second_sphere() &&
@@ -176,7 +189,8 @@ v1::FeaturePolygon PolygonToWire(const pipeline::PolygonResult& polygon) {
   return wire;
 }
 
-v1::PrimitiveSet PrimitivesToWire(const capsule::PrimitiveSet& set) {
+v1::PrimitiveSet PrimitivesToWire(const pipeline::FitResult& result) {
+  const capsule::PrimitiveSet& set = result.primitives;
   v1::PrimitiveSet wire;
   for (std::size_t i = 0; i < set.spheres.size(); ++i) {
     v1::Sphere& sphere = *wire.add_spheres();
@@ -186,11 +200,13 @@ v1::PrimitiveSet PrimitivesToWire(const capsule::PrimitiveSet& set) {
     sphere.set_part(ToWire(origin.part));
     if (origin.polygon >= 0) sphere.set_polygon(origin.polygon);
     if (origin.mirror >= 0) sphere.set_mirror(origin.mirror);
+    if (i < result.sphere_names.size()) sphere.set_name(PlainText(result.sphere_names[i]));
   }
-  for (const capsule::CapsuleEnds& ends : set.capsules) {
+  for (std::size_t i = 0; i < set.capsules.size(); ++i) {
     v1::Capsule& capsule = *wire.add_capsules();
-    capsule.set_first_sphere(ends[0]);
-    capsule.set_second_sphere(ends[1]);
+    capsule.set_first_sphere(set.capsules[i][0]);
+    capsule.set_second_sphere(set.capsules[i][1]);
+    capsule.set_part(ToWire(capsule::PartOfCapsule(set, i)));
   }
   return wire;
 }
@@ -207,6 +223,23 @@ v1::Summary SummaryToWire(const pipeline::FitResult& result, const std::string& 
   }
   wire.set_seconds(result.seconds);
   SimilarityToWire(result.body_from_caller, *wire.mutable_body_from_caller());
+  *wire.mutable_options() = EffectiveOptionsToWire(result.effective_options);
+  FactsToWire(result.body, *wire.mutable_body());
+  wire.set_version(PlainText(result.version));
+  return wire;
+}
+
+v1::ApproximateBodyUnaryResponse ResultToWire(const pipeline::FitResult& result,
+                                              const std::string& request_id) {
+  v1::ApproximateBodyUnaryResponse wire;
+  *wire.mutable_primitives() = PrimitivesToWire(result);
+  *wire.mutable_summary() = SummaryToWire(result, request_id);
+  for (const Warning& warning : result.warnings) *wire.add_warnings() = WarningToWire(warning);
+  *wire.mutable_landmarks() = LandmarksToWire(result);
+  for (const pipeline::PolygonResult& polygon : result.polygons) {
+    *wire.add_feature_polygons() = PolygonToWire(polygon);
+  }
+  wire.mutable_vertex_gaps()->Add(result.vertex_gaps.begin(), result.vertex_gaps.end());
   return wire;
 }
 
@@ -275,8 +308,8 @@ absl::StatusOr<pipeline::PolygonResult> PolygonFromWire(const v1::FeaturePolygon
   return polygon;
 }
 
-absl::StatusOr<capsule::PrimitiveSet> PrimitivesFromWire(const v1::PrimitiveSet& wire) {
-  capsule::PrimitiveSet set;
+absl::Status PrimitivesFromWire(const v1::PrimitiveSet& wire, pipeline::FitResult& result) {
+  capsule::PrimitiveSet& set = result.primitives;
   for (int i = 0; i < wire.spheres_size(); ++i) {
     const v1::Sphere& sphere = wire.spheres(i);
     const std::optional<body::Part> part = FromWire(sphere.part());
@@ -284,6 +317,7 @@ absl::StatusOr<capsule::PrimitiveSet> PrimitivesFromWire(const v1::PrimitiveSet&
     set.spheres.push_back({VectorOf(sphere.center()), sphere.radius()});
     set.origins.push_back({*part, sphere.has_polygon() ? sphere.polygon() : -1,
                            sphere.has_mirror() ? sphere.mirror() : -1});
+    result.sphere_names.push_back(sphere.name());
   }
   for (int i = 0; i < wire.capsules_size(); ++i) {
     const v1::Capsule& capsule = wire.capsules(i);
@@ -295,7 +329,7 @@ absl::StatusOr<capsule::PrimitiveSet> PrimitivesFromWire(const v1::PrimitiveSet&
     }
     set.capsules.push_back({capsule.first_sphere(), capsule.second_sphere()});
   }
-  return set;
+  return absl::OkStatus();
 }
 
 absl::Status SummaryFromWire(const v1::Summary& wire, pipeline::FitResult& result) {
@@ -305,6 +339,9 @@ absl::Status SummaryFromWire(const v1::Summary& wire, pipeline::FitResult& resul
     if (known) result.stage_seconds[static_cast<std::size_t>(*known)] = stage.seconds();
   }
   result.seconds = wire.seconds();
+  CAPFIT_ASSIGN_OR_RETURN(result.effective_options, EffectiveOptionsFromWire(wire.options()));
+  result.body = FactsFromWire(wire.body());
+  result.version = wire.version();
   return SimilarityFromWire(wire.body_from_caller(), result.body_from_caller);
 }
 

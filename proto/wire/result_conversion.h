@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "capfit/v1/result.pb.h"
+#include "capfit/v1/service.pb.h"
 #include "core/pipeline/fit.h"
 
 namespace capfit::wire {
@@ -21,9 +22,13 @@ namespace capfit::wire {
 [[nodiscard]] v1::Warning WarningToWire(const Warning& warning);
 [[nodiscard]] v1::Landmarks LandmarksToWire(const pipeline::FitResult& result);
 [[nodiscard]] v1::FeaturePolygon PolygonToWire(const pipeline::PolygonResult& polygon);
-[[nodiscard]] v1::PrimitiveSet PrimitivesToWire(const capsule::PrimitiveSet& set);
+[[nodiscard]] v1::PrimitiveSet PrimitivesToWire(const pipeline::FitResult& result);
 [[nodiscard]] v1::Summary SummaryToWire(const pipeline::FitResult& result,
                                         const std::string& request_id);
+
+// All of it in one message, but for weights.
+[[nodiscard]] v1::ApproximateBodyUnaryResponse ResultToWire(const pipeline::FitResult& result,
+                                                            const std::string& request_id);
 
 // Which block of a dense matrix: whole rows, or a piece of one row.
 struct WeightBlock {
@@ -49,8 +54,9 @@ struct WeightBlock {
 void LandmarksFromWire(const v1::Landmarks& wire, pipeline::FitResult& result);
 [[nodiscard]] absl::StatusOr<pipeline::PolygonResult> PolygonFromWire(
     const v1::FeaturePolygon& wire);
-[[nodiscard]] absl::StatusOr<capsule::PrimitiveSet> PrimitivesFromWire(
-    const v1::PrimitiveSet& wire);
+// Fills `primitives` and `sphere_names`.
+[[nodiscard]] absl::Status PrimitivesFromWire(const v1::PrimitiveSet& wire,
+                                              pipeline::FitResult& result);
 [[nodiscard]] absl::Status SummaryFromWire(const v1::Summary& wire, pipeline::FitResult& result);
 // Appends the block, which must be the one that follows what `weights` holds already.
 [[nodiscard]] absl::Status AppendWeights(const v1::SkinningChunk& wire,

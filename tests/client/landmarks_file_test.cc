@@ -15,7 +15,8 @@ TEST(LandmarksFile, NamesAndPositionsAreTaken) {
 }
 
 TEST(LandmarksFile, AWholeResultDoesAsWell) {
-  const auto landmarks = ParseLandmarks(R"({"spheres": [], "landmarks": {"neck": [1, 2, 3]}})");
+  const auto landmarks = ParseLandmarks(
+      R"({"spheres": [], "landmarks": {"neck": {"position": [1, 2, 3], "method": "ratio"}}})");
   ASSERT_TRUE(landmarks.ok()) << landmarks.status();
   EXPECT_EQ(landmarks->at(body::LandmarkId::kNeck), Eigen::Vector3d(1, 2, 3));
 }
@@ -27,6 +28,8 @@ TEST(LandmarksFile, MistakesAreNamed) {
       {R"({"tail": [1, 2, 3]})", "landmarks.tail"},
       {R"({"neck": [1, 2]})", "landmarks.neck"},
       {R"({"neck": [1, 2, "3"]})", "landmarks.neck"},
+      {R"({"neck": {"position": [1, 2]}})", "landmarks.neck"},
+      {R"({"neck": {"x": 1}})", "landmarks.neck"},
       {R"({"neck": [1, 2, null]})", "landmarks.neck"},
   };
   for (const auto& [text, field] : cases) {

@@ -19,13 +19,14 @@ namespace capfit::e2e {
 namespace {
 
 pid_t Spawn(const std::string& program, const std::vector<std::string>& arguments,
-            const std::string& out_path, const std::string& err_path) {
+            const std::string& in_path, const std::string& out_path, const std::string& err_path) {
   std::vector<char*> words = {const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments)
     words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, in_path.c_str(), O_RDONLY, 0);
   constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_path.c_str(), kFlags, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err_path.c_str(), kFlags, 0600);
@@ -58,19 +59,25 @@ Scratch::~Scratch() {
 
 std::string Scratch::Path(const std::string& name) const { return (folder_ / name).string(); }
 
-Outcome RunCapfit(const std::vector<std::string>& arguments) {
+Outcome RunProgram(const std::string& program, const std::vector<std::string>& arguments,
+                   const std::string& in_path) {
   const Scratch scratch;
   const std::string out = scratch.Path("out");
   const std::string err = scratch.Path("err");
-  const int exit_code = WaitFor(Spawn(CAPFIT_CLIENT_PROGRAM, arguments, out, err));
+  const int exit_code = WaitFor(Spawn(program, arguments, in_path, out, err));
   return {exit_code, ReadText(out), ReadText(err)};
+}
+
+Outcome RunCapfit(const std::vector<std::string>& arguments, const std::string& in_path) {
+  return RunProgram(CAPFIT_CLIENT_PROGRAM, arguments, in_path);
 }
 
 ServerProcess::ServerProcess(const std::vector<std::string>& flags) {
   const std::string port_file = scratch_.Path("port");
   std::vector<std::string> arguments = {"--listen", "127.0.0.1:0", "--port-file", port_file};
   arguments.insert(arguments.end(), flags.begin(), flags.end());
-  pid_ = Spawn(CAPFIT_SERVER_PROGRAM, arguments, scratch_.Path("out"), scratch_.Path("err"));
+  pid_ = Spawn(CAPFIT_SERVER_PROGRAM, arguments, "/dev/null", scratch_.Path("out"),
+               scratch_.Path("err"));
   for (int i = 0; i < 600 && !std::filesystem::exists(port_file); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

@@ -30,8 +30,13 @@ struct Outcome {
   std::string err;
 };
 
+// Runs a program to its end, its standard input from a file.
+[[nodiscard]] Outcome RunProgram(const std::string& program,
+                                 const std::vector<std::string>& arguments,
+                                 const std::string& in_path = "/dev/null");
 // Runs build/<preset>/client/capfit to its end.
-[[nodiscard]] Outcome RunCapfit(const std::vector<std::string>& arguments);
+[[nodiscard]] Outcome RunCapfit(const std::vector<std::string>& arguments,
+                                const std::string& in_path = "/dev/null");
 
 // build/<preset>/server/capfit-server on a free port of the loopback, ready when constructed.
 class ServerProcess {

@@ -41,7 +41,7 @@ Scene SmallScene() {
   scene.result =
       *ParseResultSet(R"({"spheres": [[0, 0.9, 0, 0.16], [0, 1.3, 0, 0.15], [0, 1.6, 0, 0.1]],
                           "capsules": [[0, 1]], "sphere_parts": ["torso", "torso", "head"],
-                          "metrics": {"n_p": 4, "E_r": 0.5, "vertices": "many"}})");
+                          "metrics": {"primitive_count": 4, "volume_error": 0.5, "note": "text"}})");
   std::vector<Vector3d> centers;
   for (const geometry::Sphere& sphere : scene.result.spheres) centers.push_back(sphere.center_m);
   scene.figure = MakeFigure(scene.soup, scene.result, scene.soup.positions, centers,
