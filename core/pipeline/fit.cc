@@ -81,7 +81,7 @@ class BodyFit {
     for (;;) {
       result_.warnings.resize(warnings);
       alternatives_.clear();
-      CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, options_.parts, TotalBudget(options_)));
+      CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, asked_, options_));
       if (NeedsPolygons()) CAPFIT_RETURN_IF_ERROR(Approximate());
       if (options_.quality == Quality::kTight) CAPFIT_RETURN_IF_ERROR(Refine());
       CAPFIT_RETURN_IF_ERROR(CheckFound());
@@ -106,12 +106,14 @@ class BodyFit {
            options_.polygon_error.has_value() || ComparesWithPaper();
   }
 
-  // With few primitives the published method is at times the better one, and it is quick: then the
-  // smaller of the two sets is taken.
+  // With few primitives, or without a part that the tight fit's layouts are made for, the published
+  // method is at times the better one, and it is quick: then the smaller of the two sets is taken.
   bool ComparesWithPaper() const {
     if (options_.quality != Quality::kTight || options_.fit != FitMode::kEnclose) return false;
     const circle::Budget budget = TotalBudget(options_);
-    return Profile() == capsule::CapsuleProfile::kUniformRadius ||
+    const body::PartSelection& parts = options_.parts;
+    return !parts.torso || !parts.arms || !parts.legs ||
+           Profile() == capsule::CapsuleProfile::kUniformRadius ||
            budget.max_primitives < kFewPrimitives || budget.max_spheres < kFewPrimitives / 2 ||
            budget.max_capsules < kFewPrimitives / 2;
   }
