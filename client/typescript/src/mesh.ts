@@ -94,13 +94,14 @@ function arrayUpload(mesh: ArrayMesh): Upload {
   if (!(vertices instanceof Float32Array || vertices instanceof Float64Array)) {
     throw invalidField("UNKNOWN_VALUE", "mesh.vertices", "must be a Float32Array or Float64Array");
   }
-  const positions = vertices instanceof Float32Array ? "positions" : "positionsDouble";
+  const isSingle = vertices instanceof Float32Array;
   const arrays: [keyof MeshArrays, Float32Array | Float64Array | Uint32Array][] = [
-    [positions, vertices],
+    [isSingle ? "positions" : "positionsDouble", vertices],
     ...faceArrays(faces),
   ];
+  const field = isSingle ? "positions" : "positions_double";
   const encoding: ArrayEncoding = {
-    vertexCount: wholeThirds(vertices.length, "mesh.arrays.positions"),
+    vertexCount: wholeThirds(vertices.length, `mesh.arrays.${field}`),
     faceCount: faceCountOf(faces),
   };
   return {

@@ -13,10 +13,11 @@ namespace capfit::bench {
 namespace {
 
 constexpr int kColumns = 160;
-constexpr int kPoints = 4000;
+constexpr int kDropPoints = 2000;
+constexpr int kSettlePoints = 4000;
 // Spheres to start dropping from: the share of the way from as many as the collapse leaves to as
 // many as a tree of this budget has.
-constexpr std::array<double, 4> kSphereShares = {0.0, 0.5, 0.75, 1.0};
+constexpr std::array<double, 3> kSphereShares = {0.0, 0.75, 1.0};
 // The best so many are settled, in so many steps.
 constexpr std::size_t kSettled = 4;
 constexpr int kSettleSteps = 15;
@@ -28,7 +29,10 @@ int MostSpheres(int budget) { return (budget + 1) / 2; }
 
 SphereMeshFitter::SphereMeshFitter(const mesh::BodyMesh& mesh, int most_primitives,
                                    const FitOptions& options)
-    : options_(options), error_(mesh, kColumns), points_(SurfacePoints(mesh, kPoints)) {
+    : options_(options),
+      error_(mesh, kColumns),
+      drop_points_(SurfacePoints(mesh, kDropPoints)),
+      settle_points_(SurfacePoints(mesh, kSettlePoints)) {
   for (const double bound : options.radius_bounds) {
     series_.push_back(CollapseEdges(mesh, MostSpheres(most_primitives), {bound}));
   }
@@ -50,7 +54,7 @@ std::vector<SphereMesh> SphereMeshFitter::Candidates(int budget) const {
     auto last = series.end();
     for (const double share : kSphereShares) {
       const auto from = whole - std::lround(share * static_cast<double>(whole - tree));
-      if (from != last) candidates.push_back(DropHulls(*from, budget, points_));
+      if (from != last) candidates.push_back(DropHulls(*from, budget, drop_points_));
       last = from;
     }
   }
@@ -70,7 +74,7 @@ SphereMesh SphereMeshFitter::Fit(int budget) const {
   if (options_.steps == Steps::kSettle) {
     const std::size_t count = std::min(kSettled, rated.size());
     for (std::size_t i = 0; i < count; ++i) {
-      rated.push_back(Rate(SettleSpheres(rated[i].mesh, points_, kSettleSteps)));
+      rated.push_back(Rate(SettleSpheres(rated[i].mesh, settle_points_, kSettleSteps)));
     }
   }
   return std::min_element(rated.begin(), rated.end(), is_better)->mesh;

@@ -27,7 +27,8 @@ struct FitOptions {
 
 // Stands for the family of public programs that take a mesh to spheres and what is interpolated
 // between them: the least E_r of what all settings give, as one would pick from their outputs.
-// Written from the papers; shares nothing with capfit's own fit but the reading and the measuring.
+// Written from the papers; shares nothing with capfit's own fit but reading, geometry and
+// measuring.
 class SphereMeshFitter {
  public:
   // Collapses the mesh once for each radius bound, for budgets up to `most_primitives` >= 1.
@@ -47,7 +48,8 @@ class SphereMeshFitter {
 
   FitOptions options_;
   VolumeError error_;
-  std::vector<Eigen::Vector3d> points_;
+  std::vector<Eigen::Vector3d> drop_points_;
+  std::vector<Eigen::Vector3d> settle_points_;
   std::vector<std::vector<SphereMesh>> series_;  // for each radius bound
 };
 

@@ -99,9 +99,10 @@ TEST(SphereMeshDistance, ATriangleWithASphereInsideTheOthersHullHasNoPlates) {
 TEST(SphereMeshDistance, DroppedAndLeftOutHullsAreNotThere) {
   SphereMeshDistance distance(Kite());
   ASSERT_EQ(distance.hulls(), 5);
-  const Vector3d beyond(0.9, 0, 0.5);  // nearest to the tail's end
+  const Vector3d beyond(0.9, 0, 0.5);
   int hint = 0;
-  EXPECT_NEAR(distance.Locate(beyond, hint).distance, 0.48, 0.02);
+  // The tail's sine is 0.28, its cosine 0.96.
+  EXPECT_NEAR(distance.Locate(beyond, hint).distance, 0.96 * 0.5 + 0.28 * 0.5 - 0.16, 1e-12);
   EXPECT_EQ(hint, 3);
   int second = 3;
   const double without = distance.Locate(beyond, second, 3).distance;

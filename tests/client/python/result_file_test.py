@@ -1,7 +1,6 @@
 """result.json, written and read."""
 import dataclasses
 import json
-import unittest
 
 import jsonschema
 import numpy
@@ -55,7 +54,6 @@ class ResultFileTest(ServerTest):
         numpy.testing.assert_allclose(
             loaded.apply(self.vertices), self.result.spheres[:, :3], rtol=0, atol=1e-6)
 
-    @unittest.skipUnless(SCHEMA.exists(), "no docs/result.schema.json")
     def test_the_schema_holds(self):
         schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
         plain = self.client.approximate(self.body)
@@ -68,8 +66,9 @@ class ResultFileTest(ServerTest):
                    "--parts", "all", "--skinning", "dense", "--heat-map", "--polygons",
                    "--request-id", "job 7")
         ours = self.written(self.result, "ours.json")
-        self.assertEqual(without_times(read(ours)), without_times(read(path)))
         self.assertEqual(list(read(ours)), list(read(path)))
+        for name, wanted in without_times(read(path)).items():
+            self.assertEqual(read(ours)[name], wanted, name)
         for ending in ("weights", "gaps"):
             wanted = read(path.with_suffix(f".{ending}.json"))
             self.assertEqual(read(ours.with_suffix(f".{ending}.json")),

@@ -11,6 +11,11 @@ source_package=$root/client/typescript
 
 skip() { echo "SKIPPED: $*" >&2; exit 77; }
 fail() { echo "$*" >&2; exit 1; }
+# Each block of TypeScript of a page as a module: PREFIX1.mts, PREFIX2.mts, ...
+examples_of() {
+  awk -v prefix="$2" '/^```ts$/ { file = prefix (++count) ".mts"; next } /^```$/ { file = "" }
+    file { print > file } END { exit count == 0 }' "$1" || fail "$1 has no example"
+}
 command -v npm >/dev/null || skip "no npm: apt-get install npm"
 compiler=$(node -p 'require(process.argv[1]).devDependencies.typescript' "$source_package/package.json")
 node_types=$(node -p 'require(process.argv[1]).devDependencies["@types/node"]' \
@@ -47,6 +52,10 @@ if grep -rlF -e "$scratch" -e "$root" "$scratch/unpacked"; then fail "paths of t
 
 cp -R "$here/consumer/." "$scratch/consumer/"
 cd "$scratch/consumer"
+mkdir documented
+for page in "$source_package/README.md" "$root/docs/clients.md"; do
+  examples_of "$page" "documented/$(basename "$page" .md)"
+done
 "${install[@]}" "$tarball" "typescript@$compiler" "@types/node@$node_types"
 node_modules/.bin/tsc
 
@@ -63,6 +72,13 @@ export CAPFIT_BODY=$scratch/body.obj CAPFIT_RESULT=$scratch/result.json
 "$capfit" approximate "$CAPFIT_BODY" -o "$CAPFIT_RESULT" --server "$CAPFIT_ADDRESS" --quiet \
   --parts all --max-primitives 80 --seed 7
 node --test out/*.test.js plain.test.cjs plain.test.mjs
+
+# The examples as they stand, but for body and address.
+for example in out/documented/*.mjs; do
+  sed "s/body\.glb/body.obj/; s/127\.0\.0\.1:50051/$CAPFIT_ADDRESS/" "$example" >"$example.run.mjs"
+  (cd "$scratch" && node "consumer/$example.run.mjs" >"$scratch/out" 2>&1) ||
+    fail "$(basename "$example"): $(cat "$scratch/out")"
+done
 
 kill -TERM "$server_pid"
 wait "$server_pid"

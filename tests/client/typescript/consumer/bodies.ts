@@ -9,7 +9,7 @@ const faces = lines.filter(([kind]) => kind === "f")
   .map(([, ...corners]) => corners.map((corner) => parseInt(corner, 10) - 1));
 
 export const vertices = Float64Array.from(
-  lines.filter(([kind]) => kind === "v").flatMap(([, ...numbers]) => numbers.slice(0, 3).map(Number)),
+  lines.filter(([kind]) => kind === "v").flatMap(([, x, y, z]) => [x, y, z].map(Number)),
 );
 /** Fans, as the server splits polygons. */
 export const triangles = Uint32Array.from(

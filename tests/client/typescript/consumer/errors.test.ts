@@ -30,11 +30,11 @@ test("a value beyond its range names field, value and limit", async () => {
 });
 
 test("faults of the mesh are named as the caller counts", async () => {
-  const broken = vertices.slice();
+  const broken = Float32Array.from(vertices);
   broken[22] = NaN;
   const notFinite = await errorOf(client.approximate({ vertices: broken, faces: triangles }));
   assert.equal(notFinite.reason, "NOT_FINITE");
-  assert.equal(notFinite.field, "mesh.arrays.positions_double[22]");
+  assert.equal(notFinite.field, "mesh.arrays.positions[22]");
 
   const text = await errorOf(client.approximate({ file: Buffer.from("no mesh at all") }));
   assert.equal(text.code, "INVALID_ARGUMENT");

@@ -1,4 +1,4 @@
-// The package as an ECMAScript module, without types: one class of errors for both kinds of modules.
+// The package as an ECMAScript module, without types.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";

@@ -54,11 +54,13 @@ test("four attempts, then the error tells the pause", () =>
     assert.equal(server.calls, 4);
   }));
 
-test("RetryInfo alone serves as well", () =>
-  withServer((call) => (call < 2 ? full(undefined, { nanos: 2e7 }) : info), async (client, server) => {
+test("RetryInfo alone serves as well", () => {
+  const wait = { nanos: 2e7 };
+  return withServer((call) => (call < 2 ? full(undefined, wait) : info), async (client, server) => {
     await client.serverInfo();
     assert.equal(server.calls, 2);
-  }));
+  });
+});
 
 for (const [name, pushback] of [["no pause", undefined], ["a pause below 0", "-1"]] as const) {
   test(`not asked again: ${name}`, () =>
