@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "client/exit_code.h"
+#include "client/picture/belongs.h"
+#include "client/picture/centers_file.h"
 #include "client/picture/figure.h"
 #include "client/picture/file_bytes.h"
 #include "client/picture/gaps_file.h"
@@ -19,7 +22,6 @@
 #include "client/picture/result_body.h"
 #include "client/picture/result_set.h"
 #include "core/base/status.h"
-#include "core/mesh/read_mesh.h"
 #include "core/metrics/measure.h"
 
 namespace capfit::client {
@@ -37,7 +39,7 @@ struct RenderArguments {
   bool heat = false;
   std::string gaps;
   double heat_limit_mm = 30.0;
-  double mm_per_unit = 1000.0;
+  std::optional<double> mm_per_unit;  // default: what the gaps, the result or the body tell
   int width = 1500;
   int height = 1100;
   std::string frames;
@@ -59,7 +61,7 @@ const std::map<std::string, NamedView>& Views() {
 
 absl::Status CheckArguments(const RenderArguments& arguments) {
   const std::string ending = FileEnding(arguments.output);
-  if (ending != ".png" && ending != ".svg") {
+  if (ending != ".png" && ending != ".svg" && arguments.output != "-") {
     return InvalidField(ErrorReason::kMalformedFile, "output",
                         absl::StrCat("is ", arguments.output, ", must end in .png or .svg"));
   }
@@ -71,7 +73,7 @@ absl::Status CheckArguments(const RenderArguments& arguments) {
   CAPFIT_RETURN_IF_ERROR(check("width", arguments.width, 200, 6000));
   CAPFIT_RETURN_IF_ERROR(check("height", arguments.height, 300, 6000));
   CAPFIT_RETURN_IF_ERROR(check("heat_limit_mm", arguments.heat_limit_mm, 0.01, 1e4));
-  CAPFIT_RETURN_IF_ERROR(check("mm_per_unit", arguments.mm_per_unit, 1e-6, 1e6));
+  CAPFIT_RETURN_IF_ERROR(check("mm_per_unit", arguments.mm_per_unit.value_or(1.0), 1e-6, 1e6));
   if (!arguments.gaps.empty() && !arguments.frames.empty()) {
     return InvalidField(ErrorReason::kMalformedFile, "gaps",
                         "are those of the body at rest: not with --frames");
@@ -160,7 +162,7 @@ Scene StillScene(const RenderArguments& arguments, const Inputs& in,
 
 absl::StatusOr<Scene> AnimatedScene(const RenderArguments& arguments, const Inputs& in) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string frames, ReadFileBytes(arguments.frames));
-  CAPFIT_ASSIGN_OR_RETURN(const std::string centers, ReadFileBytes(arguments.centers));
+  CAPFIT_ASSIGN_OR_RETURN(const std::string centers, ReadCenters(arguments.centers));
   Scene scene;
   for (const std::size_t frame : arguments.show) {
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<Vector3d> positions,
@@ -178,13 +180,9 @@ absl::StatusOr<Scene> AnimatedScene(const RenderArguments& arguments, const Inpu
 }
 
 // The gaps of the file, which also knows the unit.
-absl::Status UseGapsFile(RenderArguments& arguments, Figure& figure) {
+absl::Status UseGapsFile(RenderArguments& arguments, const Inputs& in, Figure& figure) {
   CAPFIT_ASSIGN_OR_RETURN(const VertexGaps file, ReadVertexGaps(arguments.gaps));
-  if (file.gaps.size() != figure.vertices.size()) {
-    return InvalidField(
-        ErrorReason::kMalformedFile, "gaps",
-        absl::StrCat("has ", file.gaps.size(), " vertices, the body has ", figure.vertices.size()));
-  }
+  CAPFIT_RETURN_IF_ERROR(CheckGapsBelong(file, in.result, in.soup));
   figure.gaps.assign(file.gaps.begin(), file.gaps.end());
   arguments.mm_per_unit = 1000.0 * file.metres_per_unit;
   return absl::OkStatus();
@@ -192,10 +190,12 @@ absl::Status UseGapsFile(RenderArguments& arguments, Figure& figure) {
 
 // Measured on the body, as a fit does it: parts that the result does not stand for have no gap. A
 // mesh that is no body is left to the painter, which takes all vertices alike.
-void MeasureGaps(const Inputs& in, const ThreadPool& pool, Figure& figure) {
+void MeasureGaps(RenderArguments& arguments, const Inputs& in, const ThreadPool& pool,
+                 Figure& figure) {
   const absl::StatusOr<body::Body> body = UnderstandBody(in.soup, body::BodyOptions(), pool);
   if (!body.ok()) return;
   const geometry::Similarity& frame = body->body_from_caller;
+  if (!arguments.mm_per_unit) arguments.mm_per_unit = 1000.0 * frame.scale;
   const std::vector<double> gaps_m =
       metrics::SignedGaps(*body, InBodyFrame(in.result, frame), PartsOfResult(in.result), pool);
   for (const std::int32_t vertex : body->mesh.vertex_of_source()) {
@@ -234,13 +234,12 @@ PictureUp ToUp(const std::string& word) {
 
 absl::StatusOr<Inputs> ReadInputs(const RenderArguments& arguments) {
   Inputs in;
-  CAPFIT_ASSIGN_OR_RETURN(const std::string body, ReadFileBytes(arguments.body));
-  CAPFIT_ASSIGN_OR_RETURN(in.soup, mesh::ReadMesh(std::as_bytes(std::span(body)),
-                                                  mesh::FormatFromFileName(arguments.body)));
+  CAPFIT_ASSIGN_OR_RETURN(in.soup, ReadBodyFile(arguments.body));
   CAPFIT_RETURN_IF_ERROR(CheckSoup(in.soup));
   if (!arguments.result.empty()) {
     CAPFIT_ASSIGN_OR_RETURN(const std::string result, ReadFileBytes(arguments.result));
     CAPFIT_ASSIGN_OR_RETURN(in.result, ParseResultSet(result));
+    CAPFIT_RETURN_IF_ERROR(CheckBelongs(in.result, in.soup));
   }
   in.turn = TurnUpright(in.soup.positions, in.result, ToUp(arguments.up));
   return in;
@@ -257,14 +256,17 @@ PictureOptions ToPictureOptions(const RenderArguments& arguments, const ResultSe
   } else {
     options.subtitle = Subtitle(result);
   }
-  options.heat_limit = arguments.heat_limit_mm / arguments.mm_per_unit;
-  options.mm_per_unit = arguments.mm_per_unit;
+  options.mm_per_unit = arguments.mm_per_unit.value_or(1000.0);
+  options.heat_limit = arguments.heat_limit_mm / options.mm_per_unit;
   return options;
 }
 
 absl::Status RunRender(RenderArguments arguments) {
   CAPFIT_RETURN_IF_ERROR(CheckArguments(arguments));
   CAPFIT_ASSIGN_OR_RETURN(const Inputs in, ReadInputs(arguments));
+  if (!arguments.mm_per_unit && in.result.metres_per_unit) {
+    arguments.mm_per_unit = 1000.0 * *in.result.metres_per_unit;
+  }
   Scene scene;
   if (arguments.frames.empty()) {
     std::vector<Vector3d> centers;
@@ -272,9 +274,9 @@ absl::Status RunRender(RenderArguments arguments) {
     scene = StillScene(arguments, in, centers);
     Figure& figure = *scene.figures.back();
     if (!arguments.gaps.empty()) {
-      CAPFIT_RETURN_IF_ERROR(UseGapsFile(arguments, figure));
+      CAPFIT_RETURN_IF_ERROR(UseGapsFile(arguments, in, figure));
     } else if (arguments.heat) {
-      MeasureGaps(in, ThreadPool(), figure);
+      MeasureGaps(arguments, in, ThreadPool(), figure);
     }
   } else {
     CAPFIT_ASSIGN_OR_RETURN(scene, AnimatedScene(arguments, in));
@@ -290,8 +292,7 @@ absl::Status RunRender(RenderArguments arguments) {
 void AddAnimationOptions(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--frames", arguments.frames,
                      "Deformed vertices: float32, frames x vertices x 3");
-  command.add_option("--centers", arguments.centers,
-                     "Sphere centres: float32, frames x spheres x 3");
+  command.add_option("--centers", arguments.centers, "Sphere centres, as `animate` writes them");
   command.add_option("--show", arguments.show, "Frames to show, e.g. 0,20,60")
       ->delimiter(',')
       ->expected(1, 8);
@@ -306,7 +307,7 @@ void AddRenderCommand(CLI::App& app, int& exit_code) {
   command->add_option("body", arguments->body, "Mesh file")->required();
   command->add_option("result", arguments->result,
                       "RESULT.json of this body; without it the body is drawn alone");
-  command->add_option("-o,--output", arguments->output, "Picture to write, .png or .svg")
+  command->add_option("-o,--output", arguments->output, "Picture to write, .png or .svg; - is PNG")
       ->required();
   command->add_option("--up", arguments->up, "Axis of the mesh that points up")
       ->check(CLI::IsMember({"auto", "x", "y", "z"}))
@@ -327,10 +328,10 @@ void AddRenderCommand(CLI::App& app, int& exit_code) {
                       "RESULT.gaps.json whose gaps are shown, instead of measuring them");
   command->add_option("--heat-limit-mm", arguments->heat_limit_mm, "Gap of the strongest colour")
       ->capture_default_str();
-  command->add_option("--mm-per-unit", arguments->mm_per_unit, "Length of the mesh's unit in mm")
-      ->capture_default_str();
+  command->add_option("--mm-per-unit", arguments->mm_per_unit,
+                      "Length of the mesh's unit in mm [what RESULT or the body tells]");
   AddAnimationOptions(*command, *arguments);
-  command->callback([arguments, &exit_code] { exit_code = ReportStatus(RunRender(*arguments)); });
+  command->callback([arguments, &exit_code] { exit_code = Report(RunRender(*arguments)); });
 }
 
 }  // namespace capfit::client
