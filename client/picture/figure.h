@@ -41,9 +41,9 @@ struct Figure {
 // Which axis of the caller's frame points up.
 enum class PictureUp { kAuto, kX, kY, kZ };
 
-// The turn from the caller's frame into the picture's. kAuto: Y or Z, along which the body is
-// longer. Where the result tells left from right by its landmarks, the body's left decides the
-// front; otherwise Y up faces +Z, Z up faces -Y and X up faces +Z.
+// The turn from the caller's frame into the picture's. kAuto: the result's own, or Y or
+// Z, along which the body is longer. Where the result tells left from right by its landmarks, the
+// body's left decides the front; otherwise Y up faces +Z, Z up faces -Y and X up faces +Z.
 [[nodiscard]] Eigen::Matrix3d TurnUpright(const std::vector<Eigen::Vector3d>& positions,
                                           const ResultSet& result, PictureUp up);
 

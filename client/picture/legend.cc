@@ -1,5 +1,6 @@
 #include "client/picture/legend.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace capfit::client {
@@ -29,6 +30,11 @@ std::string GapLabel(double gap_mm) {
 }
 
 }  // namespace
+
+std::string Spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
 
 double AddLegend(const std::vector<LegendEntry>& entries, double x, double y, double width,
                  double text_size, Page& page) {

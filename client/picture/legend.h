@@ -18,6 +18,9 @@ struct LegendEntry {
   LegendMark mark = LegendMark::kArea;
 };
 
+// "left_arm" gives "left arm".
+[[nodiscard]] std::string Spaced(std::string name);
+
 // Writes the entries from left to right in as many lines as they need, each mark as a path with the
 // entry's words for its name. `y`: upper edge. Gives the height of all lines.
 double AddLegend(const std::vector<LegendEntry>& entries, double x, double y, double width,

@@ -53,10 +53,8 @@ void AddText(const std::string& text, double x, double y, const TextStyle& style
 void AddArea(const std::string& name, const Rect& box, const Color& fill, Page& page) {
   PagePath area;
   area.name = name;
-  area.points = {{box.x, box.y},
-                 {box.right(), box.y},
-                 {box.right(), box.bottom()},
-                 {box.x, box.bottom()}};
+  area.points = {
+      {box.x, box.y}, {box.right(), box.y}, {box.right(), box.bottom()}, {box.x, box.bottom()}};
   area.is_closed = true;
   area.fill = fill;
   page.paths.push_back(std::move(area));

@@ -109,8 +109,8 @@ class PageMaker {
   void AddPanels(double height) {
     const double bar = HasHeat() ? 110.0 * unit_ : 0.0;
     const double width = page_.width - bar;
-    const int row_height = std::max(1, static_cast<int>(height / static_cast<double>(
-                                                                     options_.rows.size())));
+    const int row_height =
+        std::max(1, static_cast<int>(height / static_cast<double>(options_.rows.size())));
     scale_ = PanelScale(width, row_height);
     double used = 0.0;
     for (const PictureColumn& column : columns_) used += ColumnWidth(column);
@@ -219,8 +219,8 @@ class PageMaker {
   void AddBar(double pixels_per_unit, double y) {
     // What its label takes is left free of the share.
     const double room = kBarShare * InnerWidth() - 6.0 * LegendSize();
-    const ScaleBar bar = FitScaleBar(pixels_per_unit / *options_.mm_per_unit,
-                                     std::max(room, 2.0 * LegendSize()));
+    const ScaleBar bar =
+        FitScaleBar(pixels_per_unit / *options_.mm_per_unit, std::max(room, 2.0 * LegendSize()));
     AddScaleBar(bar, margin_, y, LegendSize(), page_);
   }
 
@@ -240,10 +240,11 @@ class PageMaker {
     }
     if (!room) page_.height = needed;
     if (options_.mm_per_unit) AddBar(plan.pixels_per_unit, bar_y);
-    AddText("feature polygons, seen from above (limbs as if hanging): front down, the body's left "
-            "right; area of the circles outside / area of the polygon",
-            margin_ + kBarShare * InnerWidth(), bar_y,
-            {.size = LegendSize(), .max_width = (1.0 - kBarShare) * InnerWidth()}, page_);
+    AddText(
+        "seen from above, limbs as if they hung: front down, the body's left to the right; number: "
+        "area of the circles outside (tinted) / area of the polygon",
+        margin_ + kBarShare * InnerWidth(), bar_y,
+        {.size = LegendSize(), .max_width = (1.0 - kBarShare) * InnerWidth()}, page_);
     AddSheet(options_.polygons, plan, LegendSize(), page_);
     return absl::OkStatus();
   }

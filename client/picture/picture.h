@@ -33,9 +33,9 @@ struct PictureOptions {
   std::string subtitle;  // below it
   std::string note;      // below that
   std::vector<LegendEntry> legend;
-  double heat_limit = 0.03;            // for rows of kHeat, in the figure's unit ...
-  std::optional<double> mm_per_unit;   // ... and how long that is, for bars; none where not known
-  std::vector<FlatPolygon> polygons;   // for the sheet below the panels; none: no sheet
+  double heat_limit = 0.03;           // for rows of kHeat, in the figure's unit ...
+  std::optional<double> mm_per_unit;  // ... and how long that is, for bars; none where not known
+  std::vector<FlatPolygon> polygons;  // for the sheet below the panels; none: no sheet
 };
 
 // Where everything goes. All columns have the same scale, which fits the largest figure. Letters

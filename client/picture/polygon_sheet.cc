@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "client/picture/legend.h"
+
 namespace capfit::client {
 namespace {
 
@@ -12,11 +14,6 @@ using Eigen::Vector2d;
 // Of the text's size.
 constexpr double kPadding = 0.7;
 constexpr double kLabelLine = 1.25;
-
-std::string Spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 std::string RatioText(const FlatPolygon& polygon) {
   char text[32];
@@ -51,8 +48,7 @@ class Planner {
       : polygons_(polygons), area_(area), text_size_(text_size) {
     for (const FlatPolygon& polygon : polygons) {
       extents_.push_back(Extent(polygon));
-      word_widths_.push_back(
-          std::max(TextWidth(Spaced(polygon.name), text_size), 4.0 * text_size));
+      word_widths_.push_back(std::max(TextWidth(Spaced(polygon.name), text_size), 4.0 * text_size));
     }
   }
 
