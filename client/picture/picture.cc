@@ -18,33 +18,36 @@ using Eigen::Vector3d;
 constexpr int kUsualHeight = 1100;
 constexpr double kGhostHeight = 560.0;  // of the row of panels above the polygons, where it is free
 
-// A box around all of a figure, solids and curves included.
-struct Box {
+// What a column's figure takes as it is seen, in its own unit.
+struct Extent {
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Vector3d high = -low;
-  void Add(const Vector3d& p, double radius) {
-    low = low.cwiseMin(p - Vector3d::Constant(radius));
-    high = high.cwiseMax(p + Vector3d::Constant(radius));
+  Vector3d high = -low;  // both (right, up, towards the eye)
+  void Add(const Vector3d& turned, double radius) {
+    low = low.cwiseMin(turned - Vector3d::Constant(radius));
+    high = high.cwiseMax(turned + Vector3d::Constant(radius));
   }
+  [[nodiscard]] Vector3d middle() const { return 0.5 * (low + high); }
+  [[nodiscard]] double width() const { return high.x() - low.x(); }
+  [[nodiscard]] double height() const { return high.y() - low.y(); }
 };
 
-Box BoxOf(const Figure& figure) {
-  Box box;
-  for (const Vector3d& p : figure.vertices) box.Add(p, 0.0);
-  for (const geometry::TaperedCapsule& solid : figure.solids) {
-    box.Add(solid.a().center_m, solid.a().radius_m);
-    box.Add(solid.b().center_m, solid.b().radius_m);
-  }
-  for (const FigureCurve& curve : figure.curves) {
-    for (const Vector3d& p : curve.points) box.Add(p, 0.0);
-  }
-  return box;
+View ViewOf(const PictureColumn& column, const Vector3d& center, const Vector2d& at, double scale) {
+  return {column.yaw_rad, center, at.x(), at.y(), scale, column.pitch_rad};
 }
 
-// Half the box's width as seen under this angle.
-double HalfWidth(const Box& box, double yaw_rad) {
-  const Vector3d half = 0.5 * (box.high - box.low);
-  return std::abs(std::cos(yaw_rad)) * half.x() + std::abs(std::sin(yaw_rad)) * half.z();
+Extent ExtentOf(const PictureColumn& column) {
+  const View view = ViewOf(column, Vector3d::Zero(), Vector2d::Zero(), 1.0);
+  const Figure& figure = *column.figure;
+  Extent extent;
+  for (const Vector3d& p : figure.vertices) extent.Add(view.Turn(p), 0.0);
+  for (const geometry::TaperedCapsule& solid : figure.solids) {
+    extent.Add(view.Turn(solid.a().center_m), solid.a().radius_m);
+    extent.Add(view.Turn(solid.b().center_m), solid.b().radius_m);
+  }
+  for (const FigureCurve& curve : figure.curves) {
+    for (const Vector3d& p : curve.points) extent.Add(view.Turn(p), 0.0);
+  }
+  return extent;
 }
 
 // Lays out a page from top to bottom.
@@ -57,6 +60,7 @@ class PageMaker {
     // Letters are as large as the page allows, and not smaller than can be read.
     unit_ = std::clamp(std::min(page_.width / 1500.0, page_.height / 1100.0), 0.5, 4.0);
     margin_ = 14.0 * unit_;
+    for (const PictureColumn& column : columns) extents_.push_back(ExtentOf(column));
   }
 
   absl::StatusOr<Page> Make() {
@@ -94,16 +98,15 @@ class PageMaker {
 
   // The scale that fits all columns side by side, `height` pixels high each.
   [[nodiscard]] double PanelScale(double width, double height) const {
-    double half_widths = 0.0;
-    double half_height = 0.0;
-    for (const PictureColumn& column : columns_) {
-      const Box box = BoxOf(*column.figure);
-      half_widths += HalfWidth(box, column.yaw_rad);
-      half_height = std::max(half_height, 0.5 * (box.high.y() - box.low.y()));
+    double widths = 0.0;
+    double highest = 0.0;
+    for (const Extent& extent : extents_) {
+      widths += extent.width();
+      highest = std::max(highest, extent.height());
     }
     const double margins = 2.0 * margin_ * static_cast<double>(columns_.size());
-    return std::min(std::max(width - margins, 1.0) / (2.0 * half_widths),
-                    std::max(height - 2.0 * margin_, 1.0) / (2.0 * half_height));
+    return std::min(std::max(width - margins, 1.0) / widths,
+                    std::max(height - 2.0 * margin_, 1.0) / highest);
   }
 
   void AddPanels(double height) {
@@ -113,11 +116,11 @@ class PageMaker {
         std::max(1, static_cast<int>(height / static_cast<double>(options_.rows.size())));
     scale_ = PanelScale(width, row_height);
     double used = 0.0;
-    for (const PictureColumn& column : columns_) used += ColumnWidth(column);
+    for (const Extent& extent : extents_) used += ColumnWidth(extent);
     const double extra = (width - used) / static_cast<double>(columns_.size());
     double x = 0.0;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      const double right = x + ColumnWidth(columns_[i]) + extra;
+      const double right = x + ColumnWidth(extents_[i]) + extra;
       AddColumn(i, x, right, row_height);
       x = right;
     }
@@ -130,17 +133,19 @@ class PageMaker {
     top_ += row_height * static_cast<double>(options_.rows.size());
   }
 
-  [[nodiscard]] double ColumnWidth(const PictureColumn& column) const {
-    return 2.0 * scale_ * HalfWidth(BoxOf(*column.figure), column.yaw_rad) + 2.0 * margin_;
+  [[nodiscard]] double ColumnWidth(const Extent& extent) const {
+    return scale_ * extent.width() + 2.0 * margin_;
   }
 
   void AddColumn(std::size_t i, double left, double right, int row_height) {
     const PictureColumn& column = columns_[i];
-    const Box box = BoxOf(*column.figure);
     const double x = std::floor(left);
     const double width = std::max(1.0, std::floor(right) - x);
-    const View view(column.yaw_rad, 0.5 * (box.low + box.high), 0.5 * width, 0.5 * row_height,
-                    scale_);
+    const View turned = ViewOf(column, Vector3d::Zero(), Vector2d::Zero(), 1.0);
+    const Vector3d middle = extents_[i].middle();
+    const Vector3d center =
+        middle.x() * turned.right() + middle.y() * turned.up() + middle.z() * turned.toward_eye();
+    const View view = ViewOf(column, center, {0.5 * width, 0.5 * row_height}, scale_);
     for (std::size_t row = 0; row < options_.rows.size(); ++row) {
       const Rect panel{x, std::floor(top_) + static_cast<double>(row) * row_height, width,
                        static_cast<double>(row_height)};
@@ -254,10 +259,11 @@ class PageMaker {
   const std::vector<PictureColumn>& columns_;
   const PictureOptions& options_;
   Page page_;
-  double unit_ = 1.0;    // a pixel of a page of 1500 x 1100
-  double margin_ = 0.0;  // in pixels
-  double top_ = 0.0;     // of what is not yet laid out
-  double scale_ = 1.0;   // pixels for each of the figures' units
+  double unit_ = 1.0;            // a pixel of a page of 1500 x 1100
+  double margin_ = 0.0;          // in pixels
+  double top_ = 0.0;             // of what is not yet laid out
+  double scale_ = 1.0;           // pixels for each of the figures' units
+  std::vector<Extent> extents_;  // of each column
 };
 
 }  // namespace

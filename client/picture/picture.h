@@ -21,8 +21,9 @@ namespace capfit::client {
 // A column of the picture: one figure from one side, in one row for each style.
 struct PictureColumn {
   const Figure* figure = nullptr;
-  double yaw_rad = 0.0;  // 0: front; pi / 2: the body's left side; pi: back
-  std::string caption;   // under the column
+  double yaw_rad = 0.0;    // 0: front; pi / 2: the body's left side; pi: back
+  std::string caption;     // under the column
+  double pitch_rad = 0.0;  // > 0: from above
 };
 
 struct PictureOptions {

@@ -15,6 +15,9 @@ using Eigen::Vector2d;
 constexpr double kPadding = 0.7;
 constexpr double kLabelLine = 1.25;
 
+// Of the natural scale: smaller drawings show nothing.
+constexpr double kLeastShare = 0.25;
+
 std::string RatioText(const FlatPolygon& polygon) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.3f", polygon.outside_area_ratio);
@@ -62,11 +65,8 @@ class Planner {
   [[nodiscard]] SheetPlan At(double pixels_per_unit) const {
     SheetPlan plan;
     plan.pixels_per_unit = pixels_per_unit;
-    for (std::size_t first = 0; first < polygons_.size();) {
-      const std::size_t end = LineEnd(first, pixels_per_unit);
-      AddLineOfCells(first, end, plan);
-      first = end;
-    }
+    const std::vector<std::size_t> lines = Lines(pixels_per_unit);
+    for (std::size_t k = 1; k < lines.size(); ++k) AddLineOfCells(lines[k - 1], lines[k], plan);
     return plan;
   }
 
@@ -79,16 +79,46 @@ class Planner {
     return {std::min(width, area_.width), height};
   }
 
-  // One past the last polygon of the line that begins with `first`.
-  [[nodiscard]] std::size_t LineEnd(std::size_t first, double scale) const {
-    double width = SizeOf(first, scale).width;
-    std::size_t end = first + 1;
-    while (end < polygons_.size() && LineOf(polygons_[end]) == LineOf(polygons_[first])) {
-      width += SizeOf(end, scale).width;
-      if (width > area_.width) break;
-      ++end;
+  // The lines, by their first polygons and one past the last: torso, arms and legs, each side of
+  // the latter where both are too wide, and as many lines of those as it takes, about equally long.
+  [[nodiscard]] std::vector<std::size_t> Lines(double scale) const {
+    std::vector<std::size_t> lines = {0};
+    const auto end_of = [&](std::size_t first, auto word) {
+      std::size_t end = first;
+      while (end < polygons_.size() && word(polygons_[end]) == word(polygons_[first])) ++end;
+      return end;
+    };
+    while (lines.back() < polygons_.size()) {
+      const std::size_t first = lines.back();
+      std::size_t end = end_of(first, [](const FlatPolygon& p) { return LineOf(p); });
+      if (!Fits(first, end, scale))
+        end = end_of(first, [](const FlatPolygon& p) { return p.part; });
+      for (std::size_t count = 1;; ++count) {
+        const std::vector<std::size_t> parts = Split(first, end, count);
+        const bool fits = std::adjacent_find(parts.begin(), parts.end(), [&](auto from, auto to) {
+                            return !Fits(from, to, scale);
+                          }) == parts.end();
+        if (!fits && count < end - first) continue;
+        lines.insert(lines.end(), parts.begin() + 1, parts.end());
+        break;
+      }
     }
-    return end;
+    return lines;
+  }
+
+  [[nodiscard]] bool Fits(std::size_t first, std::size_t end, double scale) const {
+    double width = 0.0;
+    for (std::size_t i = first; i < end; ++i) width += SizeOf(i, scale).width;
+    return width <= area_.width;
+  }
+
+  // Ends of `count` pieces of [first, end), the first included.
+  static std::vector<std::size_t> Split(std::size_t first, std::size_t end, std::size_t count) {
+    std::vector<std::size_t> ends;
+    for (std::size_t k = 0; k <= count; ++k) {
+      ends.push_back(first + (end - first) * k / count);
+    }
+    return ends;
   }
 
   // The line's polygons share out the whole width; all cells are as high as the highest.
@@ -197,7 +227,7 @@ SheetPlan PlanSheet(const std::vector<FlatPolygon>& polygons, const Rect& area,
   double high = planner.NaturalScale();
   SheetPlan plan = planner.At(high);
   if (!max_height || plan.height <= *max_height) return plan;
-  double low = 0.01 * high;
+  double low = kLeastShare * high;
   plan = planner.At(low);
   for (int i = 0; i < 30; ++i) {
     const double scale = 0.5 * (low + high);

@@ -22,9 +22,10 @@ struct SheetPlan {
   std::vector<SheetCell> cells;  // one for each polygon
 };
 
-// Torso, arms and legs each begin a new line of cells within `area`, whose height does not count.
-// The widest polygon takes about a sixth of the width, or less, until the cells are not higher than
-// `max_height`; plan.height tells where the words alone are.
+// Torso, arms and legs each begin a new line of cells within `area`, whose height does not count;
+// so does each side of the latter where both do not fit side by side. The widest polygon takes
+// about a sixth of the width, or less, until the cells are not higher than `max_height`, but never
+// below a quarter of that: then plan.height is more.
 [[nodiscard]] SheetPlan PlanSheet(const std::vector<FlatPolygon>& polygons, const Rect& area,
                                   std::optional<double> max_height, double text_size);
 

@@ -159,6 +159,9 @@ absl::StatusOr<std::vector<Vector3d>> FramePoints(const std::string& bytes, std:
   return positions;
 }
 
+// 22 degrees from above, cross sections are seen as such and the body still as a body.
+constexpr double kPolygonPitchRad = 0.384;
+
 // What is drawn, and under which words.
 struct Scene {
   std::vector<std::unique_ptr<Figure>> figures;
@@ -181,6 +184,9 @@ Scene StillScene(const RenderArguments& arguments, const Inputs& in,
     const NamedView& view = Views().at(name);
     scene.columns.push_back(
         {scene.figures.back().get(), view.yaw_deg * std::numbers::pi / 180.0, view.caption});
+    if (!arguments.polygons) continue;
+    scene.columns.back().pitch_rad = kPolygonPitchRad;
+    scene.columns.back().caption += ", from above";
   }
   return scene;
 }
@@ -275,7 +281,8 @@ void DescribeResult(const RenderArguments& arguments, const Inputs& in, PictureO
   options.legend = arguments.polygons ? PolygonLegend(in.result) : PartLegend(in.result);
   if (!in.body) return;
   options.note = MissingParts(in.result, PartsOnBody(*in.body));
-  const bool shows_missing = options.note.find("not fitted") != std::string::npos;
+  const bool shows_missing =
+      !arguments.polygons && options.note.find("not fitted") != std::string::npos;
   if (shows_missing) options.legend.push_back({"not fitted", kNotFitted});
 }
 
