@@ -3,6 +3,9 @@
 #include <cstdio>
 #include <string>
 
+#include "client/flag_names.h"
+#include "core/base/status.h"
+
 namespace capfit::client {
 
 int ExitCodeOf(const absl::Status& status) {
@@ -22,15 +25,20 @@ int ExitCodeOf(const absl::Status& status) {
 }
 
 int Report(const absl::Status& status) {
+  PrintWarnings(WarningsOf(status));
   if (!status.ok()) {
-    std::fprintf(stderr, "capfit: %s: %s\n", absl::StatusCodeToString(status.code()).c_str(),
-                 std::string(status.message()).c_str());
+    const std::string code =
+        absl::IsNotFound(status) ? "" : absl::StatusCodeToString(status.code()) + ": ";
+    std::fprintf(stderr, "capfit: %s%s\n", code.c_str(), InFlags(status).c_str());
   }
   return ExitCodeOf(status);
 }
 
-absl::Status FileProblem(const absl::Status& status) {
-  return status.ok() ? status : absl::NotFoundError(status.message());
+void PrintWarnings(std::span<const Warning> warnings) {
+  for (const Warning& warning : warnings) {
+    std::fprintf(stderr, "capfit: warning: %s (%s)\n", warning.message.c_str(),
+                 warning.code.c_str());
+  }
 }
 
 }  // namespace capfit::client

@@ -2,7 +2,10 @@
 #ifndef CAPFIT_CLIENT_EXIT_CODE_H_
 #define CAPFIT_CLIENT_EXIT_CODE_H_
 
+#include <span>
+
 #include "absl/status/status.h"
+#include "core/base/warning.h"
 
 namespace capfit::client {
 
@@ -13,14 +16,16 @@ inline constexpr int kExitUsage = 1;
 inline constexpr int kExitRefused = 2;
 inline constexpr int kExitServer = 3;
 
-// The exit code for the outcome of a fit. Files: see FileProblem.
+// NOT_FOUND is what file_bytes.h says of files.
 [[nodiscard]] int ExitCodeOf(const absl::Status& status);
 
-// Prints an error that is not OK to stderr, with its code, and gives its exit code.
+// Prints an error that is not OK to stderr, after the warnings that travel with it, and gives its
+// exit code. Options are called by their flags (see flag_names.h); the code stands before the
+// message, but for problems with files.
 [[nodiscard]] int Report(const absl::Status& status);
 
-// A status whose exit code is 1, with the message of `status`; OK stays OK.
-[[nodiscard]] absl::Status FileProblem(const absl::Status& status);
+// Prints each warning to stderr: "capfit: warning: 2 holes were closed (HOLES_CLOSED)".
+void PrintWarnings(std::span<const Warning> warnings);
 
 }  // namespace capfit::client
 

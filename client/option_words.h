@@ -2,19 +2,23 @@
 #ifndef CAPFIT_CLIENT_OPTION_WORDS_H_
 #define CAPFIT_CLIENT_OPTION_WORDS_H_
 
-#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/pipeline/fit.h"
 
 namespace capfit::client {
 
-// For CLI::CheckedTransformer, and to go through all the words.
+// In the order in which help shows them. A value's first word is the one that is shown; the others
+// are understood too. (Capital letters, and '-' for '_', are understood everywhere.)
 template <typename Value>
-using Words = std::map<std::string, Value>;
+using Words = std::vector<std::pair<std::string, Value>>;
 
 inline Words<pipeline::FitMode> FitModeWords() {
-  return {{"enclose", pipeline::FitMode::kEnclose}, {"best", pipeline::FitMode::kBestFit}};
+  return {{"enclose", pipeline::FitMode::kEnclose},
+          {"best", pipeline::FitMode::kBestFit},
+          {"best_fit", pipeline::FitMode::kBestFit}};
 }
 inline Words<pipeline::Quality> QualityWords() {
   return {{"paper", pipeline::Quality::kPaper}, {"tight", pipeline::Quality::kTight}};
@@ -32,7 +36,11 @@ inline Words<body::Unit> UnitWords() {
           {"m", body::Unit::kMetre},
           {"cm", body::Unit::kCentimetre},
           {"mm", body::Unit::kMillimetre},
-          {"in", body::Unit::kInch}};
+          {"in", body::Unit::kInch},
+          {"metre", body::Unit::kMetre},
+          {"centimetre", body::Unit::kCentimetre},
+          {"millimetre", body::Unit::kMillimetre},
+          {"inch", body::Unit::kInch}};
 }
 inline Words<body::UpAxis> UpWords() {
   return {{"auto", body::UpAxis::kAuto},
@@ -44,15 +52,6 @@ inline Words<bool body::PartSelection::*> PartWords() {
   return {{"torso", &body::PartSelection::torso}, {"arms", &body::PartSelection::arms},
           {"legs", &body::PartSelection::legs},   {"head", &body::PartSelection::head},
           {"hands", &body::PartSelection::hands}, {"feet", &body::PartSelection::feet}};
-}
-
-// The same word for a value, for showing it.
-template <typename Value>
-[[nodiscard]] std::string WordOf(const Words<Value>& words, const Value& value) {
-  for (const auto& [word, known] : words) {
-    if (known == value) return word;
-  }
-  return "?";
 }
 
 }  // namespace capfit::client

@@ -4,7 +4,7 @@
 #   deploy/install_packages.sh [build] [test] [bench] [check] [run]
 #
 #   build  compiler and libraries                     (default)
-#   test   what the tests call besides: Python client, JSON Schema, buf
+#   test   what the tests call besides: the Python package and its builder, JSON Schema, buf
 #   bench  what draws the plots of the evaluation
 #   check  formatter, linter, fuzzer and sanitizer runtimes
 #   run    the shared libraries of the finished programs only
@@ -17,9 +17,12 @@ build=(
   libspdlog-dev libcli11-dev nlohmann-json3-dev libcairo2-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )
-test=(python3 python3-grpcio python3-protobuf python3-jsonschema npm git)
+test=(
+  python3 python3-grpcio python3-protobuf python3-numpy python3-jsonschema
+  python3-pip python3-setuptools python3-wheel npm git
+)
 bench=(python3 python3-matplotlib)
-check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3)
+check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3 mypy)
 run=(libgrpc++1.51 libtbb12 libspdlog1.10 libcairo2)
 
 wanted=()

@@ -1,34 +1,17 @@
-// One ApproximateBody call: reads the upload, hands it to the executor, writes what comes of it.
+// One ApproximateBody call: the stream's messages in and out. No geometry here.
 #ifndef CAPFIT_SERVER_APPROXIMATE_BODY_CALL_H_
 #define CAPFIT_SERVER_APPROXIMATE_BODY_CALL_H_
 
-#include <grpcpp/server_context.h>
 #include <grpcpp/support/server_callback.h>
 
-#include <atomic>
-#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <string>
 
-#include "capfit/v1/service.pb.h"
-#include "core/base/fit_observer.h"
-#include "server/fit_backend.h"
-#include "server/fit_executor.h"
-#include "server/mesh_upload.h"
+#include "server/fit_job.h"
 #include "server/response_sequence.h"
-#include "server/server_config.h"
 
 namespace capfit::server {
-
-// What all calls share. Must outlive them.
-struct CallServices {
-  const ServerConfig& config;
-  const FitBackend& backend;
-  const ThreadPool& pool;
-  FitExecutor& executor;
-};
 
 // gRPC's threads run the On...Done callbacks, which only move bytes; the fit runs on the executor,
 // with this object as its observer. At most one write is under way, and the next message is made
@@ -45,43 +28,32 @@ class ApproximateBodyCall final
                                     const CallServices& services);
 
   // For Start only.
-  ApproximateBodyCall(grpc::CallbackServerContext* context, const CallServices& services);
+  ApproximateBodyCall(grpc::CallbackServerContext* context, const CallServices& services)
+      : services_(services), job_(services, *context) {}
 
   void OnReadDone(bool ok) override;
   void OnWriteDone(bool ok) override;
-  void OnCancel() override;
+  void OnCancel() override { job_.Cancel(); }
   void OnDone() override;
 
   void OnStage(Stage stage, double fraction_done) override;
-  [[nodiscard]] bool IsCancelled() const override;
+  [[nodiscard]] bool IsCancelled() const override { return job_.IsOver(); }
 
  private:
   void Begin();
-  [[nodiscard]] absl::Status AddRequest();
   void SubmitJob();
   void RunJob();
-  [[nodiscard]] absl::StatusOr<pipeline::FitResult> Compute();
-  [[nodiscard]] absl::StatusOr<pipeline::FitResult> ComputeGuarded();
-  [[nodiscard]] absl::Status GaveUp() const;
-  // Sends what is next, if nothing is under way. With mutex_ held, as the two below.
+  // Sends what is next, if nothing is under way. With mutex_ held, as NextResponse.
   void Pump();
   [[nodiscard]] bool NextResponse();
-  void FinishWith(const absl::Status& status);
   void End(const absl::Status& status);
 
-  grpc::CallbackServerContext* const context_;
   const CallServices services_;
-  const std::chrono::system_clock::time_point deadline_;
-  const std::chrono::steady_clock::time_point begin_;
-  FitExecutor::Place place_;
+  FitJob job_;
   std::shared_ptr<ApproximateBodyCall> self_;  // until OnDone
-
-  // The upload: touched by OnReadDone, then by the job.
   v1::ApproximateBodyRequest request_;
-  MeshUpload upload_;
-  pipeline::FitOptions options_;
+  bool is_submitted_ = false;  // touched by Begin and OnReadDone only
 
-  std::atomic<bool> cancelled_{false};
   std::mutex mutex_;
   bool job_is_running_ = false;
   bool is_writing_ = false;

@@ -18,16 +18,16 @@ constexpr std::size_t kMaxRequestIdBytes = 128;
 
 absl::Status CheckClaim(const char* field, std::int64_t claimed, std::int64_t limit) {
   if (claimed >= 0 && claimed <= limit) return absl::OkStatus();
-  return InvalidField(ErrorReason::kOutOfRange, field,
-                      absl::StrCat("is ", claimed, ", must be in [0, ", limit, "]"));
+  return OutOfRange(field, claimed, std::int64_t{0}, limit);
+}
+
+absl::Status CheckFormat(v1::MeshFileFormat format) {
+  if (wire::FromWire(format)) return absl::OkStatus();
+  return wire::UnknownEnum("mesh.file.format", format);
 }
 
 absl::Status CheckFile(const v1::FileEncoding& file, const UploadLimits& limits) {
-  if (!wire::FromWire(file.format())) {
-    return InvalidField(
-        ErrorReason::kOutOfRange, "mesh.file.format",
-        absl::StrCat("is ", static_cast<int>(file.format()), ", must be one of MeshFileFormat"));
-  }
+  CAPFIT_RETURN_IF_ERROR(CheckFormat(file.format()));
   return CheckClaim("mesh.file.byte_count", file.byte_count(), limits.max_bytes);
 }
 
@@ -38,12 +38,17 @@ absl::Status CheckArrays(const v1::ArrayEncoding& arrays, const UploadLimits& li
                     static_cast<std::int64_t>(limits.mesh.max_faces));
 }
 
+absl::Status CheckRequestId(const std::string& request_id) {
+  if (request_id.size() <= kMaxRequestIdBytes) return absl::OkStatus();
+  return TooLarge("request_id", request_id.size(), "bytes", kMaxRequestIdBytes);
+}
+
+absl::Status NoEncoding() {
+  return InvalidField(ErrorReason::kMissing, "mesh", "has no encoding, must have file or arrays");
+}
+
 absl::Status CheckHeader(const v1::ApproximateBodyHeader& header, const UploadLimits& limits) {
-  if (header.request_id().size() > kMaxRequestIdBytes) {
-    return InvalidField(
-        ErrorReason::kOutOfRange, "request_id",
-        absl::StrCat("has ", header.request_id().size(), " bytes, limit ", kMaxRequestIdBytes));
-  }
+  CAPFIT_RETURN_IF_ERROR(CheckRequestId(header.request_id()));
   switch (header.mesh().encoding_case()) {
     case v1::MeshHeader::kFile:
       return CheckFile(header.mesh().file(), limits);
@@ -52,21 +57,21 @@ absl::Status CheckHeader(const v1::ApproximateBodyHeader& header, const UploadLi
     case v1::MeshHeader::ENCODING_NOT_SET:
       break;
   }
-  return InvalidField(ErrorReason::kOutOfRange, "mesh.encoding",
-                      "is missing, must be file or arrays");
+  return NoEncoding();
 }
 
 absl::Status CheckMet(const char* field, std::int64_t claimed, std::size_t received) {
   if (claimed == 0 || static_cast<std::size_t>(claimed) == received) return absl::OkStatus();
-  return InvalidField(ErrorReason::kOutOfRange, field,
-                      absl::StrCat("is ", claimed, ", but the chunks bring ", received));
+  return InvalidField(ErrorReason::kCountMismatch, field,
+                      absl::StrCat("is ", claimed, ", but the chunks bring ", received),
+                      {{"value", absl::StrCat(received)}, {"limit", absl::StrCat(claimed)}});
 }
 
-absl::Status CheckAtMost(const char* field, const char* what, std::size_t count,
-                         std::size_t limit) {
-  if (count <= limit) return absl::OkStatus();
-  return InvalidField(ErrorReason::kOutOfRange, field,
-                      absl::StrCat("bring ", count, " ", what, ", limit ", limit));
+absl::Status CheckInThrees(const char* field, std::size_t count) {
+  if (count % 3 == 0) return absl::OkStatus();
+  return InvalidField(ErrorReason::kCountMismatch, field,
+                      absl::StrCat("has ", count, " numbers, must be a multiple of 3"),
+                      {{"value", absl::StrCat(count)}, {"limit", "a multiple of 3"}});
 }
 
 template <typename Numbers>
@@ -103,14 +108,37 @@ absl::Status MeshUpload::Add(const v1::ApproximateBodyRequest& request) {
     case v1::ApproximateBodyRequest::PART_NOT_SET:
       break;
   }
-  return InvalidField(ErrorReason::kOutOfRange, "part",
+  return InvalidField(ErrorReason::kMissing, "part",
                       "is missing: each message must carry a header or a chunk");
 }
 
+absl::Status MeshUpload::AddWhole(const v1::ApproximateBodyUnaryRequest& request) {
+  CAPFIT_RETURN_IF_ERROR(CheckRequestId(request.request_id()));
+  has_header_ = true;
+  header_.set_request_id(request.request_id());
+  *header_.mutable_options() = request.options();
+  v1::MeshHeader& mesh = *header_.mutable_mesh();
+  mesh.set_unit(request.mesh().unit());
+  mesh.set_up_axis(request.mesh().up_axis());
+  switch (request.mesh().encoding_case()) {
+    case v1::InlineMesh::kFile:
+      CAPFIT_RETURN_IF_ERROR(CheckFormat(request.mesh().file().format()));
+      mesh.mutable_file()->set_format(request.mesh().file().format());
+      return AddFileBytes("mesh.file.data", request.mesh().file().data());
+    case v1::InlineMesh::kArrays:
+      mesh.mutable_arrays();
+      return AddArrays("mesh.arrays", request.mesh().arrays());
+    case v1::InlineMesh::ENCODING_NOT_SET:
+      break;
+  }
+  return NoEncoding();
+}
+
 absl::Status MeshUpload::AddHeader(const v1::ApproximateBodyHeader& header) {
-  if (has_header_)
-    return InvalidField(ErrorReason::kOutOfRange, "header",
-                        "came a second time, only the first message may");
+  if (has_header_) {
+    return InvalidField(ErrorReason::kDuplicate, "header",
+                        "came a second time, only the first message may be one");
+  }
   CAPFIT_RETURN_IF_ERROR(CheckHeader(header, limits_));
   has_header_ = true;
   header_ = header;
@@ -127,52 +155,61 @@ absl::Status MeshUpload::AddHeader(const v1::ApproximateBodyHeader& header) {
 }
 
 absl::Status MeshUpload::AddChunk(const v1::MeshChunk& chunk) {
-  if (!has_header_)
-    return InvalidField(ErrorReason::kOutOfRange, "chunk", "came before the header");
+  if (!has_header_) {
+    return InvalidField(ErrorReason::kOutOfOrder, "chunk",
+                        "came before the header, which must be the first message");
+  }
+  if (is_complete()) {
+    return InvalidField(ErrorReason::kCountMismatch, "chunk",
+                        "came after all that the header declares had arrived");
+  }
   const bool wants_file = header_.mesh().has_file();
   switch (chunk.data_case()) {
     case v1::MeshChunk::kFileBytes:
-      if (!wants_file)
-        return InvalidField(ErrorReason::kOutOfRange, "chunk.file_bytes",
-                            "came, but the header says arrays");
-      CAPFIT_RETURN_IF_ERROR(CountBytes("chunk.file_bytes", chunk.file_bytes().size()));
-      file_bytes_ += chunk.file_bytes();
-      return absl::OkStatus();
+      if (wants_file) return AddFileBytes("chunk.file_bytes", chunk.file_bytes());
+      return InvalidField(ErrorReason::kConflict, "chunk.file_bytes",
+                          "came, but the header says arrays");
     case v1::MeshChunk::kArrays:
-      if (wants_file)
-        return InvalidField(ErrorReason::kOutOfRange, "chunk.arrays",
-                            "came, but the header says file");
-      return AddArrays(chunk.arrays());
+      if (!wants_file) return AddArrays("chunk.arrays", chunk.arrays());
+      return InvalidField(ErrorReason::kConflict, "chunk.arrays", "came, but the header says file");
     case v1::MeshChunk::DATA_NOT_SET:
       break;
   }
-  return InvalidField(ErrorReason::kOutOfRange, "chunk.data",
-                      "is missing, must be file_bytes or arrays");
+  return InvalidField(ErrorReason::kMissing, "chunk",
+                      "has no data, must have file_bytes or arrays");
 }
 
 absl::Status MeshUpload::CountBytes(const char* field, std::size_t bytes) {
-  if (bytes == 0)
-    return InvalidField(ErrorReason::kOutOfRange, field,
-                        "is empty, each chunk must bring something");
+  if (bytes == 0) {
+    return InvalidField(ErrorReason::kMissing, field, "is empty, must bring a piece of the mesh");
+  }
   received_bytes_ += static_cast<std::int64_t>(bytes);
   if (received_bytes_ <= limits_.max_bytes) return absl::OkStatus();
   return InvalidField(
-      ErrorReason::kOutOfRange, field,
-      absl::StrCat("brings the upload to ", received_bytes_, " bytes, limit ", limits_.max_bytes));
+      ErrorReason::kTooLarge, field,
+      absl::StrCat("brings the upload to ", received_bytes_, " bytes, must have at most ",
+                   limits_.max_bytes),
+      {{"value", absl::StrCat(received_bytes_)}, {"limit", absl::StrCat(limits_.max_bytes)}});
 }
 
-absl::Status MeshUpload::AddArrays(const v1::MeshArrays& arrays) {
-  CAPFIT_RETURN_IF_ERROR(CountBytes("chunk.arrays", ArrayBytes(arrays)));
+absl::Status MeshUpload::AddFileBytes(const char* field, const std::string& bytes) {
+  CAPFIT_RETURN_IF_ERROR(CountBytes(field, bytes.size()));
+  file_bytes_ += bytes;
+  return absl::OkStatus();
+}
+
+absl::Status MeshUpload::AddArrays(const char* field, const v1::MeshArrays& arrays) {
+  CAPFIT_RETURN_IF_ERROR(CountBytes(field, ArrayBytes(arrays)));
   has_float_ |= !arrays.positions().empty();
   has_double_ |= !arrays.positions_double().empty();
   has_triangles_ |= !arrays.triangle_indices().empty();
   has_polygons_ |= !arrays.face_sizes().empty() || !arrays.face_indices().empty();
   if (has_float_ && has_double_) {
-    return InvalidField(ErrorReason::kOutOfRange, "chunk.arrays",
+    return InvalidField(ErrorReason::kConflict, "mesh.arrays",
                         "mixes positions and positions_double, use one of them");
   }
   if (has_triangles_ && has_polygons_) {
-    return InvalidField(ErrorReason::kOutOfRange, "chunk.arrays",
+    return InvalidField(ErrorReason::kConflict, "mesh.arrays",
                         "mixes triangle_indices and face_sizes, use one of them");
   }
   AppendCoordinates(arrays.positions(), coordinate_count_, soup_.positions);
@@ -180,53 +217,78 @@ absl::Status MeshUpload::AddArrays(const v1::MeshArrays& arrays) {
   Append(arrays.triangle_indices(), soup_.face_vertices);
   Append(arrays.face_sizes(), soup_.face_sizes);
   Append(arrays.face_indices(), soup_.face_vertices);
+  corner_count_ =
+      std::accumulate(arrays.face_sizes().begin(), arrays.face_sizes().end(), corner_count_);
   return CheckArraySizes();
 }
 
-std::size_t MeshUpload::face_count() const {
-  return has_polygons_ ? soup_.face_sizes.size() : soup_.face_vertices.size() / 3;
+absl::Status MeshUpload::CheckArraySizes() const {
+  if (soup_.positions.size() > limits_.mesh.max_vertices) {
+    return TooLarge(positions_field(), soup_.positions.size(), "vertices",
+                    limits_.mesh.max_vertices);
+  }
+  if (soup_.face_count() <= limits_.mesh.max_faces) return absl::OkStatus();
+  return TooLarge(has_polygons_ ? "mesh.arrays.face_sizes" : "mesh.arrays.triangle_indices",
+                  soup_.face_count(), "faces", limits_.mesh.max_faces);
 }
 
-absl::Status MeshUpload::CheckArraySizes() const {
-  CAPFIT_RETURN_IF_ERROR(CheckAtMost("chunk.arrays.positions", "vertices", soup_.positions.size(),
-                                     limits_.mesh.max_vertices));
-  return CheckAtMost(has_polygons_ ? "chunk.arrays.face_sizes" : "chunk.arrays.triangle_indices",
-                     "faces", face_count(), limits_.mesh.max_faces);
+bool MeshUpload::is_complete() const {
+  if (!has_header_) return false;
+  if (header_.mesh().has_file()) {
+    const std::int64_t claimed = header_.mesh().file().byte_count();
+    return claimed > 0 && static_cast<std::int64_t>(file_bytes_.size()) >= claimed;
+  }
+  const v1::ArrayEncoding& arrays = header_.mesh().arrays();
+  return arrays.vertex_count() > 0 && arrays.face_count() > 0 &&
+         coordinate_count_ >= 3 * static_cast<std::size_t>(arrays.vertex_count()) &&
+         soup_.face_count() >= static_cast<std::size_t>(arrays.face_count()) &&
+         soup_.face_vertices.size() >= CornersOfFaces();
+}
+
+std::uint64_t MeshUpload::CornersOfFaces() const {
+  return has_polygons_ ? corner_count_
+                       : 3 * static_cast<std::uint64_t>(header_.mesh().arrays().face_count());
 }
 
 absl::Status MeshUpload::CheckComplete() const {
   if (!has_header_) {
-    return InvalidField(ErrorReason::kOutOfRange, "header",
+    return InvalidField(ErrorReason::kMissing, "header",
                         "is missing: the upload is empty, its first message must be one");
   }
   if (received_bytes_ == 0) {
-    return InvalidField(ErrorReason::kOutOfRange, "chunk",
-                        "is missing: the upload is empty, at least one must follow the "
-                        "header");
+    return InvalidField(ErrorReason::kMissing, "chunk",
+                        "is missing: the upload is empty, at least one must follow the header");
   }
   if (header_.mesh().has_file()) {
     return CheckMet("mesh.file.byte_count", header_.mesh().file().byte_count(), file_bytes_.size());
   }
-  if (coordinate_count_ % 3 != 0) {
-    return InvalidField(
-        ErrorReason::kOutOfRange, "positions",
-        absl::StrCat("has ", coordinate_count_, " numbers, must be a multiple of 3"));
+  CAPFIT_RETURN_IF_ERROR(CheckInThrees(positions_field(), coordinate_count_));
+  if (!has_polygons_) {
+    CAPFIT_RETURN_IF_ERROR(
+        CheckInThrees("mesh.arrays.triangle_indices", soup_.face_vertices.size()));
   }
-  if (!has_polygons_ && soup_.face_vertices.size() % 3 != 0) {
-    return InvalidField(
-        ErrorReason::kOutOfRange, "triangle_indices",
-        absl::StrCat("has ", soup_.face_vertices.size(), " numbers, must be a multiple of 3"));
-  }
-  const std::uint64_t corners =
-      std::accumulate(soup_.face_sizes.begin(), soup_.face_sizes.end(), std::uint64_t{0});
-  if (has_polygons_ && corners != soup_.face_vertices.size()) {
-    return InvalidField(ErrorReason::kOutOfRange, "face_indices",
+  if (has_polygons_ && corner_count_ != soup_.face_vertices.size()) {
+    return InvalidField(ErrorReason::kCountMismatch, "mesh.arrays.face_indices",
                         absl::StrCat("has ", soup_.face_vertices.size(),
-                                     " numbers, but face_sizes add up to ", corners));
+                                     " numbers, but face_sizes add up to ", corner_count_),
+                        {{"value", absl::StrCat(soup_.face_vertices.size())},
+                         {"limit", absl::StrCat(corner_count_)}});
   }
   CAPFIT_RETURN_IF_ERROR(CheckMet("mesh.arrays.vertex_count",
                                   header_.mesh().arrays().vertex_count(), soup_.positions.size()));
-  return CheckMet("mesh.arrays.face_count", header_.mesh().arrays().face_count(), face_count());
+  return CheckMet("mesh.arrays.face_count", header_.mesh().arrays().face_count(),
+                  soup_.face_count());
+}
+
+const char* MeshUpload::positions_field() const {
+  return has_double_ ? "mesh.arrays.positions_double" : "mesh.arrays.positions";
+}
+
+absl::Status MeshUpload::InCallersWords(const absl::Status& status) const {
+  constexpr char kSingle[] = "mesh.arrays.positions[";
+  const std::string field = FieldOf(status).value_or("");
+  if (!has_double_ || field.rfind(kSingle, 0) != 0) return status;
+  return WithField(status, positions_field() + field.substr(sizeof(kSingle) - 2));
 }
 
 absl::StatusOr<mesh::PolygonSoup> MeshUpload::Finish() && {

@@ -18,23 +18,34 @@ struct UploadLimits {
   std::int64_t max_bytes = 128LL * 1024 * 1024;  // of file bytes, or of array elements
 };
 
-// Use: Add() each message in order, then Finish(). After an error the upload is of no further use.
+// Use: Add() each message in order, or AddWhole() the one of a unary call, then Finish(). After an
+// error the upload is of no further use.
 // Claimed sizes are checked against the limits before memory is reserved, and no more memory is
 // taken than has arrived, but for a first reservation of at most 16 MiB.
 //
 // Errors are INVALID_ARGUMENT and name the field, what is wrong and the limit: chunk before header,
-// second header, chunk of the wrong kind, mixed kinds of arrays, empty chunk, too many bytes,
-// vertices or faces, claimed sizes not met, nothing uploaded.
+// second header, chunk of the wrong kind or beyond what was declared, mixed kinds of arrays, empty
+// chunk, too many bytes, vertices or faces, claimed sizes not met, nothing uploaded.
 class MeshUpload {
  public:
   explicit MeshUpload(const UploadLimits& limits = {}) : limits_(limits) {}
 
   [[nodiscard]] absl::Status Add(const v1::ApproximateBodyRequest& request);
+  // `header` then has the options and the request id of the request. O(bytes): not for a thread
+  // that must not block.
+  [[nodiscard]] absl::Status AddWhole(const v1::ApproximateBodyUnaryRequest& request);
+
+  // Whether all that the header declares has arrived; false as long as it declares nothing.
+  [[nodiscard]] bool is_complete() const;
 
   // Whether the header has arrived; `header` is empty before.
   [[nodiscard]] bool has_header() const { return has_header_; }
   [[nodiscard]] const v1::ApproximateBodyHeader& header() const { return header_; }
   [[nodiscard]] std::int64_t received_bytes() const { return received_bytes_; }
+
+  // An error about the mesh that Finish gave, in the words of the upload: the core does not know in
+  // which precision the positions came.
+  [[nodiscard]] absl::Status InCallersWords(const absl::Status& status) const;
 
   // Reads the file, or hands out the arrays. O(bytes): not for a thread that must not block.
   [[nodiscard]] absl::StatusOr<mesh::PolygonSoup> Finish() &&;
@@ -42,10 +53,15 @@ class MeshUpload {
  private:
   [[nodiscard]] absl::Status AddHeader(const v1::ApproximateBodyHeader& header);
   [[nodiscard]] absl::Status AddChunk(const v1::MeshChunk& chunk);
-  [[nodiscard]] absl::Status AddArrays(const v1::MeshArrays& arrays);
+  // `field`: where in the request they stand.
+  [[nodiscard]] absl::Status AddFileBytes(const char* field, const std::string& bytes);
+  [[nodiscard]] absl::Status AddArrays(const char* field, const v1::MeshArrays& arrays);
   [[nodiscard]] absl::Status CountBytes(const char* field, std::size_t bytes);
   [[nodiscard]] absl::Status CheckArraySizes() const;
   [[nodiscard]] absl::Status CheckComplete() const;
+  // How many corners the faces that have been declared or announced by their sizes take.
+  [[nodiscard]] std::uint64_t CornersOfFaces() const;
+  [[nodiscard]] const char* positions_field() const;
 
   UploadLimits limits_;
   bool has_header_ = false;
@@ -54,6 +70,7 @@ class MeshUpload {
   std::string file_bytes_;
   mesh::PolygonSoup soup_;
   std::size_t coordinate_count_ = 0;  // of soup_.positions; not a multiple of 3 within a vertex
+  std::uint64_t corner_count_ = 0;    // that soup_.face_sizes add up to
   bool has_float_ = false;
   bool has_double_ = false;
   bool has_triangles_ = false;

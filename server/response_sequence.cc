@@ -30,7 +30,7 @@ bool ResponseSequence::Fill(v1::ApproximateBodyResponse& response) {
       return true;
     case Section::kPrimitives:
       if (index_++ > 0) return false;
-      *response.mutable_primitives() = wire::PrimitivesToWire(result_.primitives);
+      *response.mutable_primitives() = wire::PrimitivesToWire(result_);
       return true;
     case Section::kWeights:
       return FillWeights(response);

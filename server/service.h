@@ -3,7 +3,7 @@
 #define CAPFIT_SERVER_SERVICE_H_
 
 #include "capfit/v1/service.grpc.pb.h"
-#include "server/approximate_body_call.h"
+#include "server/fit_job.h"
 
 namespace capfit::server {
 
@@ -15,6 +15,10 @@ class Service final : public v1::BodyApproximationService::CallbackService {
 
   grpc::ServerBidiReactor<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>* ApproximateBody(
       grpc::CallbackServerContext* context) override;
+
+  grpc::ServerUnaryReactor* ApproximateBodyUnary(
+      grpc::CallbackServerContext* context, const v1::ApproximateBodyUnaryRequest* request,
+      v1::ApproximateBodyUnaryResponse* response) override;
 
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
                                           const v1::GetServerInfoRequest* request,

@@ -1,4 +1,4 @@
-// Whole files in and out.
+// Whole files in and out; "-" is standard input and standard output.
 #ifndef CAPFIT_CLIENT_PICTURE_FILE_BYTES_H_
 #define CAPFIT_CLIENT_PICTURE_FILE_BYTES_H_
 
@@ -9,18 +9,20 @@
 
 namespace capfit::client {
 
-// NOT_FOUND with the name where the file cannot be read.
+// NOT_FOUND with the name where the file cannot be read, also for a second "-": standard input can
+// be read once.
 [[nodiscard]] absl::StatusOr<std::string> ReadFileBytes(const std::string& path);
 
-// UNAVAILABLE with the name where the file cannot be written.
+// NOT_FOUND with the name where the file cannot be written.
 [[nodiscard]] absl::Status WriteFileBytes(const std::string& path, const std::string& bytes);
+
+// Whether WriteFileBytes will be able to, asked before hours of work are done for nothing: a file
+// that is there is opened and left as it is, one that is not is made and removed again. NOT_FOUND
+// with the name and what the system says.
+[[nodiscard]] absl::Status CheckWritable(const std::string& path);
 
 // The ending of a file name in small letters, with its dot: ".png"; "" where it has none.
 [[nodiscard]] std::string FileEnding(const std::string& path);
-
-// Prints an error that is not OK to standard error and gives the exit code for it: 0 OK, 1 a file
-// cannot be read or written, 2 anything else.
-[[nodiscard]] int ReportStatus(const absl::Status& status);
 
 }  // namespace capfit::client
 

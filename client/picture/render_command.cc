@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "client/exit_code.h"
+#include "client/picture/belongs.h"
+#include "client/picture/centers_file.h"
 #include "client/picture/figure.h"
 #include "client/picture/file_bytes.h"
 #include "client/picture/flat_polygon.h"
@@ -21,7 +24,6 @@
 #include "client/picture/result_set.h"
 #include "client/picture/result_words.h"
 #include "core/base/status.h"
-#include "core/mesh/read_mesh.h"
 #include "core/metrics/measure.h"
 
 namespace capfit::client {
@@ -62,7 +64,7 @@ const std::map<std::string, NamedView>& Views() {
 
 absl::Status CheckArguments(const RenderArguments& arguments) {
   const std::string ending = FileEnding(arguments.output);
-  if (ending != ".png" && ending != ".svg") {
+  if (ending != ".png" && ending != ".svg" && arguments.output != "-") {
     return InvalidField(ErrorReason::kMalformedFile, "output",
                         absl::StrCat("is ", arguments.output, ", must end in .png or .svg"));
   }
@@ -193,7 +195,7 @@ Scene StillScene(const RenderArguments& arguments, const Inputs& in,
 
 absl::StatusOr<Scene> AnimatedScene(const RenderArguments& arguments, const Inputs& in) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string frames, ReadFileBytes(arguments.frames));
-  CAPFIT_ASSIGN_OR_RETURN(const std::string centers, ReadFileBytes(arguments.centers));
+  CAPFIT_ASSIGN_OR_RETURN(const std::string centers, ReadCenters(arguments.centers));
   Scene scene;
   for (const std::size_t frame : arguments.show) {
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<Vector3d> positions,
@@ -211,13 +213,9 @@ absl::StatusOr<Scene> AnimatedScene(const RenderArguments& arguments, const Inpu
 }
 
 // The gaps of the file, which knows the unit best.
-absl::Status UseGapsFile(RenderArguments& arguments, Figure& figure) {
+absl::Status UseGapsFile(RenderArguments& arguments, const Inputs& in, Figure& figure) {
   CAPFIT_ASSIGN_OR_RETURN(const VertexGaps file, ReadVertexGaps(arguments.gaps));
-  if (file.gaps.size() != figure.vertices.size()) {
-    return InvalidField(
-        ErrorReason::kMalformedFile, "gaps",
-        absl::StrCat("has ", file.gaps.size(), " vertices, the body has ", figure.vertices.size()));
-  }
+  CAPFIT_RETURN_IF_ERROR(CheckGapsBelong(file, in.result, in.soup));
   figure.gaps.assign(file.gaps.begin(), file.gaps.end());
   arguments.mm_per_unit = 1000.0 * file.metres_per_unit;
   return absl::OkStatus();
@@ -259,13 +257,12 @@ PictureUp ToUp(const std::string& word) {
 
 absl::StatusOr<Inputs> ReadInputs(const RenderArguments& arguments) {
   Inputs in;
-  CAPFIT_ASSIGN_OR_RETURN(const std::string body, ReadFileBytes(arguments.body));
-  CAPFIT_ASSIGN_OR_RETURN(in.soup, mesh::ReadMesh(std::as_bytes(std::span(body)),
-                                                  mesh::FormatFromFileName(arguments.body)));
+  CAPFIT_ASSIGN_OR_RETURN(in.soup, ReadBodyFile(arguments.body));
   CAPFIT_RETURN_IF_ERROR(CheckSoup(in.soup));
   if (!arguments.result.empty()) {
     CAPFIT_ASSIGN_OR_RETURN(const std::string result, ReadFileBytes(arguments.result));
     CAPFIT_ASSIGN_OR_RETURN(in.result, ParseResultSet(result));
+    CAPFIT_RETURN_IF_ERROR(CheckBelongs(in.result, in.soup));
   }
   // A mesh that is no body is drawn all the same, with less said about it.
   absl::StatusOr<body::Body> understood =
@@ -317,7 +314,7 @@ absl::StatusOr<Scene> MakeScene(RenderArguments& arguments, const Inputs& in) {
   Scene scene = StillScene(arguments, in, centers);
   Figure& figure = *scene.figures.back();
   if (!arguments.gaps.empty()) {
-    CAPFIT_RETURN_IF_ERROR(UseGapsFile(arguments, figure));
+    CAPFIT_RETURN_IF_ERROR(UseGapsFile(arguments, in, figure));
   } else if (arguments.heat && in.body) {
     MeasureGaps(in, *in.body, ThreadPool(), figure);
   }
@@ -349,8 +346,7 @@ absl::Status RunRender(RenderArguments arguments) {
 void AddAnimationOptions(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--frames", arguments.frames,
                      "Deformed vertices: float32, frames x vertices x 3");
-  command.add_option("--centers", arguments.centers,
-                     "Sphere centres: float32, frames x spheres x 3");
+  command.add_option("--centers", arguments.centers, "Sphere centres, as `animate` writes them");
   command.add_option("--show", arguments.show, "Frames to show, e.g. 0,20,60")
       ->delimiter(',')
       ->expected(1, 8);
@@ -365,7 +361,7 @@ void AddRenderCommand(CLI::App& app, int& exit_code) {
   command->add_option("body", arguments->body, "Mesh file")->required();
   command->add_option("result", arguments->result,
                       "RESULT.json of this body; without it the body is drawn alone");
-  command->add_option("-o,--output", arguments->output, "Picture to write, .png or .svg")
+  command->add_option("-o,--output", arguments->output, "Picture to write, .png or .svg; - is PNG")
       ->required();
   command->add_option("--up", arguments->up, "Axis of the mesh that points up")
       ->check(CLI::IsMember({"auto", "x", "y", "z"}))
@@ -392,9 +388,9 @@ void AddRenderCommand(CLI::App& app, int& exit_code) {
   command->add_option("--heat-limit-mm", arguments->heat_limit_mm, "Gap of the strongest colour")
       ->capture_default_str();
   command->add_option("--mm-per-unit", arguments->mm_per_unit,
-                      "Length of the mesh's unit in mm [what the result or the body tells]");
+                      "Length of the mesh's unit in mm [what RESULT or the body tells]");
   AddAnimationOptions(*command, *arguments);
-  command->callback([arguments, &exit_code] { exit_code = ReportStatus(RunRender(*arguments)); });
+  command->callback([arguments, &exit_code] { exit_code = Report(RunRender(*arguments)); });
 }
 
 }  // namespace capfit::client

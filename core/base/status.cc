@@ -64,6 +64,17 @@ absl::Status InvalidField(ErrorReason reason, const std::string& field, const st
   return status;
 }
 
+absl::Status WithField(const absl::Status& status, const std::string& field) {
+  const std::optional<std::string> before = FieldOf(status);
+  if (!before) return status;
+  const std::string message(status.message());
+  absl::Status renamed(status.code(), absl::StrCat(field, message.substr(before->size())));
+  status.ForEachPayload(
+      [&](absl::string_view url, const absl::Cord& payload) { renamed.SetPayload(url, payload); });
+  renamed.SetPayload(kFieldUrl, absl::Cord(field));
+  return renamed;
+}
+
 std::optional<std::string> FieldOf(const absl::Status& status) {
   return PayloadOf(status, kFieldUrl);
 }

@@ -59,6 +59,9 @@ template <typename Count, typename Limit>
                       {{"value", absl::StrCat(count)}, {"limit", absl::StrCat(limit)}});
 }
 
+// The same error about the same field under another name.
+[[nodiscard]] absl::Status WithField(const absl::Status& status, const std::string& field);
+
 // The payloads, where present.
 [[nodiscard]] std::optional<std::string> FieldOf(const absl::Status& status);
 [[nodiscard]] std::optional<ErrorReason> ReasonOf(const absl::Status& status);

@@ -4,12 +4,10 @@
 
 namespace capfit::capsule {
 
-body::Part PartOfCapsule(const PrimitiveSet& set, std::size_t capsule) {
-  const auto part_of = [&](int sphere) {
-    return set.origins[static_cast<std::size_t>(sphere)].part;
-  };
-  const CapsuleEnds& ends = set.capsules[capsule];
-  return std::max(part_of(ends[0]), part_of(ends[1]));
+body::Part PartOfCapsule(const PrimitiveSet& set, std::size_t index) {
+  const auto [first, second] = set.capsules[index];
+  return std::max(set.origins[static_cast<std::size_t>(first)].part,
+                  set.origins[static_cast<std::size_t>(second)].part);
 }
 
 std::vector<geometry::TaperedCapsule> Solids(const PrimitiveSet& set) {

@@ -37,8 +37,9 @@ struct PrimitiveSet {
   }
 };
 
-// The part that a capsule belongs to: of two that it joins, the later one in Part.
-[[nodiscard]] body::Part PartOfCapsule(const PrimitiveSet& set, std::size_t capsule);
+// The part that a capsule counts to: that of its ends; between two parts the later in body::Part,
+// which is the one further out.
+[[nodiscard]] body::Part PartOfCapsule(const PrimitiveSet& set, std::size_t index);
 
 // The solid that the set stands for, ready to be asked: every capsule, and every sphere that no
 // capsule uses.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -48,6 +49,13 @@ constexpr TightenPhase kLastPhase{.steps = 2,
 // alone; on sound layouts tightening has won by far wherever the two were compared.
 constexpr double kSuspectGrowth = 1.25;
 constexpr int kRounds = 3;
+// How much of the time has gone by at the end of each phase, as measured; a round takes this share
+// of what is left up to the last.
+constexpr double kLooseUntil = 0.4;
+constexpr double kTightUntil = 0.65;
+constexpr double kLastUntil = 0.9;
+constexpr double kRoundShare = 0.4;
+constexpr double kGrownUntil = 0.95;
 constexpr double kVolumeSpacing = 0.015;  // of samples, relative to the body's size
 
 double SizeOf(const CoverTarget& target) {
@@ -69,11 +77,11 @@ double SizeOf(const CoverTarget& target) {
 class Coverer {
  public:
   Coverer(const CoverTarget& target, const CoverOptions& options, const ThreadPool& pool,
-          const FitObserver& observer, capsule::PrimitiveSet& set)
+          FitObserver& observer, capsule::PrimitiveSet& set)
       : target_(target),
         options_(options),
         pool_(pool),
-        observer_(observer),
+        meter_(observer),
         set_(set),
         grid_(target.points_m),
         size_(SizeOf(target)),
@@ -85,11 +93,12 @@ class Coverer {
     } else {
       Grow();
     }
+    meter_.Expect(1.0, 1);
     report_.max_vertex_distance_m = MaxVertexDistance();
     report_.volume_m3 = Volume();
     report_.certified_gap_m = CertifiedGap(target_, set_, 0.05 * options_.max_gap_m, pool_);
     // Growing ends with a proof for every triangle, which may be sharper by the tolerance.
-    if (!observer_.IsCancelled()) {
+    if (!meter_.IsCancelled()) {
       report_.certified_gap_m = std::min(report_.certified_gap_m, MaxGap());
     }
     report_.added_points = static_cast<int>(between_.size());
@@ -108,7 +117,7 @@ class Coverer {
     const double volume_before = Volume();
     Tighten();
     Grow();
-    if (Volume() <= kSuspectGrowth * volume_before || observer_.IsCancelled()) return;
+    if (Volume() <= kSuspectGrowth * volume_before || meter_.IsCancelled()) return;
     const capsule::PrimitiveSet tightened = std::exchange(set_, before);
     const std::vector<Eigen::Vector3d> between = std::exchange(between_, {});
     const CoverReport report = std::exchange(report_, {});
@@ -129,9 +138,11 @@ class Coverer {
       const SparsePoints coarse =
           MakeSparse(target_.points_m, AreaWeights(), kSparseSpacing * size_);
       const std::vector<double> coarse_depths(coarse.points_m.size(), AllowedAtVertices());
+      Expect(kLooseUntil, kLoosePhase);
       RunPhase(kLoosePhase, PointGrid(coarse.points_m), coarse_depths, coarse.weights, /*seed=*/1);
     }
     std::vector<double> allowed(target_.points_m.size(), AllowedAtVertices());
+    Expect(kTightUntil, kTightPhase);
     RunPhase(kTightPhase, grid_, allowed, {}, /*seed=*/101);
     // What sticks out between vertices shows only where the vertices are in, and asking for it
     // moves the set on to other such places: a few rounds leave little to growing.
@@ -139,15 +150,20 @@ class Coverer {
       std::vector<Eigen::Vector3d> points = target_.points_m;
       points.insert(points.end(), between_.begin(), between_.end());
       allowed.resize(points.size(), AllowedBetween());
+      Expect(meter_.until() + kRoundShare * (kLastUntil - meter_.until()), kLastPhase);
       RunPhase(kLastPhase, PointGrid(points), allowed, {},
                /*seed=*/201 + 10 * static_cast<std::uint64_t>(round));
     }
   }
 
+  void Expect(double until, const TightenPhase& phase) {
+    meter_.Expect(until, std::int64_t{phase.steps} * set_.primitive_count());
+  }
+
   void RunPhase(TightenPhase phase, const PointGrid& points, const std::vector<double>& allowed_m,
                 const std::vector<double>& weights, std::uint64_t seed) {
     phase.uniform_radius = options_.uniform_radius;
-    coverage::Tighten(points, allowed_m, weights, size_, phase, seed, pool_, observer_, set_);
+    coverage::Tighten(points, allowed_m, weights, size_, phase, seed, pool_, meter_, set_);
   }
 
   // A third of the area of the triangles around each point; a little for those without any.
@@ -183,10 +199,11 @@ class Coverer {
   // Vertices first, then what lies between them. Solids only grow here, so no point is met twice
   // and the rounds come to an end.
   void Grow() {
+    meter_.Expect(kGrownUntil, 1);
     do {
       const std::vector<Demand> demands = OpenDemands();
-      report_.growth_steps += GrowToAll(demands, observer_, set_);
-    } while (!observer_.IsCancelled() && Collect());
+      report_.growth_steps += GrowToAll(demands, meter_.observer(), set_);
+    } while (!meter_.IsCancelled() && Collect());
     // Only contains more by that, and still all that it has to.
     if (options_.uniform_radius) capsule::RaiseToUniformRadii(set_);
   }
@@ -219,7 +236,7 @@ class Coverer {
   const CoverTarget& target_;
   const CoverOptions& options_;
   const ThreadPool& pool_;
-  const FitObserver& observer_;
+  WorkMeter meter_;
   capsule::PrimitiveSet& set_;
   PointGrid grid_;
   double size_;
@@ -231,8 +248,7 @@ class Coverer {
 }  // namespace
 
 CoverReport CoverBody(const CoverTarget& target, const CoverOptions& options,
-                      const ThreadPool& pool, const FitObserver& observer,
-                      capsule::PrimitiveSet& set) {
+                      const ThreadPool& pool, FitObserver& observer, capsule::PrimitiveSet& set) {
   if (target.points_m.empty() || set.spheres.empty()) {
     CoverReport report;
     if (!target.points_m.empty()) {

@@ -54,10 +54,11 @@ struct CoverReport {
 // ones, but for capsules that an end sphere has come to swallow: those go. Mirrored spheres stay
 // exact images of each other, whatever the small asymmetries of the points.
 //
-// With no tolerance, vertices end up 1 um deep or more, unless the observer cancels. Terminates:
-// every growing step covers a point and uncovers none. Typically 40 ms for 12k vertices at n_p 64.
+// Tells the observer the fraction of its own work. With no tolerance, vertices end up 1 um deep or
+// more, unless the observer cancels. Terminates: every growing step covers a point and uncovers
+// none. Typically 40 ms for 12k vertices at n_p 64.
 [[nodiscard]] CoverReport CoverBody(const CoverTarget& target, const CoverOptions& options,
-                                    const ThreadPool& pool, const FitObserver& observer,
+                                    const ThreadPool& pool, FitObserver& observer,
                                     capsule::PrimitiveSet& set);
 
 // Upper bound of the distance by which any point of the target's triangles sticks out of the set,

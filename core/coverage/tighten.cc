@@ -188,13 +188,14 @@ class Tightener {
 
 void Tighten(const PointGrid& points, std::span<const double> allowed_m,
              std::span<const double> weights, double body_size_m, const TightenPhase& phase,
-             std::uint64_t seed, const ThreadPool& pool, const FitObserver& observer,
+             std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
              capsule::PrimitiveSet& set) {
   Tightener tightener(points, allowed_m, weights, body_size_m, pool, set);
-  for (int i = 0; i < phase.steps && !observer.IsCancelled(); ++i) {
+  for (int i = 0; i < phase.steps && !meter.IsCancelled(); ++i) {
     const double trust = Between(phase.first_trust, phase.last_trust, i, phase.steps);
     const double penalty = Between(phase.first_penalty, phase.last_penalty, i, phase.steps);
     tightener.Step(trust * body_size_m, penalty, phase, seed + static_cast<std::uint64_t>(i));
+    meter.Add(set.primitive_count());
   }
 }
 

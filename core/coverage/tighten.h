@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
+#include "core/base/work_meter.h"
 #include "core/capsule/primitive_set.h"
 #include "core/coverage/point_grid.h"
 
@@ -43,10 +43,11 @@ struct TightenPhase {
 // `allowed_m` is by the caller's index of the point, in metres; negative asks for depth; `weights`
 // too, any unit, or empty. The result depends on the points smoothly but where the nearest solid of
 // one changes. Costs 3 ms a step for ten thousand points and some fifty solids; stops early when
-// cancelled. The result is not feasible by itself: at the last trust region's accuracy only.
+// cancelled. Adds the set's primitives to the meter in each step. The result is not feasible by
+// itself: at the last trust region's accuracy only.
 void Tighten(const PointGrid& points, std::span<const double> allowed_m,
              std::span<const double> weights, double body_size_m, const TightenPhase& phase,
-             std::uint64_t seed, const ThreadPool& pool, const FitObserver& observer,
+             std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
              capsule::PrimitiveSet& set);
 
 }  // namespace capfit::coverage

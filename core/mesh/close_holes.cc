@@ -94,8 +94,11 @@ class HoleCloser {
 
   absl::StatusOr<ClosedHoles> Run() {
     const std::optional<std::vector<Loop>> loops = LoopFinder(surface_).Run();
-    if (!loops.has_value())
-      return Refused(ErrorReason::kHoleNotClosed, "open edges do not form loops");
+    if (!loops.has_value()) {
+      return Refused(ErrorReason::kHoleNotClosed,
+                     "the open edges of the surface do not form loops that could be closed; mend "
+                     "it in a modelling program");
+    }
     NoteEdges(*loops);
     for (const Loop& loop : *loops) CAPFIT_RETURN_IF_ERROR(Close(loop));
     return report_;

@@ -69,27 +69,78 @@ double LoadScaled(const std::byte* bytes, bool normalized) {
   return std::max(value / static_cast<double>(std::numeric_limits<Value>::max()), -1.0);
 }
 
+// No size in a file can exceed that of the largest file that fits in memory.
+constexpr std::size_t kMostBytes = std::size_t{1} << 48;
+
 // json[key] as a size; `fallback` where it is absent, nothing where it is anything else.
 std::optional<std::size_t> SizeAt(const json& parent, const char* key, std::size_t fallback) {
   if (!parent.is_object() || !parent.contains(key)) return fallback;
-  // No size in a file can exceed that of the largest file that fits in memory.
-  return IndexAt(parent, key, std::size_t{1} << 48);
+  return IndexAt(parent, key, kMostBytes);
+}
+
+absl::StatusOr<json> ParseJsonChunk(std::span<const std::byte> chunk) {
+  if (chunk.size() > kMostJsonBytes) {
+    return FileTooLarge({}, chunk.size(), "bytes of JSON", kMostJsonBytes);
+  }
+  std::optional<json> parsed = ParseGltfJson(AsText(chunk));
+  if (parsed.has_value()) return *std::move(parsed);
+  return FileError(ErrorReason::kMalformedFile, {}, "has a JSON chunk that is no JSON object");
+}
+
+// The place of a buffer view in the binary chunk.
+struct ViewRange {
+  std::size_t offset = 0;
+  std::size_t size = 0;
+};
+
+absl::StatusOr<ViewRange> RangeOf(const GlbFile& file, const json& view, const FilePlace& place) {
+  if (view.is_object() && view.contains("extensions")) {
+    const json& extensions = view["extensions"];
+    if (extensions.is_object() && extensions.contains("EXT_meshopt_compression")) {
+      return FileError(ErrorReason::kUnsupportedFile, place,
+                       "it is compressed with EXT_meshopt_compression, which is not read: export "
+                       "uncompressed");
+    }
+  }
+  const json& buffers = ArrayAt(file.json, "buffers");
+  const std::optional<std::size_t> buffer = IndexAt(view, "buffer", buffers.size());
+  if (!buffer.has_value()) return BadIndexAt(place, view, "buffer", buffers.size());
+  if (*buffer != 0 || !buffers[0].is_object() || buffers[0].contains("uri")) {
+    return FileError(ErrorReason::kUnsupportedFile, place,
+                     "it is not in the file's own binary chunk, and no other file is opened");
+  }
+  const std::optional<std::size_t> offset = SizeAt(view, "byteOffset", 0);
+  const std::optional<std::size_t> size = IndexAt(view, "byteLength", kMostBytes);
+  if (!offset.has_value() || !size.has_value()) {
+    return FileError(ErrorReason::kMalformedFile, place, "it has a bad offset or length");
+  }
+  if (*offset > file.binary.size() || *size > file.binary.size() - *offset) {
+    return FileError(ErrorReason::kOutOfRange, place,
+                     absl::StrCat("it is out of range: it ends at byte ", *offset + *size,
+                                  " of the ", file.binary.size(), " in the binary chunk"),
+                     ValueAndLimit(*offset + *size, file.binary.size()));
+  }
+  return ViewRange{*offset, *size};
 }
 
 }  // namespace
 
 absl::StatusOr<GlbFile> OpenGlb(std::span<const std::byte> bytes) {
   if (bytes.size() < 20 || WordAt(bytes, 0) != 0x46546C67) {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        "is no GLB file: it must begin with 'glTF' and a header");
+    return FileError(ErrorReason::kMalformedFile, {},
+                     "is no GLB file: it must begin with 'glTF' and a header");
   }
-  if (WordAt(bytes, 4) != 2)
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "must be of glTF version 2");
+  if (const std::uint32_t version = WordAt(bytes, 4); version != 2) {
+    return FileError(ErrorReason::kUnsupportedFile, {},
+                     absl::StrCat("is of glTF version ", version, ", must be of version 2"),
+                     ValueAndLimit(version, 2));
+  }
   const std::size_t length = WordAt(bytes, 8);
   if (length > bytes.size()) {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        absl::StrCat("ends early: its header claims ", length,
-                                     " bytes, but it has only ", bytes.size()));
+    return FileError(ErrorReason::kMalformedFile, {},
+                     absl::StrCat("ends early: its header claims ", length,
+                                  " bytes, but it has only ", bytes.size()),
+                     ValueAndLimit(length, bytes.size()));
   }
   bytes = bytes.first(std::max<std::size_t>(length, 20));
   GlbFile file;
@@ -99,30 +150,21 @@ absl::StatusOr<GlbFile> OpenGlb(std::span<const std::byte> bytes) {
     const std::uint32_t type = WordAt(bytes, offset + 4);
     offset += 8;
     if (size > bytes.size() - offset) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          absl::StrCat("ends early: a chunk claims ", size, " bytes, but only ",
-                                       bytes.size() - offset, " follow"));
+      return FileError(ErrorReason::kMalformedFile, {},
+                       absl::StrCat("ends early: a chunk claims ", size, " bytes, but only ",
+                                    bytes.size() - offset, " follow"),
+                       ValueAndLimit(size, bytes.size() - offset));
     }
     const std::span<const std::byte> chunk = bytes.subspan(offset, size);
     if (type == kJsonChunk && !has_json) {
-      if (size > kMostJsonBytes) {
-        return InvalidField(
-            ErrorReason::kMalformedFile, "mesh.file",
-            absl::StrCat("has ", size, " bytes of JSON, must have at most ", kMostJsonBytes));
-      }
-      std::optional<json> parsed = ParseGltfJson(AsText(chunk));
-      if (!parsed.has_value()) {
-        return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                            "has a JSON chunk that is no JSON object");
-      }
-      file.json = *std::move(parsed);
+      CAPFIT_ASSIGN_OR_RETURN(file.json, ParseJsonChunk(chunk));
       has_json = true;
     } else if (type == kBinaryChunk && file.binary.empty()) {
       file.binary = chunk;
     }
     offset += std::min(bytes.size() - offset, (size + 3) / 4 * 4);
   }
-  if (!has_json) return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has no JSON chunk");
+  if (!has_json) return FileError(ErrorReason::kMalformedFile, {}, "has no JSON chunk");
   return file;
 }
 
@@ -135,6 +177,16 @@ std::optional<std::size_t> IndexAt(const json& parent, const char* key, std::siz
   return value;
 }
 
+absl::Status BadIndexAt(const FilePlace& place, const json& parent, const char* key,
+                        std::size_t limit) {
+  if (!parent.is_object() || !parent.contains(key)) {
+    return FileError(ErrorReason::kMalformedFile, place, absl::StrCat(key, " is missing"));
+  }
+  const json& value = parent[key];
+  if (value.is_number_integer()) return FileOutOfRange(place, key, value.dump(), IndexRange(limit));
+  return FileError(ErrorReason::kMalformedFile, place, absl::StrCat(key, " is no index"));
+}
+
 const json& ArrayAt(const json& parent, const char* key) {
   static const json& kEmpty = *new json(json::array());  // never destroyed: safe at exit
   if (!parent.is_object()) return kEmpty;
@@ -144,62 +196,40 @@ const json& ArrayAt(const json& parent, const char* key) {
 
 absl::StatusOr<GltfAccessor> GltfAccessor::Create(const GlbFile& file, std::size_t index,
                                                   const std::string& type) {
-  const std::string name = absl::StrCat("accessor ", index);
+  const FilePlace place = AtElement(absl::StrCat("accessor ", index));
   const json& accessors = ArrayAt(file.json, "accessors");
-  if (index >= accessors.size())
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has no " + name);
+  if (index >= accessors.size()) {
+    return FileError(ErrorReason::kMalformedFile, place, "the file has no such accessor");
+  }
   const json& accessor = accessors[index];
   GltfAccessor result;
   result.components_ = ComponentsOf(type);
   if (!accessor.is_object() || !accessor.contains("type") || accessor["type"] != type) {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        absl::StrCat("must have ", name, " of type ", type));
+    return FileError(ErrorReason::kMalformedFile, place, "it must be of type " + type);
   }
   if (accessor.contains("sparse")) {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        name +
-                            " is sparse, which is not read: export without morph data "
-                            "or with plain accessors");
+    return FileError(ErrorReason::kUnsupportedFile, place,
+                     "sparse accessors are not read: export without morph data or with plain "
+                     "accessors");
   }
   result.normalized_ = accessor.contains("normalized") && accessor["normalized"] == true;
-  CAPFIT_RETURN_IF_ERROR(result.FindBytes(file, accessor, name));
+  CAPFIT_RETURN_IF_ERROR(result.FindBytes(file, accessor, place));
   return result;
 }
 
 absl::Status GltfAccessor::FindBytes(const GlbFile& file, const json& accessor,
-                                     const std::string& name) {
+                                     const FilePlace& place) {
   const json& views = ArrayAt(file.json, "bufferViews");
   const std::optional<std::size_t> view_index = IndexAt(accessor, "bufferView", views.size());
-  if (!view_index.has_value())
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file", name + " has no buffer view");
+  if (!view_index.has_value()) return BadIndexAt(place, accessor, "bufferView", views.size());
   const json& view = views[*view_index];
-  if (view.is_object() && view.contains("extensions")) {
-    const json& extensions = view["extensions"];
-    if (extensions.is_object() && extensions.contains("EXT_meshopt_compression")) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "is compressed with EXT_meshopt_compression, which is not read");
-    }
-  }
   const std::string view_name = absl::StrCat("buffer view ", *view_index);
-  const json& buffers = ArrayAt(file.json, "buffers");
-  const std::optional<std::size_t> buffer = IndexAt(view, "buffer", buffers.size());
-  if (buffer != std::size_t{0} || !buffers[0].is_object() || buffers[0].contains("uri")) {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        view_name + " is not in the file's own binary chunk");
-  }
-  const std::optional<std::size_t> view_offset = SizeAt(view, "byteOffset", 0);
-  const std::optional<std::size_t> view_size = IndexAt(view, "byteLength", std::size_t{1} << 48);
-  if (!view_offset.has_value() || !view_size.has_value() || *view_offset > file.binary.size() ||
-      *view_size > file.binary.size() - *view_offset) {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        absl::StrCat(view_name, " is out of range: it must lie within the ",
-                                     file.binary.size(), " bytes of the binary chunk"));
-  }
+  CAPFIT_ASSIGN_OR_RETURN(const ViewRange range, RangeOf(file, view, AtElement(view_name)));
   const std::optional<std::size_t> type = IndexAt(accessor, "componentType", 10'000);
   const std::optional<std::size_t> size = SizeOfComponent(static_cast<int>(type.value_or(0)));
-  if (!size.has_value())
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        name + " has no known component type");
+  if (!size.has_value()) {
+    return FileError(ErrorReason::kMalformedFile, place, "it has no known component type");
+  }
   component_type_ = static_cast<int>(*type);
   const std::size_t element = *size * components_;
   const std::optional<std::size_t> stride = SizeAt(view, "byteStride", element);
@@ -207,19 +237,19 @@ absl::Status GltfAccessor::FindBytes(const GlbFile& file, const json& accessor,
   const std::optional<std::size_t> count = IndexAt(accessor, "count", std::size_t{1} << 32);
   if (!stride.has_value() || *stride < element || *stride > 255 || !offset.has_value() ||
       !count.has_value()) {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        name + " has a bad stride, offset or count");
+    return FileError(ErrorReason::kMalformedFile, place, "it has a bad stride, offset or count");
   }
   // count < 2^32 and stride < 2^8: no overflow.
   const std::size_t needed = *count == 0 ? 0 : *offset + (*count - 1) * *stride + element;
-  if (needed > *view_size) {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        absl::StrCat(name, " is out of range: it needs ", needed, " bytes of ",
-                                     view_name, ", which has ", *view_size));
+  if (needed > range.size) {
+    return FileError(ErrorReason::kOutOfRange, place,
+                     absl::StrCat("it is out of range: it needs ", needed, " bytes of ", view_name,
+                                  ", which has ", range.size),
+                     ValueAndLimit(needed, range.size));
   }
   count_ = *count;
   stride_ = *stride;
-  if (count_ > 0) bytes_ = file.binary.subspan(*view_offset + *offset, needed - *offset);
+  if (count_ > 0) bytes_ = file.binary.subspan(range.offset + *offset, needed - *offset);
   return absl::OkStatus();
 }
 

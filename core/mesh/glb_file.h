@@ -10,6 +10,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "core/mesh/file_error.h"
 
 namespace capfit::mesh {
 
@@ -26,6 +27,10 @@ struct GlbFile {
 // json[key] as an index below `limit`; nothing where it is absent or anything else.
 [[nodiscard]] std::optional<std::size_t> IndexAt(const nlohmann::json& json, const char* key,
                                                  std::size_t limit);
+
+// Why IndexAt() gives nothing where there must be an index.
+[[nodiscard]] absl::Status BadIndexAt(const FilePlace& place, const nlohmann::json& json,
+                                      const char* key, std::size_t limit);
 
 // json[key] as an array; an empty one where it is absent or no array.
 [[nodiscard]] const nlohmann::json& ArrayAt(const nlohmann::json& json, const char* key);
@@ -48,7 +53,7 @@ class GltfAccessor {
  private:
   GltfAccessor() = default;
   absl::Status FindBytes(const GlbFile& file, const nlohmann::json& accessor,
-                         const std::string& name);
+                         const FilePlace& place);
 
   std::span<const std::byte> bytes_;
   std::size_t count_ = 0;

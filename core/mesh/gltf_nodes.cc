@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/mesh/file_error.h"
 #include "core/mesh/glb_file.h"
 
 namespace capfit::mesh {
@@ -61,18 +62,13 @@ class NodeTree {
   explicit NodeTree(const json& gltf) : gltf_(gltf), nodes_(ArrayAt(gltf, "nodes")) {}
 
   absl::StatusOr<GltfNodes> Run() {
-    if (nodes_.size() > kMostNodes) {
-      return InvalidField(
-          ErrorReason::kMalformedFile, "mesh.file",
-          absl::StrCat("has ", nodes_.size(), " nodes, must have at most ", kMostNodes));
-    }
+    if (nodes_.size() > kMostNodes) return FileTooLarge({}, nodes_.size(), "nodes", kMostNodes);
     CAPFIT_RETURN_IF_ERROR(FindChildren());
     result_.to_world.assign(nodes_.size(), Eigen::Matrix4d::Identity());
     // What stays unplaced hangs on a ring of nodes.
     const std::vector<std::size_t> placed = Walk(roots_, true);
     if (placed.size() != nodes_.size()) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "has nodes that are their own ancestors");
+      return FileError(ErrorReason::kMalformedFile, {}, "has nodes that are their own ancestors");
     }
     const json& scenes = ArrayAt(gltf_, "scenes");
     if (scenes.empty()) {
@@ -92,8 +88,8 @@ class NodeTree {
       children_[n] = IndicesAt(nodes_[n], "children", nodes_.size());
       for (const std::size_t child : children_[n]) {
         if (has_parent[child]) {
-          return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                              absl::StrCat("gives node ", child, " two parents"));
+          return FileError(ErrorReason::kMalformedFile, AtElement(absl::StrCat("node ", child)),
+                           "it has two parents");
         }
         has_parent[child] = true;
       }

@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/mesh/file_error.h"
 #include "core/mesh/text_scanner.h"
 
 namespace capfit::mesh {
@@ -26,6 +27,8 @@ std::optional<PlyType> ParseType(std::string_view word) {
   return std::nullopt;
 }
 
+constexpr char kEncodings[] = "ascii, binary_little_endian, binary_big_endian";
+
 std::optional<PlyEncoding> ParseEncoding(std::string_view word) {
   if (word == "ascii") return PlyEncoding::kText;
   if (word == "binary_little_endian") return PlyEncoding::kLittleEndian;
@@ -39,7 +42,7 @@ class HeaderReader {
 
   absl::StatusOr<PlyHeader> Run() {
     if (lines_.AtEnd() || WordScanner(lines_.NextLine()).NextWord() != "ply") {
-      return Error("a PLY file begins with the line 'ply'");
+      return Malformed("a PLY file begins with the line 'ply'");
     }
     while (!lines_.AtEnd()) {
       WordScanner words(lines_.NextLine());
@@ -47,13 +50,14 @@ class HeaderReader {
       if (keyword == "end_header") return Finish();
       CAPFIT_RETURN_IF_ERROR(ReadLine(keyword, words));
     }
-    return Error("the file ends before 'end_header'");
+    return Malformed("the file ends before 'end_header'");
   }
 
  private:
   absl::StatusOr<PlyHeader> Finish() {
-    if (!has_format_) return Error("the header has no 'format' line");
+    if (!has_format_) return Malformed("the header has no 'format' line");
     header_.size_bytes = text_.size() - lines_.Rest().size();
+    header_.lines = lines_.number();
     return std::move(header_);
   }
 
@@ -62,12 +66,19 @@ class HeaderReader {
     if (keyword == "element") return ReadElement(words);
     if (keyword == "property") return ReadProperty(words);
     if (keyword.empty() || keyword == "comment" || keyword == "obj_info") return absl::OkStatus();
-    return Error("unknown keyword in the header");
+    return Malformed("unknown keyword in the header");
   }
 
   absl::Status ReadFormat(WordScanner words) {
-    const std::optional<PlyEncoding> encoding = ParseEncoding(words.NextWord());
-    if (!encoding.has_value() || has_format_) return Error("bad 'format' line");
+    if (has_format_) return Malformed("the header has two 'format' lines");
+    const std::string_view word = words.NextWord();
+    const std::optional<PlyEncoding> encoding = ParseEncoding(word);
+    if (!encoding.has_value()) {
+      return FileError(
+          ErrorReason::kUnsupportedFile, Here(),
+          absl::StrCat("the format is ", Quoted(word), ", must be one of ", kEncodings),
+          ValueAndLimit(Printable(word), kEncodings));
+    }
     header_.encoding = *encoding;
     has_format_ = true;
     return absl::OkStatus();
@@ -77,39 +88,43 @@ class HeaderReader {
     PlyElement element;
     element.name = words.NextWord();
     const std::optional<std::uint64_t> count = ParseNumber<std::uint64_t>(words.NextWord());
-    if (element.name.empty() || !count.has_value()) return Error("bad 'element' line");
-    if (header_.elements.size() >= kMaxElements) return Error("too many elements");
+    if (element.name.empty() || !count.has_value()) return Malformed("bad 'element' line");
+    if (header_.elements.size() >= kMaxElements) {
+      return FileTooLarge(Here(), kMaxElements + 1, "elements", kMaxElements);
+    }
     element.count = *count;
     header_.elements.push_back(std::move(element));
     return absl::OkStatus();
   }
 
   absl::Status ReadProperty(WordScanner words) {
-    if (header_.elements.empty()) return Error("'property' comes before 'element'");
+    if (header_.elements.empty()) return Malformed("'property' comes before 'element'");
     std::vector<PlyProperty>& properties = header_.elements.back().properties;
-    if (properties.size() >= kMaxProperties) return Error("too many properties");
+    if (properties.size() >= kMaxProperties) {
+      return FileTooLarge(Here(), kMaxProperties + 1, "properties of one element", kMaxProperties);
+    }
     PlyProperty property;
     std::string_view word = words.NextWord();
     if (word == "list") {
       property.is_list = true;
       const std::optional<PlyType> count_type = ParseType(words.NextWord());
       if (!count_type.has_value() || *count_type >= PlyType::kFloat32) {
-        return Error("bad type of a list's length");
+        return Malformed("bad type of a list's length");
       }
       property.count_type = *count_type;
       word = words.NextWord();
     }
     const std::optional<PlyType> type = ParseType(word);
     property.name = words.NextWord();
-    if (!type.has_value() || property.name.empty()) return Error("bad 'property' line");
+    if (!type.has_value() || property.name.empty()) return Malformed("bad 'property' line");
     property.type = *type;
     properties.push_back(std::move(property));
     return absl::OkStatus();
   }
 
-  absl::Status Error(const std::string& problem) const {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        absl::StrCat("line ", lines_.number(), ": ", problem));
+  [[nodiscard]] FilePlace Here() const { return AtLine(lines_.number()); }
+  absl::Status Malformed(const std::string& problem) const {
+    return FileError(ErrorReason::kMalformedFile, Here(), problem);
   }
 
   std::string_view text_;
@@ -136,6 +151,14 @@ std::size_t SizeOf(PlyType type) {
       return 8;
   }
   return 8;
+}
+
+std::uint64_t PlyHeader::vertex_count() const {
+  for (const PlyElement& element : elements) {
+    const bool has_data = element.count > 0 && !element.properties.empty();
+    if (has_data && element.name == "vertex") return element.count;
+  }
+  return 0;
 }
 
 absl::StatusOr<PlyHeader> ReadPlyHeader(std::string_view text) { return HeaderReader(text).Run(); }

@@ -36,6 +36,10 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kText;
   std::vector<PlyElement> elements;
   std::size_t size_bytes = 0;  // where the data begin
+  std::size_t lines = 0;       // of the header
+
+  // As the header claims; 0 where it has no element 'vertex'.
+  [[nodiscard]] std::uint64_t vertex_count() const;
 };
 
 // Reads up to and including the line `end_header`. INVALID_ARGUMENT names the line.

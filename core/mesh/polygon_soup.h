@@ -24,6 +24,9 @@ struct PolygonSoup {
   // The corners of all faces, one face after the other.
   std::vector<std::uint32_t> face_vertices;
   std::vector<NamedJoint> joints;  // often empty
+  // Read from a file: errors name the file, and faces of one or two corners, which PLY and OFF
+  // files have, are left out with a warning. From a caller such faces are refused.
+  bool is_from_file = false;
 
   [[nodiscard]] std::size_t face_count() const {
     return face_sizes.empty() ? face_vertices.size() / 3 : face_sizes.size();

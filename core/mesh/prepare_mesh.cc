@@ -100,7 +100,7 @@ class MeshMender {
  private:
   [[nodiscard]] absl::Status CheckCancelled() const {
     if (!observer_.IsCancelled()) return absl::OkStatus();
-    return absl::CancelledError("cancelled while the mesh was mended");
+    return Refused(ErrorReason::kCancelled, "cancelled while the mesh was mended");
   }
 
   void Triangulate(const PolygonSoup& soup) {

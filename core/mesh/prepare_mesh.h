@@ -35,7 +35,8 @@ struct PreparedMesh {
 //
 // Steps, each of which warns with a count of what it changed:
 //   1. Sizes, finite positions, indices; unused vertices are ignored.          UNUSED_VERTICES
-//   2. Triangles (see triangulate_faces.h); degenerate ones are dropped.       DEGENERATE_FACES
+//   2. Triangles (see triangulate_faces.h); degenerate ones are dropped, and
+//      of files also faces of one or two corners (from callers: refused).      DEGENERATE_FACES
 //   3. Copies of faces are dropped.                                            DUPLICATE_FACES
 //   4. Vertices of open edges are welded: equal ones, then those within 1e-5
 //      of the used vertices' diagonal. Closed surfaces that touch stay apart.  VERTICES_WELDED
@@ -52,7 +53,8 @@ struct PreparedMesh {
 // left as it is; SURFACE_OVERLAPS tells of it where it encloses more than a thousandth of its
 // volume twice.
 //
-// INVALID_ARGUMENT names the first offender: "triangle_indices[17] is 90210, must be below 6890".
+// INVALID_ARGUMENT names the first offender: "mesh.arrays.triangle_indices[17] is 90210, must be
+// below 6890".
 // FAILED_PRECONDITION says why there is no body in it: NO_SURFACE, NO_VOLUME, TWO_BODIES (a second
 // part of half the volume or more), NOT_ORIENTABLE, HOLE_NOT_CLOSED, OPEN_SURFACE (the holes are
 // larger than a third of the surface), NOT_MANIFOLD. CANCELLED where the observer says so.

@@ -13,6 +13,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/mesh/file_error.h"
 #include "core/mesh/glb_file.h"
 #include "core/mesh/gltf_nodes.h"
 #include "core/mesh/recover_decimals.h"
@@ -59,18 +60,17 @@ class GlbReader {
       CAPFIT_ASSIGN_OR_RETURN(const Eigen::Matrix4d to_world, Place(nodes[n], n));
       base_of_positions_.clear();
       const json& primitives = ArrayAt(meshes[*mesh], "primitives");
-      if (primitives.size() > primitives_left_) {
-        return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                            absl::StrCat("draws more than ", kMostPrimitives, " primitives"));
+      drawn_primitives_ += primitives.size();
+      if (drawn_primitives_ > kMostPrimitives) {
+        return FileTooLarge(AtElement(absl::StrCat("node ", n)), drawn_primitives_,
+                            "drawn primitives", kMostPrimitives);
       }
-      primitives_left_ -= primitives.size();
-      for (const json& primitive : primitives) {
-        CAPFIT_RETURN_IF_ERROR(AddPrimitive(primitive, to_world));
+      for (std::size_t p = 0; p < primitives.size(); ++p) {
+        CAPFIT_RETURN_IF_ERROR(AddPrimitive(primitives[p], {n, *mesh, p}, to_world));
       }
     }
     if (soup_.face_vertices.empty()) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "has no mesh: its scene draws no triangles");
+      return FileError(ErrorReason::kMissing, {}, "has no mesh: its scene draws no triangles");
     }
     // (What no transform moved is for PrepareMesh to look at.)
     if (rounding_ > 0.0) {
@@ -88,8 +88,9 @@ class GlbReader {
     if (!skin_index.has_value()) return nodes_.to_world[index];
     auto read = skins_read_.find(*skin_index);
     if (read == skins_read_.end()) {
+      const FilePlace place = AtElement(absl::StrCat("skin ", *skin_index));
       CAPFIT_ASSIGN_OR_RETURN(const std::optional<Eigen::Matrix4d> bound,
-                              ReadSkin(skins[*skin_index]));
+                              ReadSkin(skins[*skin_index], place));
       read = skins_read_.emplace(*skin_index, bound).first;
     }
     return read->second.value_or(nodes_.to_world[index]);
@@ -97,10 +98,11 @@ class GlbReader {
 
   // Adds the skin's joints. Where the meshes stand that it binds: at the bind pose each joint moves
   // them by the same matrix, so the first joint's will do; nothing where it does not say.
-  absl::StatusOr<std::optional<Eigen::Matrix4d>> ReadSkin(const json& skin) {
-    CAPFIT_ASSIGN_OR_RETURN(const std::vector<std::size_t> joints, JointsOf(skin));
+  absl::StatusOr<std::optional<Eigen::Matrix4d>> ReadSkin(const json& skin,
+                                                          const FilePlace& place) {
+    CAPFIT_ASSIGN_OR_RETURN(const std::vector<std::size_t> joints, JointsOf(skin, place));
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<Eigen::Matrix4d> to_joint,
-                            InverseBindMatrices(skin, joints.size()));
+                            InverseBindMatrices(skin, joints.size(), place));
     std::optional<Eigen::Matrix4d> to_world;
     if (!joints.empty() && !to_joint.empty()) to_world = nodes_.to_world[joints[0]] * to_joint[0];
     if (to_world.has_value() && !IsTransform(*to_world)) to_world.reset();
@@ -122,18 +124,23 @@ class GlbReader {
     soup_.joints.push_back({text, position});
   }
 
-  absl::StatusOr<std::vector<std::size_t>> JointsOf(const json& skin) const {
+  absl::StatusOr<std::vector<std::size_t>> JointsOf(const json& skin,
+                                                    const FilePlace& place) const {
     const json& entries = ArrayAt(skin, "joints");
     if (entries.size() > kMostJoints) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          absl::StrCat("has a skin with ", entries.size(),
-                                       " joints, must have at most ", kMostJoints));
+      return FileError(
+          ErrorReason::kTooLarge, place,
+          absl::StrCat("it has ", entries.size(), " joints, must have at most ", kMostJoints),
+          ValueAndLimit(entries.size(), kMostJoints));
     }
     std::vector<std::size_t> joints;
     for (const json& entry : entries) {
-      if (!entry.is_number_unsigned() || entry.get<std::uint64_t>() >= nodes_.to_world.size()) {
-        return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                            "has a skin whose joint is no node");
+      if (!entry.is_number_unsigned()) {
+        return FileError(ErrorReason::kMalformedFile, place, "it has a joint that is no index");
+      }
+      if (entry.get<std::uint64_t>() >= nodes_.to_world.size()) {
+        return FileOutOfRange(place, "a joint", entry.get<std::uint64_t>(),
+                              IndexRange(nodes_.to_world.size()));
       }
       joints.push_back(entry.get<std::size_t>());
     }
@@ -142,20 +149,19 @@ class GlbReader {
 
   // Empty where the file has none.
   absl::StatusOr<std::vector<Eigen::Matrix4d>> InverseBindMatrices(const json& skin,
-                                                                   std::size_t joints) const {
+                                                                   std::size_t joints,
+                                                                   const FilePlace& place) const {
     std::vector<Eigen::Matrix4d> matrices;
     if (!skin.is_object() || !skin.contains("inverseBindMatrices")) return matrices;
-    const std::optional<std::size_t> index =
-        IndexAt(skin, "inverseBindMatrices", ArrayAt(file_.json, "accessors").size());
-    if (!index.has_value())
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "has a skin without its matrices");
+    CAPFIT_ASSIGN_OR_RETURN(const std::size_t index,
+                            AccessorAt(skin, "inverseBindMatrices", place));
     CAPFIT_ASSIGN_OR_RETURN(const GltfAccessor accessor,
-                            GltfAccessor::Create(file_, *index, "MAT4"));
+                            GltfAccessor::Create(file_, index, "MAT4"));
     if (accessor.count() < joints) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          absl::StrCat("has a skin of ", joints, " joints with only ",
-                                       accessor.count(), " matrices"));
+      return FileError(
+          ErrorReason::kCountMismatch, place,
+          absl::StrCat("it has ", joints, " joints with only ", accessor.count(), " matrices"),
+          ValueAndLimit(accessor.count(), joints));
     }
     for (std::size_t j = 0; j < joints; ++j) {
       Eigen::Matrix4d& matrix = matrices.emplace_back();
@@ -164,55 +170,92 @@ class GlbReader {
     return matrices;
   }
 
-  absl::Status AddPrimitive(const json& primitive, const Eigen::Matrix4d& to_world) {
-    if (!primitive.is_object())
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "has a primitive that is no object");
-    const std::size_t mode =
-        primitive.contains("mode") ? IndexAt(primitive, "mode", 7).value_or(7) : kTriangles;
-    if (mode < kTriangles) return absl::OkStatus();  // points and lines
-    if (mode > kTriangleFan)
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "has a primitive of unknown mode");
+  // Which primitive of which mesh, drawn by which node.
+  struct Drawing {
+    std::size_t node = 0;
+    std::size_t mesh = 0;
+    std::size_t primitive = 0;
+
+    [[nodiscard]] FilePlace place() const {
+      return {absl::StrCat("mesh ", mesh, " primitive ", primitive),
+              {{"element", absl::StrCat("mesh ", mesh)}, {"row", absl::StrCat(primitive)}}};
+    }
+  };
+
+  absl::StatusOr<std::size_t> AccessorAt(const json& parent, const char* key,
+                                         const FilePlace& place) const {
+    const std::size_t limit = ArrayAt(file_.json, "accessors").size();
+    const std::optional<std::size_t> index = IndexAt(parent, key, limit);
+    if (!index.has_value()) return BadIndexAt(place, parent, key, limit);
+    return *index;
+  }
+
+  static absl::StatusOr<std::size_t> ModeOf(const json& primitive, const Drawing& drawing) {
+    if (!primitive.is_object()) {
+      return FileError(ErrorReason::kMalformedFile, drawing.place(), "it is no object");
+    }
+    if (!primitive.contains("mode")) return kTriangles;
+    const std::optional<std::size_t> mode = IndexAt(primitive, "mode", kTriangleFan + 1);
+    if (!mode.has_value()) return BadIndexAt(drawing.place(), primitive, "mode", kTriangleFan + 1);
+    return *mode;
+  }
+
+  static absl::Status CheckUncompressed(const json& primitive, const Drawing& drawing) {
     const auto extensions = primitive.find("extensions");
     if (extensions != primitive.end() && extensions->is_object() &&
         extensions->contains("KHR_draco_mesh_compression")) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "is compressed with Draco, which is not read: export uncompressed");
+      return FileError(ErrorReason::kUnsupportedFile, drawing.place(),
+                       "it is compressed with Draco, which is not read: export uncompressed");
     }
+    return absl::OkStatus();
+  }
+
+  absl::Status AddPrimitive(const json& primitive, const Drawing& drawing,
+                            const Eigen::Matrix4d& to_world) {
+    CAPFIT_ASSIGN_OR_RETURN(const std::size_t mode, ModeOf(primitive, drawing));
+    if (mode < kTriangles) return absl::OkStatus();  // points and lines
+    CAPFIT_RETURN_IF_ERROR(CheckUncompressed(primitive, drawing));
     const auto attributes = primitive.find("attributes");
-    const std::optional<std::size_t> position =
-        attributes == primitive.end()
-            ? std::nullopt
-            : IndexAt(*attributes, "POSITION", ArrayAt(file_.json, "accessors").size());
-    if (!position.has_value())
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "has a primitive without POSITION");
+    if (attributes == primitive.end()) {
+      return FileError(ErrorReason::kMalformedFile, drawing.place(), "attributes are missing");
+    }
+    const json& accessors = ArrayAt(file_.json, "accessors");
+    const std::optional<std::size_t> position = IndexAt(*attributes, "POSITION", accessors.size());
+    if (!position.has_value()) {
+      return BadIndexAt(drawing.place(), *attributes, "POSITION", accessors.size());
+    }
     CAPFIT_ASSIGN_OR_RETURN(const GltfAccessor positions,
                             GltfAccessor::Create(file_, *position, "VEC3"));
-    CAPFIT_ASSIGN_OR_RETURN(const std::size_t base, AddPositions(*position, positions, to_world));
+    CAPFIT_ASSIGN_OR_RETURN(const std::size_t base,
+                            AddPositions(*position, positions, drawing, to_world));
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> corners,
-                            CornersOf(primitive, positions.count(), base));
-    return AddFaces(mode, corners, to_world.topLeftCorner<3, 3>().determinant() < 0.0);
+                            CornersOf(primitive, drawing, positions.count(), base));
+    return AddFaces(mode, drawing, corners, to_world.topLeftCorner<3, 3>().determinant() < 0.0);
   }
 
   // The soup's index of the accessor's first vertex.
   absl::StatusOr<std::size_t> AddPositions(std::size_t accessor_index,
-                                           const GltfAccessor& positions,
+                                           const GltfAccessor& positions, const Drawing& drawing,
                                            const Eigen::Matrix4d& to_world) {
     const auto [entry, is_new] =
         base_of_positions_.try_emplace(accessor_index, soup_.positions.size());
     if (!is_new) return entry->second;
     if (positions.count() > limits_.max_vertices - soup_.positions.size()) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          absl::StrCat("has more than ", limits_.max_vertices, " vertices"));
+      return FileTooLarge(AtElement(absl::StrCat("accessor ", accessor_index)),
+                          soup_.positions.size() + positions.count(), "vertices",
+                          limits_.max_vertices);
     }
     soup_.positions.reserve(soup_.positions.size() + positions.count());
     double largest = 0.0;
     for (std::size_t i = 0; i < positions.count(); ++i) {
       const Eigen::Vector3d stored(positions.At(i, 0), positions.At(i, 1), positions.At(i, 2));
+      const Eigen::Vector3d placed = Apply(to_world, stored);
+      if (!IsPosition(placed)) {
+        return BadPosition(stored, placed, AtRow(absl::StrCat("accessor ", accessor_index), i),
+                           drawing.node);
+      }
       largest = std::max(largest, stored.cwiseAbs().maxCoeff());
-      soup_.positions.push_back(Apply(to_world, stored));
+      soup_.positions.push_back(placed);
     }
     if (!to_world.isIdentity(0.0)) {
       rounding_ = std::max(
@@ -221,7 +264,19 @@ class GlbReader {
     return entry->second;
   }
 
-  absl::StatusOr<std::vector<std::uint32_t>> CornersOf(const json& primitive, std::size_t vertices,
+  // A coordinate that is none where the node puts it, and perhaps as it is stored.
+  static absl::Status BadPosition(const Eigen::Vector3d& stored, const Eigen::Vector3d& placed,
+                                  FilePlace place, std::size_t node) {
+    const bool is_placing = IsPosition(stored);
+    if (is_placing) absl::StrAppend(&place.text, ", placed by node ", node);
+    const Eigen::Vector3d& bad = is_placing ? placed : stored;
+    int axis = 0;
+    while (axis < 2 && IsCoordinate(bad[axis])) ++axis;
+    return BadCoordinate(place, axis, bad[axis]);
+  }
+
+  absl::StatusOr<std::vector<std::uint32_t>> CornersOf(const json& primitive,
+                                                       const Drawing& drawing, std::size_t vertices,
                                                        std::size_t base) const {
     std::vector<std::uint32_t> corners;
     if (!primitive.contains("indices")) {
@@ -230,37 +285,38 @@ class GlbReader {
       }
       return corners;
     }
-    const std::optional<std::size_t> index =
-        IndexAt(primitive, "indices", ArrayAt(file_.json, "accessors").size());
-    if (!index.has_value())
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "has a primitive without its indices");
+    CAPFIT_ASSIGN_OR_RETURN(const std::size_t index,
+                            AccessorAt(primitive, "indices", drawing.place()));
     CAPFIT_ASSIGN_OR_RETURN(const GltfAccessor indices,
-                            GltfAccessor::Create(file_, *index, "SCALAR"));
+                            GltfAccessor::Create(file_, index, "SCALAR"));
+    const std::string name = absl::StrCat("accessor ", index);
     if (!indices.IsUnsigned()) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          absl::StrCat("must have unsigned indices in accessor ", *index));
+      return FileError(ErrorReason::kMalformedFile, AtElement(name),
+                       "it has indices, which must be unsigned");
     }
-    if (indices.count() > 3 * limits_.max_faces) return TooManyFaces();
-    corners.reserve(indices.count());
+    if (indices.count() > 3 * limits_.max_faces) {
+      return FileTooLarge(AtElement(name), indices.count() / 3 + 1, "faces", limits_.max_faces);
+    }
+    corners.resize(indices.count());
     for (std::size_t i = 0; i < indices.count(); ++i) {
       const double vertex = indices.At(i, 0);
       if (!(vertex < static_cast<double>(vertices))) {
-        return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                            absl::StrCat("has the index ", vertex, " at ", i, " of accessor ",
-                                         *index, ", must be below ", vertices));
+        return FileOutOfRange(AtRow(name, i), "the index", static_cast<std::uint64_t>(vertex),
+                              IndexRange(vertices));
       }
-      corners.push_back(static_cast<std::uint32_t>(base + static_cast<std::size_t>(vertex)));
+      corners[i] = static_cast<std::uint32_t>(base + static_cast<std::size_t>(vertex));
     }
     return corners;
   }
 
   // A mirroring transform turns faces inside out, which glTF undoes.
-  absl::Status AddFaces(std::size_t mode, const std::vector<std::uint32_t>& corners,
-                        bool is_mirrored) {
+  absl::Status AddFaces(std::size_t mode, const Drawing& drawing,
+                        const std::vector<std::uint32_t>& corners, bool is_mirrored) {
     const std::size_t count = corners.size();
     const std::size_t faces = mode == kTriangles ? count / 3 : count < 3 ? 0 : count - 2;
-    if (faces > limits_.max_faces - soup_.face_vertices.size() / 3) return TooManyFaces();
+    if (faces > limits_.max_faces - soup_.face_count()) {
+      return FileTooLarge(drawing.place(), soup_.face_count() + faces, "faces", limits_.max_faces);
+    }
     soup_.face_vertices.reserve(soup_.face_vertices.size() + 3 * faces);
     for (std::size_t f = 0; f < faces; ++f) {
       const std::size_t first = mode == kTriangles ? 3 * f : mode == kTriangleStrip ? f : 0;
@@ -274,18 +330,13 @@ class GlbReader {
     return absl::OkStatus();
   }
 
-  absl::Status TooManyFaces() const {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        absl::StrCat("has more than ", limits_.max_faces, " faces"));
-  }
-
   const GlbFile& file_;
   const GltfNodes& nodes_;
   const MeshLimits& limits_;
   PolygonSoup soup_;
   std::map<std::size_t, std::size_t> base_of_positions_;              // of the mesh being read
   std::map<std::size_t, std::optional<Eigen::Matrix4d>> skins_read_;  // where they put meshes
-  std::size_t primitives_left_ = kMostPrimitives;
+  std::size_t drawn_primitives_ = 0;
   double rounding_ = 0.0;  // of transformed positions, from their storage as floats
 };
 

@@ -16,10 +16,12 @@ namespace capfit::mesh {
 // vertices. Of a skinned mesh, the bind pose: placed as the scene places its first joint, together
 // with the names and positions of all joints. Morph targets count as zero.
 //
-// Refused with a reason: Draco and meshopt compression, sparse accessors, buffers in other files.
-// Materials, textures and animations are skipped unseen, and no other file is opened. That is why
-// this reads the JSON itself (nlohmann/json) and not with TinyGLTF, which would decode images and
-// open files unless told otherwise, and checks no accessor against its buffer.
+// Coordinates and indices are checked as they are read; INVALID_ARGUMENT (field "mesh.file") names
+// the accessor and its row. Not read (UNSUPPORTED_FILE): Draco and meshopt compression, sparse
+// accessors, buffers in other files. Materials, textures and animations are skipped unseen, and no
+// other file is opened. That is why this reads the JSON itself (nlohmann/json) and not with
+// TinyGLTF, which would decode images and open files unless told otherwise, and checks no accessor
+// against its buffer.
 [[nodiscard]] absl::StatusOr<PolygonSoup> ReadGlb(std::span<const std::byte> bytes,
                                                   const MeshLimits& limits);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/status.h"
+#include "core/mesh/file_error.h"
 #include "core/mesh/read_glb.h"
 #include "core/mesh/read_obj.h"
 #include "core/mesh/read_off.h"
@@ -45,6 +46,26 @@ bool LooksLikeObj(std::string_view text) {
   return false;
 }
 
+absl::StatusOr<PolygonSoup> ReadAs(MeshFormat format, std::span<const std::byte> bytes,
+                                   const MeshLimits& limits) {
+  switch (format) {
+    case MeshFormat::kObj:
+      return ReadObj(AsText(bytes), limits);
+    case MeshFormat::kPly:
+      return ReadPly(bytes, limits);
+    case MeshFormat::kStl:
+      return ReadStl(bytes, limits);
+    case MeshFormat::kOff:
+      return ReadOff(AsText(bytes), limits);
+    case MeshFormat::kGlb:
+      return ReadGlb(bytes, limits);
+    case MeshFormat::kUnknown:
+      break;
+  }
+  return FileError(ErrorReason::kUnsupportedFile, {},
+                   "has no known format: give an OBJ, PLY, STL, OFF or GLB file");
+}
+
 }  // namespace
 
 MeshFormat FormatFromFileName(const std::string& file_name) {
@@ -73,24 +94,11 @@ MeshFormat FormatFromBytes(std::span<const std::byte> bytes) {
 
 absl::StatusOr<PolygonSoup> ReadMesh(std::span<const std::byte> bytes, MeshFormat format,
                                      const MeshLimits& limits) {
-  if (bytes.empty()) return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "is empty");
+  if (bytes.empty()) return FileError(ErrorReason::kMissing, {}, "is empty");
   if (format == MeshFormat::kUnknown) format = FormatFromBytes(bytes);
-  switch (format) {
-    case MeshFormat::kObj:
-      return ReadObj(AsText(bytes), limits);
-    case MeshFormat::kPly:
-      return ReadPly(bytes, limits);
-    case MeshFormat::kStl:
-      return ReadStl(bytes, limits);
-    case MeshFormat::kOff:
-      return ReadOff(AsText(bytes), limits);
-    case MeshFormat::kGlb:
-      return ReadGlb(bytes, limits);
-    case MeshFormat::kUnknown:
-      break;
-  }
-  return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                      "has no known format: give an OBJ, PLY, STL, OFF or GLB file");
+  CAPFIT_ASSIGN_OR_RETURN(PolygonSoup soup, ReadAs(format, bytes, limits));
+  soup.is_from_file = true;
+  return soup;
 }
 
 }  // namespace capfit::mesh

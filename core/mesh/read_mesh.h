@@ -20,10 +20,12 @@ enum class MeshFormat { kUnknown, kObj, kPly, kStl, kOff, kGlb };
 // From the first bytes; kUnknown where they tell nothing.
 [[nodiscard]] MeshFormat FormatFromBytes(std::span<const std::byte> bytes);
 
-// Reads one mesh. Vertex and face order are the file's (GLB: meshes in scene order, node transforms
-// applied). kUnknown: the format is found from the bytes. Hostile bytes give INVALID_ARGUMENT,
-// never a crash; counts in headers are checked against the bytes present before anything is
-// allocated.
+// Reads one mesh, sound but for how its faces lie: coordinates are finite and within 1e12, indices
+// below the number of vertices. It may have no faces: that is for PrepareMesh to refuse. Vertex and
+// face order are the file's (GLB: meshes in scene order, node transforms applied). kUnknown: the
+// format is found from the bytes. Hostile bytes give INVALID_ARGUMENT with the field "mesh.file"
+// and a place (see file_error.h), never a crash; counts in headers are checked against the bytes
+// present before anything is allocated.
 [[nodiscard]] absl::StatusOr<PolygonSoup> ReadMesh(std::span<const std::byte> bytes,
                                                    MeshFormat format = MeshFormat::kUnknown,
                                                    const MeshLimits& limits = {});

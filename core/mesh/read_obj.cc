@@ -8,18 +8,12 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/mesh/file_error.h"
 #include "core/mesh/soup_checks.h"
 #include "core/mesh/text_scanner.h"
 
 namespace capfit::mesh {
 namespace {
-
-// A word of the file as it may stand in a message: short and printable.
-std::string Quoted(std::string_view word) {
-  std::string quoted = "'";
-  for (const char c : word.substr(0, 20)) quoted += c >= ' ' && c <= '~' ? c : '?';
-  return quoted + (word.size() > 20 ? "...'" : "'");
-}
 
 class ObjReader {
  public:
@@ -29,14 +23,12 @@ class ObjReader {
   absl::StatusOr<PolygonSoup> Run() {
     while (!lines_.AtEnd()) CAPFIT_RETURN_IF_ERROR(ReadLine(NextStatement()));
     if (soup_.positions.empty()) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "holds nothing to read: an OBJ file has lines 'v x y z'");
+      return FileError(ErrorReason::kMissing, {},
+                       "holds nothing to read: an OBJ file has lines 'v x y z'");
     }
     if (highest_index_ >= soup_.positions.size() && !soup_.face_vertices.empty()) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          absl::StrCat("line ", highest_index_line_, ": face ", highest_index_face_,
-                                       " names vertex ", highest_index_ + 1,
-                                       ", but there are only ", soup_.positions.size()));
+      return FileOutOfRange(AtLine(highest_index_line_), CornerOf(highest_index_face_),
+                            highest_index_ + 1, absl::StrCat("[1, ", soup_.positions.size(), "]"));
     }
     return std::move(soup_);
   }
@@ -65,48 +57,53 @@ class ObjReader {
 
   absl::Status ReadVertex(WordScanner words) {
     if (soup_.positions.size() >= limits_.max_vertices) {
-      return Error(absl::StrCat("more than ", limits_.max_vertices, " vertices"));
+      return FileTooLarge(Here(), soup_.positions.size() + 1, "vertices", limits_.max_vertices);
     }
-    Eigen::Vector3d position;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::string_view word = words.NextWord();
-      const std::optional<double> value = ParseNumber<double>(word);
-      if (!value.has_value()) return Error(Quoted(word) + " is not a coordinate");
-      position[axis] = *value;
-    }
-    soup_.positions.push_back(position);
-    return absl::OkStatus();
+    return ReadPosition(lines_.number(), words, soup_.positions.emplace_back());
   }
 
   absl::Status ReadFace(WordScanner words) {
     if (soup_.face_sizes.size() >= limits_.max_faces) {
-      return Error(absl::StrCat("more than ", limits_.max_faces, " faces"));
+      return FileTooLarge(Here(), soup_.face_sizes.size() + 1, "faces", limits_.max_faces);
     }
     std::uint32_t corners = 0;
     for (std::string_view word = words.NextWord(); !word.empty() && word.front() != '#';
          word = words.NextWord()) {
       if (++corners > limits_.max_corners_per_face) {
-        return FaceError(absl::StrCat("has more than ", limits_.max_corners_per_face, " corners"));
+        return FaceError(ErrorReason::kTooLarge,
+                         absl::StrCat("has more than ", limits_.max_corners_per_face, " corners"),
+                         ValueAndLimit(corners, limits_.max_corners_per_face));
       }
       CAPFIT_RETURN_IF_ERROR(ReadCorner(word));
     }
-    if (corners < 3) return FaceError(absl::StrCat("has ", corners, " corners, must have 3"));
-    if (!triangles_.Add(corners)) return Error("the faces " + TooManyTriangles(limits_));
+    if (corners < 3) {
+      return FaceError(
+          ErrorReason::kMalformedFile,
+          absl::StrCat("has ", corners, " corners, must have at least 3"),
+          ValueAndLimit(corners, absl::StrCat("[3, ", limits_.max_corners_per_face, "]")));
+    }
+    if (!triangles_.Add(corners)) return TooManyTriangles(Here(), limits_);
     soup_.face_sizes.push_back(corners);
     return absl::OkStatus();
   }
 
   // "7", "7/1", "7//3", "7/1/3", "-2": only the vertex counts.
   absl::Status ReadCorner(std::string_view word) {
-    const std::optional<std::int64_t> number =
-        ParseNumber<std::int64_t>(word.substr(0, word.find('/')));
-    if (!number.has_value()) return FaceError("has the corner " + Quoted(word));
-    if (*number == 0) return FaceError("names vertex 0, OBJ counts from 1");
+    const std::string_view vertex = word.substr(0, word.find('/'));
+    const std::optional<std::int64_t> number = ParseNumber<std::int64_t>(vertex);
+    const auto limit = static_cast<std::int64_t>(limits_.max_vertices);
     const auto count = static_cast<std::int64_t>(soup_.positions.size());
-    const std::int64_t index = *number > 0 ? *number - 1 : count + *number;
-    if (index < 0 || index >= static_cast<std::int64_t>(limits_.max_vertices)) {
-      return FaceError(absl::StrCat("names vertex ", *number, ", ", count, " are defined so far"));
+    if (!number.has_value()) {
+      return BadNumber<std::int64_t>(Here(), CornerOf(soup_.face_sizes.size()),
+                                     vertex.empty() ? word : vertex,
+                                     absl::StrCat("[1, ", limit, "]"));
     }
+    if (*number == 0 || *number > limit || *number < -count) {
+      return FileOutOfRange(Here(), CornerOf(soup_.face_sizes.size()), *number,
+                            *number < 0 && count > 0 ? absl::StrCat("[", -count, ", -1]")
+                                                     : absl::StrCat("[1, ", limit, "]"));
+    }
+    const std::int64_t index = *number > 0 ? *number - 1 : count + *number;
     NoteIndex(static_cast<std::uint32_t>(index));
     soup_.face_vertices.push_back(static_cast<std::uint32_t>(index));
     return absl::OkStatus();
@@ -120,13 +117,13 @@ class ObjReader {
     highest_index_face_ = soup_.face_sizes.size();
   }
 
-  absl::Status Error(const std::string& problem) const {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        absl::StrCat("line ", lines_.number(), ": ", problem));
+  [[nodiscard]] FilePlace Here() const { return AtLine(lines_.number()); }
+  absl::Status FaceError(ErrorReason reason, const std::string& problem,
+                         const ErrorFacts& facts) const {
+    return FileError(reason, Here(), absl::StrCat("face ", soup_.face_sizes.size(), " ", problem),
+                     facts);
   }
-  absl::Status FaceError(const std::string& problem) const {
-    return Error(absl::StrCat("face ", soup_.face_sizes.size(), " ", problem));
-  }
+  static std::string CornerOf(std::size_t face) { return absl::StrCat("a corner of face ", face); }
 
   LineScanner lines_;
   const MeshLimits& limits_;

@@ -13,7 +13,8 @@ namespace capfit::mesh {
 // The vertices (`v`) and faces (`f`) of an OBJ file, in file order and in double precision.
 // Understands negative and forward indices, `a/b/c` corners, line continuations and CRLF; all else
 // (texture coordinates, normals, groups, materials) is skipped, and no other file is opened.
-// INVALID_ARGUMENT names the line.
+// INVALID_ARGUMENT (field "mesh.file") names the line, also of a coordinate that is not finite or
+// an index that refers to nothing.
 //
 // Not OpenMesh's reader: that one keeps coordinates as float (a body kilometres from the origin
 // loses its fingers), opens the files that `mtllib` names on the server's disk, adds the missing

@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/mesh/file_error.h"
 #include "core/mesh/soup_checks.h"
 #include "core/mesh/text_scanner.h"
 
@@ -43,9 +44,12 @@ class OffReader {
   // "OFF", then the numbers of vertices, faces and edges, on the same line or on the next.
   absl::Status ReadHeader() {
     WordScanner words(NextStatement());
-    if (!IsOffKeyword(words.NextWord())) return Error("an OFF file begins with 'OFF'");
+    if (!IsOffKeyword(words.NextWord())) return Malformed("an OFF file begins with 'OFF'");
     std::string_view word = words.NextWord();
-    if (word == "BINARY") return Error("binary OFF is not read; send text OFF or binary PLY");
+    if (word == "BINARY") {
+      return FileError(ErrorReason::kUnsupportedFile, Here(),
+                       "binary OFF is not read; send text OFF or binary PLY");
+    }
     if (word.empty()) {
       words = WordScanner(NextStatement());
       word = words.NextWord();
@@ -53,70 +57,83 @@ class OffReader {
     const std::optional<std::uint64_t> vertices = ParseNumber<std::uint64_t>(word);
     const std::optional<std::uint64_t> faces = ParseNumber<std::uint64_t>(words.NextWord());
     if (!vertices.has_value() || !faces.has_value()) {
-      return Error("the numbers of vertices and faces are missing");
+      return Malformed("the numbers of vertices and faces are missing");
     }
     return CheckCounts(*vertices, *faces);
   }
 
   absl::Status CheckCounts(std::uint64_t vertices, std::uint64_t faces) {
-    if (vertices > limits_.max_vertices || faces > limits_.max_faces) {
-      return Error(absl::StrCat("the file claims ", vertices, " vertices and ", faces,
-                                " faces, must have at most ", limits_.max_vertices, " and ",
-                                limits_.max_faces));
+    if (vertices > limits_.max_vertices) {
+      return FileTooLarge(Here(), vertices, "vertices", limits_.max_vertices);
     }
+    if (faces > limits_.max_faces) return FileTooLarge(Here(), faces, "faces", limits_.max_faces);
     // "0 0 0\n" is the shortest vertex, "0\n" the shortest face.
     const std::uint64_t needed = 6 * vertices + 2 * faces;
-    if (needed > lines_.Rest().size() + 1) {
-      return Error(absl::StrCat("the file ends early: it claims ", vertices, " vertices and ",
-                                faces, " faces, which take at least ", needed, " bytes, but only ",
-                                lines_.Rest().size(), " follow"));
+    const std::uint64_t present = lines_.Rest().size();
+    if (needed > present + 1) {
+      return FileError(ErrorReason::kMalformedFile, Here(),
+                       absl::StrCat("the file ends early: it claims ", vertices, " vertices and ",
+                                    faces, " faces, which take at least ", needed,
+                                    " bytes, but only ", present, " follow"),
+                       ValueAndLimit(needed, present));
     }
-    if (vertices == 0) return Error("the file has no vertices");
+    if (vertices == 0) return FileError(ErrorReason::kMissing, Here(), "the file has no vertices");
     vertices_ = vertices;
     faces_ = faces;
     return absl::OkStatus();
   }
 
   absl::Status ReadVertex(std::size_t index) {
-    WordScanner words(NextStatement());
-    Eigen::Vector3d position;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::optional<double> value = ParseNumber<double>(words.NextWord());
-      if (!value.has_value()) {
-        return Error(
-            absl::StrCat("vertex ", index, " of ", vertices_, " must have three coordinates"));
-      }
-      position[axis] = *value;
-    }
-    soup_.positions.push_back(position);
-    return absl::OkStatus();
+    const std::string_view statement = NextStatement();
+    if (statement.empty()) return EndsEarly("vertices", vertices_, index);
+    WordScanner words(statement);
+    return ReadPosition(lines_.number(), words, soup_.positions.emplace_back());
   }
 
   absl::Status ReadFace(std::size_t index) {
-    WordScanner words(NextStatement());
-    const std::optional<std::uint32_t> corners = ParseNumber<std::uint32_t>(words.NextWord());
+    const std::string_view statement = NextStatement();
+    if (statement.empty()) return EndsEarly("faces", faces_, index);
+    WordScanner words(statement);
+    const std::string_view size = words.NextWord();
+    const std::optional<std::uint64_t> corners = ParseNumber<std::uint64_t>(size);
     if (!corners.has_value()) {
-      return Error(absl::StrCat("face ", index, " of ", faces_, " is missing"));
+      return BadNumber<std::uint64_t>(Here(), absl::StrCat("the size of face ", index), size,
+                                      absl::StrCat("[3, ", limits_.max_corners_per_face, "]"));
     }
     if (*corners > limits_.max_corners_per_face) {
-      return Error(absl::StrCat("face ", index, " has ", *corners, " corners, must have at most ",
-                                limits_.max_corners_per_face));
+      return FileError(ErrorReason::kTooLarge, Here(),
+                       absl::StrCat("face ", index, " has ", *corners,
+                                    " corners, must have at most ", limits_.max_corners_per_face),
+                       ValueAndLimit(*corners, limits_.max_corners_per_face));
     }
-    if (!triangles_.Add(*corners)) return Error("the faces " + TooManyTriangles(limits_));
-    for (std::uint32_t k = 0; k < *corners; ++k) {
-      const std::optional<std::uint32_t> vertex = ParseNumber<std::uint32_t>(words.NextWord());
-      if (!vertex.has_value() || *vertex >= vertices_) {
-        return Error(absl::StrCat("corner ", k, " of face ", index, " must be below ", vertices_));
-      }
-      soup_.face_vertices.push_back(*vertex);
+    if (!triangles_.Add(*corners)) return TooManyTriangles(Here(), limits_);
+    for (std::uint64_t k = 0; k < *corners; ++k) {
+      CAPFIT_RETURN_IF_ERROR(ReadCorner(words.NextWord(), index));
     }
-    soup_.face_sizes.push_back(*corners);
+    soup_.face_sizes.push_back(static_cast<std::uint32_t>(*corners));
     return absl::OkStatus();
   }
 
-  absl::Status Error(const std::string& problem) const {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        absl::StrCat("line ", lines_.number(), ": ", problem));
+  absl::Status ReadCorner(std::string_view word, std::size_t face) {
+    const std::optional<std::int64_t> vertex = ParseNumber<std::int64_t>(word);
+    if (vertex.has_value() && *vertex >= 0 && *vertex < static_cast<std::int64_t>(vertices_)) {
+      soup_.face_vertices.push_back(static_cast<std::uint32_t>(*vertex));
+      return absl::OkStatus();
+    }
+    const std::string what = absl::StrCat("a corner of face ", face);
+    if (vertex.has_value()) return FileOutOfRange(Here(), what, *vertex, IndexRange(vertices_));
+    return BadNumber<std::int64_t>(Here(), what, word, IndexRange(vertices_));
+  }
+
+  [[nodiscard]] FilePlace Here() const { return AtLine(lines_.number()); }
+  absl::Status Malformed(const std::string& problem) const {
+    return FileError(ErrorReason::kMalformedFile, Here(), problem);
+  }
+  absl::Status EndsEarly(const char* what, std::size_t claimed, std::size_t present) const {
+    return FileError(ErrorReason::kMalformedFile, Here(),
+                     absl::StrCat("the file ends early: it claims ", claimed, " ", what,
+                                  ", but has only ", present),
+                     ValueAndLimit(claimed, present));
   }
 
   LineScanner lines_;

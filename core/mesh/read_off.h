@@ -12,7 +12,8 @@ namespace capfit::mesh {
 
 // The vertices and faces of a text OFF file in three dimensions, in file order. Colours, normals
 // and texture coordinates behind a vertex or a face on its line are skipped, comments and blank
-// lines too. Counts are checked against the bytes present first. INVALID_ARGUMENT names the line.
+// lines too. Counts are checked against the bytes present first. Coordinates and indices are
+// checked as they are read. INVALID_ARGUMENT (field "mesh.file") names the line.
 //
 // Not OpenMesh's reader: a comment before the counts makes it reserve faces without end.
 [[nodiscard]] absl::StatusOr<PolygonSoup> ReadOff(std::string_view text, const MeshLimits& limits);

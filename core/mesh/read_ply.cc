@@ -2,86 +2,36 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "core/base/status.h"
+#include "core/mesh/file_error.h"
 #include "core/mesh/ply_header.h"
+#include "core/mesh/ply_values.h"
 #include "core/mesh/soup_checks.h"
 #include "core/mesh/text_scanner.h"
 
 namespace capfit::mesh {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "byte order of the loads below");
-
-template <typename Value, bool kSwap>
-double Load(const char* bytes) {
-  std::array<char, sizeof(Value)> raw;
-  std::memcpy(raw.data(), bytes, sizeof(Value));
-  if constexpr (kSwap) std::reverse(raw.begin(), raw.end());
-  return static_cast<double>(std::bit_cast<Value>(raw));
-}
-
-// Values of a binary body. A double holds every value of every PLY type exactly.
-template <bool kSwap>
-class BinaryValues {
- public:
-  explicit BinaryValues(std::string_view bytes) : bytes_(bytes) {}
-
-  std::optional<double> Next(PlyType type) {
-    const std::size_t size = SizeOf(type);
-    if (bytes_.size() < size) return std::nullopt;
-    const char* const data = bytes_.data();
-    bytes_.remove_prefix(size);
-    switch (type) {
-      case PlyType::kInt8:
-        return Load<std::int8_t, kSwap>(data);
-      case PlyType::kUint8:
-        return Load<std::uint8_t, kSwap>(data);
-      case PlyType::kInt16:
-        return Load<std::int16_t, kSwap>(data);
-      case PlyType::kUint16:
-        return Load<std::uint16_t, kSwap>(data);
-      case PlyType::kInt32:
-        return Load<std::int32_t, kSwap>(data);
-      case PlyType::kUint32:
-        return Load<std::uint32_t, kSwap>(data);
-      case PlyType::kFloat32:
-        return Load<float, kSwap>(data);
-      case PlyType::kFloat64:
-        return Load<double, kSwap>(data);
-    }
-    return std::nullopt;
-  }
-  [[nodiscard]] std::size_t BytesLeft() const { return bytes_.size(); }
-
- private:
-  std::string_view bytes_;
-};
-
-// Values of a text body.
-class TextValues {
- public:
-  explicit TextValues(std::string_view text) : words_(text) {}
-  std::optional<double> Next(PlyType) { return ParseNumber<double>(words_.NextWord()); }
-  [[nodiscard]] std::size_t BytesLeft() const { return words_.Rest().size(); }
-
- private:
-  WordScanner words_;
-};
+// A number that should be whole.
+std::string TextOf(double number) { return absl::StrFormat("%.15g", number); }
 
 template <typename Values>
 class BodyReader {
  public:
   BodyReader(const PlyHeader& header, Values values, const MeshLimits& limits)
-      : header_(header), values_(std::move(values)), limits_(limits), triangles_(limits) {}
+      : header_(header),
+        values_(std::move(values)),
+        limits_(limits),
+        triangles_(limits),
+        vertices_(static_cast<double>(header.vertex_count())) {}
 
   absl::StatusOr<PolygonSoup> Run() {
     for (const PlyElement& element : header_.elements) {
@@ -89,8 +39,10 @@ class BodyReader {
       CAPFIT_RETURN_IF_ERROR(CheckCount(element));
       CAPFIT_RETURN_IF_ERROR(ReadElement(element));
     }
-    if (soup_.positions.empty())
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has no element 'vertex'");
+    if (soup_.positions.empty()) {
+      return FileError(ErrorReason::kMissing, {},
+                       "has no vertices: no records of element 'vertex'");
+    }
     return std::move(soup_);
   }
 
@@ -98,18 +50,19 @@ class BodyReader {
   absl::Status CheckCount(const PlyElement& element) const {
     const std::size_t fewest = MinimumBytes(element, header_.encoding);
     // One byte more: the last value of a text needs no separator.
-    if (element.count > (values_.BytesLeft() + 1) / fewest) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          absl::StrCat("ends early: element ", Named(element), " claims ",
-                                       element.count, " records of at least ", fewest,
-                                       " bytes, but only ", values_.BytesLeft(), " bytes follow"));
+    const std::size_t most = (values_.BytesLeft() + 1) / fewest;
+    if (element.count > most) {
+      return FileError(
+          ErrorReason::kMalformedFile, At(element),
+          absl::StrCat("the file ends early: it claims ", element.count, " records of at least ",
+                       fewest, " bytes, but only ", values_.BytesLeft(), " bytes follow"),
+          ValueAndLimit(element.count, most));
     }
-    const bool is_face = element.name == "face";
-    const std::size_t limit = is_face ? limits_.max_faces : limits_.max_vertices;
-    if ((is_face || element.name == "vertex") && element.count > limit) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          absl::StrCat("has ", element.count, " records of element ",
-                                       Named(element), ", must have at most ", limit));
+    if (element.name == "face" && element.count > limits_.max_faces) {
+      return FileTooLarge(At(element), element.count, "faces", limits_.max_faces);
+    }
+    if (element.name == "vertex" && element.count > limits_.max_vertices) {
+      return FileTooLarge(At(element), element.count, "vertices", limits_.max_vertices);
     }
     return absl::OkStatus();
   }
@@ -118,20 +71,19 @@ class BodyReader {
     if (element.name == "vertex") return ReadVertices(element);
     if (element.name == "face") return ReadFaces(element);
     if (element.name == "tristrips") {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "stores triangle strips, store an element 'face' instead");
+      return FileError(ErrorReason::kUnsupportedFile, At(element),
+                       "triangle strips are not read, store an element 'face' instead");
     }
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties) {
-        if (!Skip(property)) return EndsEarly(element, i);
+        if (!Skip(property)) return BadRecord(element, i);
       }
     }
     return absl::OkStatus();
   }
 
   absl::Status ReadVertices(const PlyElement& element) {
-    if (!soup_.positions.empty())
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has two elements 'vertex'");
+    if (!soup_.positions.empty()) return Malformed(element, "the file has two of these");
     std::vector<int> axis_of(element.properties.size(), -1);
     std::array<int, 3> found = {0, 0, 0};
     for (std::size_t k = 0; k < axis_of.size(); ++k) {
@@ -143,18 +95,19 @@ class BodyReader {
       ++found[axis - 'x'];
     }
     if (found != std::array<int, 3>{1, 1, 1}) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "has no properties x, y and z of element 'vertex'");
+      return Malformed(element, "must have the properties x, y and z, each once");
     }
     soup_.positions.resize(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (std::size_t k = 0; k < axis_of.size(); ++k) {
         if (axis_of[k] < 0) {
-          if (!Skip(element.properties[k])) return EndsEarly(element, i);
+          if (!Skip(element.properties[k])) return BadRecord(element, i);
           continue;
         }
         const std::optional<double> value = values_.Next(element.properties[k].type);
-        if (!value.has_value()) return EndsEarly(element, i);
+        if (!value.has_value() || !IsCoordinate(*value)) {
+          return BadCoordinateAt(element, i, axis_of[k], value);
+        }
         soup_.positions[i][axis_of[k]] = *value;
       }
     }
@@ -167,11 +120,9 @@ class BodyReader {
   }
 
   absl::Status ReadFaces(const PlyElement& element) {
-    if (!soup_.face_sizes.empty())
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has two elements 'face'");
+    if (!soup_.face_sizes.empty()) return Malformed(element, "the file has two of these");
     if (std::count_if(element.properties.begin(), element.properties.end(), IsCornerList) != 1) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "has no list vertex_indices of element 'face'");
+      return Malformed(element, "must have one list vertex_indices of whole numbers");
     }
     soup_.face_sizes.reserve(element.count);
     soup_.face_vertices.reserve(3 * element.count);
@@ -180,7 +131,7 @@ class BodyReader {
         if (IsCornerList(property)) {
           CAPFIT_RETURN_IF_ERROR(ReadCorners(element, property, i));
         } else if (!Skip(property)) {
-          return EndsEarly(element, i);
+          return BadRecord(element, i);
         }
       }
     }
@@ -190,22 +141,18 @@ class BodyReader {
   absl::Status ReadCorners(const PlyElement& element, const PlyProperty& property,
                            std::uint64_t face) {
     const std::optional<double> corners = values_.Next(property.count_type);
-    if (!corners.has_value()) return EndsEarly(element, face);
+    if (!corners.has_value()) return BadRecord(element, face);
     if (!(*corners >= 0.0) || *corners > static_cast<double>(limits_.max_corners_per_face) ||
         *corners != std::floor(*corners)) {
-      return FaceError(face, absl::StrCat("has ", *corners, " corners, must have at most ",
-                                          limits_.max_corners_per_face));
+      return BadSize(element, face, *corners);
     }
     const auto count = static_cast<std::uint32_t>(*corners);
-    if (!triangles_.Add(count)) {
-      return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                          "has faces that " + TooManyTriangles(limits_));
-    }
+    if (!triangles_.Add(count)) return TooManyTriangles(values_.Place(element, face), limits_);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::optional<double> index = values_.Next(property.type);
-      if (!index.has_value()) return EndsEarly(element, face);
-      if (!(*index >= 0.0) || *index > 4294967294.0 || *index != std::floor(*index)) {
-        return FaceError(face, absl::StrCat("names vertex ", *index));
+      if (!index.has_value()) return BadRecord(element, face);
+      if (!(*index >= 0.0) || *index >= vertices_ || *index != std::floor(*index)) {
+        return BadIndex(element, face, *index);
       }
       soup_.face_vertices.push_back(static_cast<std::uint32_t>(*index));
     }
@@ -216,37 +163,74 @@ class BodyReader {
   bool Skip(const PlyProperty& property) {
     if (!property.is_list) return values_.Next(property.type).has_value();
     const std::optional<double> count = values_.Next(property.count_type);
-    if (!count.has_value() || !(*count >= 0.0)) return false;
+    has_bad_length_ = count.has_value() && !(*count >= 0.0);
+    if (!count.has_value() || has_bad_length_) return false;
     for (double k = 0; k < *count; ++k) {
       if (!values_.Next(property.type).has_value()) return false;
     }
     return true;
   }
 
-  absl::Status EndsEarly(const PlyElement& element, std::uint64_t record) const {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        absl::StrCat("ends early or has a bad value in record ", record, " of ",
-                                     element.count, " of element ", Named(element)));
+  // Where Skip() or Next() failed.
+  absl::Status BadRecord(const PlyElement& element, std::uint64_t row) const {
+    const FilePlace place = values_.Place(element, row);
+    if (has_bad_length_) {
+      return FileError(ErrorReason::kMalformedFile, place, "a list has a negative length");
+    }
+    if (const std::string_view word = values_.BadWord(); !word.empty()) {
+      return BadNumber<double>(place, "a value", word, "the range of double precision");
+    }
+    return FileError(
+        ErrorReason::kMalformedFile, place,
+        absl::StrCat("the file ends early: it claims ", element.count, " records of element ",
+                     Quoted(element.name), ", but has only ", row),
+        ValueAndLimit(element.count, row));
   }
-  static absl::Status FaceError(std::uint64_t face, const std::string& problem) {
-    return InvalidField(ErrorReason::kMalformedFile, "mesh.file",
-                        absl::StrCat("face ", face, " ", problem));
+  absl::Status BadCoordinateAt(const PlyElement& element, std::uint64_t row, int axis,
+                               std::optional<double> value) const {
+    if (value.has_value()) return BadCoordinate(values_.Place(element, row), axis, *value);
+    if (values_.BadWord().empty()) return BadRecord(element, row);
+    return BadCoordinate(values_.Place(element, row), axis, values_.BadWord());
   }
-  static std::string Named(const PlyElement& element) {
-    return absl::StrCat("'", element.name.substr(0, 20), "'");
+  absl::Status BadSize(const PlyElement& element, std::uint64_t face, double corners) const {
+    const bool is_large = corners > static_cast<double>(limits_.max_corners_per_face);
+    return FileError(is_large ? ErrorReason::kTooLarge : ErrorReason::kMalformedFile,
+                     values_.Place(element, face),
+                     absl::StrCat("face ", face, " has ", TextOf(corners), " corners, must have ",
+                                  is_large ? "at most " : "a whole number of at most ",
+                                  limits_.max_corners_per_face),
+                     ValueAndLimit(TextOf(corners), limits_.max_corners_per_face));
+  }
+  absl::Status BadIndex(const PlyElement& element, std::uint64_t face, double index) const {
+    const FilePlace place = values_.Place(element, face);
+    const std::string what = absl::StrCat("a corner of face ", face);
+    if (index == std::floor(index)) {
+      return FileOutOfRange(place, what, TextOf(index), IndexRange(header_.vertex_count()));
+    }
+    return FileError(ErrorReason::kMalformedFile, place,
+                     absl::StrCat(what, " is ", TextOf(index), ", must be a whole number"),
+                     ValueAndLimit(TextOf(index), IndexRange(header_.vertex_count())));
+  }
+  static FilePlace At(const PlyElement& element) {
+    return {absl::StrCat("element ", Quoted(element.name)), {{"element", Printable(element.name)}}};
+  }
+  static absl::Status Malformed(const PlyElement& element, const std::string& problem) {
+    return FileError(ErrorReason::kMalformedFile, At(element), problem);
   }
 
   const PlyHeader& header_;
   Values values_;
   const MeshLimits& limits_;
   TriangleCounter triangles_;
+  double vertices_;  // as the header claims
   PolygonSoup soup_;
+  bool has_bad_length_ = false;  // the list that could not be skipped
 };
 
 template <typename Values>
-absl::StatusOr<PolygonSoup> ReadBody(const PlyHeader& header, std::string_view body,
+absl::StatusOr<PolygonSoup> ReadBody(const PlyHeader& header, std::string_view file,
                                      const MeshLimits& limits) {
-  return BodyReader<Values>(header, Values(body), limits).Run();
+  return BodyReader<Values>(header, Values(header, file), limits).Run();
 }
 
 }  // namespace
@@ -254,16 +238,15 @@ absl::StatusOr<PolygonSoup> ReadBody(const PlyHeader& header, std::string_view b
 absl::StatusOr<PolygonSoup> ReadPly(std::span<const std::byte> bytes, const MeshLimits& limits) {
   const std::string_view text = AsText(bytes);
   CAPFIT_ASSIGN_OR_RETURN(const PlyHeader header, ReadPlyHeader(text));
-  const std::string_view body = text.substr(header.size_bytes);
   switch (header.encoding) {
     case PlyEncoding::kText:
-      return ReadBody<TextValues>(header, body, limits);
+      return ReadBody<TextValues>(header, text, limits);
     case PlyEncoding::kLittleEndian:
-      return ReadBody<BinaryValues<false>>(header, body, limits);
+      return ReadBody<BinaryValues<false>>(header, text, limits);
     case PlyEncoding::kBigEndian:
-      return ReadBody<BinaryValues<true>>(header, body, limits);
+      return ReadBody<BinaryValues<true>>(header, text, limits);
   }
-  return InvalidField(ErrorReason::kMalformedFile, "mesh.file", "has no known encoding");
+  return FileError(ErrorReason::kUnsupportedFile, {}, "has no known encoding");
 }
 
 }  // namespace capfit::mesh

@@ -13,7 +13,8 @@ namespace capfit::mesh {
 
 // The elements `vertex` (x, y, z) and `face` (vertex_indices or vertex_index) of a text or binary
 // PLY file of either byte order; all other elements and properties are skipped. Counts are checked
-// against the bytes present first. INVALID_ARGUMENT says where the file is wrong.
+// against the bytes present first. Coordinates and indices are checked as they are read.
+// INVALID_ARGUMENT (field "mesh.file") names the line, in a binary file the element and its row.
 //
 // Not OpenMesh's reader: its per-file state lives in one object for the whole process, so two
 // requests would mix their headers, and it rounds doubles to float.

@@ -13,7 +13,8 @@ namespace capfit::mesh {
 
 // The triangles of a binary or text STL file, in file order. STL repeats each corner in each
 // triangle; corners with equal coordinates become one vertex, in order of first appearance. The
-// triangle count is checked against the bytes present first. INVALID_ARGUMENT says what is wrong.
+// triangle count is checked against the bytes present first. INVALID_ARGUMENT (field
+// "mesh.file") names the line, or the triangle and its corner.
 //
 // Not OpenMesh's reader: from memory it takes every binary file for an empty text file.
 [[nodiscard]] absl::StatusOr<PolygonSoup> ReadStl(std::span<const std::byte> bytes,

@@ -1,15 +1,44 @@
-// Whether arrays from a caller make sense as a mesh at all.
+// Whether coordinates, faces and whole arrays make sense as a mesh at all.
 #ifndef CAPFIT_CORE_MESH_SOUP_CHECKS_H_
 #define CAPFIT_CORE_MESH_SOUP_CHECKS_H_
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 
 #include "absl/status/status.h"
+#include "core/base/status.h"
 #include "core/mesh/polygon_soup.h"
 #include "core/mesh/prepare_mesh.h"
 
 namespace capfit::mesh {
+
+// Beyond this, in any unit, a double keeps too few digits for a body, and products overflow.
+inline constexpr double kLargestCoordinate = 1e12;
+
+// Finite and within kLargestCoordinate of the origin.
+[[nodiscard]] inline bool IsCoordinate(double value) {
+  return std::abs(value) <= kLargestCoordinate;  // false for NaN too
+}
+
+// All three of anything that has three.
+template <typename Point>
+[[nodiscard]] bool IsPosition(const Point& point) {
+  bool is_position = true;
+  for (int axis = 0; axis < 3; ++axis) is_position &= IsCoordinate(point[axis]);
+  return is_position;
+}
+
+// "[-1e+12, 1e+12]".
+[[nodiscard]] std::string CoordinateRange();
+
+// Why IsCoordinate(value) does not hold.
+struct CoordinateProblem {
+  ErrorReason reason;
+  std::string text;  // "is nan, must be finite"
+  ErrorFacts facts;
+};
+[[nodiscard]] CoordinateProblem ProblemOf(double value);
 
 // Counts the triangles that faces will become while they are read: what a file asks for is refused
 // before it takes memory.
@@ -32,8 +61,10 @@ class TriangleCounter {
 // What to say where a TriangleCounter has had enough.
 [[nodiscard]] std::string TooManyTriangles(const MeshLimits& limits);
 
-// Sizes within `limits` and consistent, positions finite and within 1e12, indices in range.
-// INVALID_ARGUMENT names the first offender. O(n), allocates nothing.
+// Sizes within `limits` and consistent, faces of three corners or more (of any number in a file),
+// coordinates, indices in range. INVALID_ARGUMENT names the first offender in the caller's arrays:
+// "mesh.arrays.positions[22] is nan, must be finite". (Readers refuse such things themselves, for
+// they know the line; of a file only its size is left to be said here.) O(n), allocates nothing.
 [[nodiscard]] absl::Status CheckSoup(const PolygonSoup& soup, const MeshLimits& limits);
 
 }  // namespace capfit::mesh

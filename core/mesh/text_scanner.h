@@ -2,6 +2,7 @@
 #ifndef CAPFIT_CORE_MESH_TEXT_SCANNER_H_
 #define CAPFIT_CORE_MESH_TEXT_SCANNER_H_
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <optional>
@@ -68,15 +69,34 @@ class LineScanner {
   std::size_t number_ = 0;
 };
 
-// The whole of `word` as a number; nothing where it is none or does not fit. Ignores the locale.
+// The whole of `word` into `value`; the error of std::from_chars where that is no number. Ignores
+// the locale.
 template <typename Number>
-[[nodiscard]] std::optional<Number> ParseNumber(std::string_view word) {
+[[nodiscard]] std::errc ParseInto(std::string_view word, Number& value) {
   if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
-  Number value{};
   const char* const end = word.data() + word.size();
   const std::from_chars_result result = std::from_chars(word.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return result.ptr == end ? result.ec : std::errc::invalid_argument;
+}
+
+// The whole of `word` as a number; nothing where it is none or does not fit.
+template <typename Number>
+[[nodiscard]] std::optional<Number> ParseNumber(std::string_view word) {
+  Number value{};
+  if (ParseInto(word, value) != std::errc()) return std::nullopt;
   return value;
+}
+
+// Whether `word` is a number, but one that does not fit.
+template <typename Number>
+[[nodiscard]] bool IsNumberThatDoesNotFit(std::string_view word) {
+  Number value{};
+  return ParseInto(word, value) == std::errc::result_out_of_range;
+}
+
+// Number of the line of `text`, counted from 1, in which `part` of it begins.
+[[nodiscard]] inline std::size_t LineOf(std::string_view text, std::string_view part) {
+  return 1 + static_cast<std::size_t>(std::count(text.data(), part.data(), '\n'));
 }
 
 }  // namespace capfit::mesh

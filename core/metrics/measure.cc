@@ -69,13 +69,11 @@ void PutCounts(const capsule::PrimitiveSet& set, Metrics& metrics) {
   metrics.n_p = set.primitive_count();
   metrics.spheres = static_cast<int>(set.spheres.size());
   metrics.capsules = static_cast<int>(set.capsules.size());
-  const auto part = [&](int sphere) { return set.origins[static_cast<std::size_t>(sphere)].part; };
-  for (int i = 0; i < metrics.spheres; ++i) {
-    if (PartMetrics* const its = PartOf(part(i), metrics)) ++its->spheres;
+  for (const capsule::SphereOrigin& origin : set.origins) {
+    if (PartMetrics* const its = PartOf(origin.part, metrics)) ++its->spheres;
   }
-  for (const capsule::CapsuleEnds& ends : set.capsules) {
-    const body::Part outer = std::max(part(ends[0]), part(ends[1]));
-    if (PartMetrics* const its = PartOf(outer, metrics)) ++its->capsules;
+  for (std::size_t k = 0; k < set.capsules.size(); ++k) {
+    if (PartMetrics* const its = PartOf(capsule::PartOfCapsule(set, k), metrics)) ++its->capsules;
   }
 }
 

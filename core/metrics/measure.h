@@ -33,7 +33,7 @@ struct GapStatistics {
 // own volume, E_M to the same diagonal as that of the whole.
 struct PartMetrics {
   int spheres = 0;   // that the set says belong to this part
-  int capsules = 0;  // by their ends' part; between two parts, the later in the list of parts
+  int capsules = 0;  // by capsule::PartOfCapsule
   double volume_m3 = 0.0;
   double E_r = 0.0;
   double outside = 0.0;

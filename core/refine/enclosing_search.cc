@@ -50,20 +50,29 @@ constexpr std::array<Renewal, 4> kRenewals = {{{0.06, 0.5}, {0.12, 1.0}, {0.12, 
 constexpr int kPrimitivesPerRound = 80;  // one round of renewals for each so many
 constexpr int kMostRounds = 3;
 
+// How much of the time of refining has gone by at the end of each part, as measured; the rest is
+// left to the last steps after the search.
+constexpr double kStarted = 0.05;
+constexpr double kGrown = 0.4;
+constexpr double kExchanged = 0.85;
+constexpr double kTied = 0.92;
+constexpr double kTieRound = 0.5;  // of what is left of its part
+constexpr int kStepsOfGrowth = kLooseSteps + kGrowthSteps + kTakeInSteps;
+
 // Tells trials apart from each other, whatever thread they run on.
 constexpr std::uint64_t kTrialSeeds = 1000;
 
 class Search {
  public:
   Search(const EnclosingTask& task, const Spending& spending, const ThreadPool& pool,
-         const FitObserver& observer)
+         WorkMeter& meter)
       : task_(task),
         spending_(spending),
         primitives_(static_cast<int>(std::min<std::int64_t>(
             spending.max_primitives, std::int64_t{spending.max_spheres} + spending.max_capsules))),
         usual_(spending.UsualPrimitives()),
         pool_(pool),
-        observer_(observer) {}
+        meter_(meter) {}
 
   std::vector<CapsuleGraph> Run(const std::vector<CapsuleGraph>& starts) {
     Attempt best = BestStart(starts);
@@ -71,7 +80,9 @@ class Search {
       Exchange(best);
     } else {
       const int rounds = std::clamp(usual_ / kPrimitivesPerRound, 1, kMostRounds);
-      for (int round = 0; round < rounds; ++round) Renew(best);
+      for (int round = 0; round < rounds; ++round) {
+        Renew(kGrown + (kExchanged - kGrown) * (round + 1) / rounds, best);
+      }
     }
     Tie(best);
     std::vector<CapsuleGraph> graphs;
@@ -89,15 +100,20 @@ class Search {
 
   Attempt Settled(CapsuleGraph graph, std::uint64_t seed) const {
     CapsuleGraph settled = graph;
-    task_.TakeIn(kTakeInSteps, seed, alone_, observer_, settled);
+    task_.TakeIn(kTakeInSteps, seed, alone_, meter_, settled);
     return {std::move(graph), task_.Value(settled, alone_)};
   }
 
   Attempt BestStart(const std::vector<CapsuleGraph>& starts) {
     std::vector<Attempt> attempts(starts.size());
+    std::int64_t work = 0;
+    for (const CapsuleGraph& start : starts) {
+      work += (kStartSteps + kTakeInSteps) * start.primitive_count();
+    }
+    meter_.Expect(kStarted, work);
     pool_.ForEach(starts.size(), [&](std::size_t i) {
       CapsuleGraph graph = starts[i];
-      task_.FindShape(kStartSteps, 1.0, /*seed=*/1, alone_, observer_, graph);
+      task_.FindShape(kStartSteps, 1.0, /*seed=*/1, alone_, meter_, graph);
       RemoveSwallowed(graph);
       Spare(graph);
       attempts[i] = Settled(std::move(graph), /*seed=*/2);
@@ -110,13 +126,17 @@ class Search {
     std::vector<Attempt> small(attempts.begin(), large);
     attempts.erase(attempts.begin(), large);
     Sort(small);
-    for (std::uint64_t seed = 10; Grow(seed, small) && !observer_.IsCancelled();) {
+    for (std::uint64_t seed = 10; Grow(seed, small) && !meter_.IsCancelled();) {
       seed += kMostGrown * kVariants;
     }
     attempts.insert(attempts.end(), small.begin(), small.end());
     Sort(attempts);
     Lead(attempts);
     return attempts.front();
+  }
+
+  static std::int64_t WorkOf(std::size_t steps, const CapsuleGraph& graph) {
+    return static_cast<std::int64_t>(steps) * graph.primitive_count();
   }
 
   // The best first; those that do not fit the spending last.
@@ -132,6 +152,9 @@ class Search {
     const int most = std::clamp(kGrownTimesPrimitives / std::max(1, usual_), 1, kMostGrown);
     attempts.resize(std::min(attempts.size(), static_cast<std::size_t>(most)));
     std::vector<Attempt> grown(attempts.size() * kVariants);
+    const double size = (1.0 + kGrowthShare) * attempts.front().graph.primitive_count();
+    meter_.Expect(kStarted + (kGrown - kStarted) * std::min(1.0, size / primitives_),
+                  WorkOf(kStepsOfGrowth * grown.size(), attempts.front().graph));
     pool_.ForEach(grown.size(), [&](std::size_t i) {
       CapsuleGraph graph = attempts[i / kVariants].graph;
       if (!spending_.Allows(graph)) return;
@@ -160,7 +183,7 @@ class Search {
 
   // Until the graph fits the spending.
   void Spare(CapsuleGraph& graph) const {
-    while (!spending_.Allows(graph) && !observer_.IsCancelled()) {
+    while (!spending_.Allows(graph) && !meter_.IsCancelled()) {
       const int excess = Excess(spending_, graph);
       const int target =
           excess - std::max(1, static_cast<int>(kSparedShare * static_cast<double>(excess)));
@@ -169,7 +192,7 @@ class Search {
                                   graph.capsule_count() <= spending_.max_capsules;
         if (!SpareOne(only_spheres, graph)) return;
       } while (Excess(spending_, graph) > target);
-      task_.FindShape(kSparingSteps, 1.0, /*seed=*/3, alone_, observer_, graph);
+      task_.FindShape(kSparingSteps, 1.0, /*seed=*/3, alone_, meter_, graph);
       RemoveSwallowed(graph);
     }
   }
@@ -197,14 +220,14 @@ class Search {
   void Extend(int target, int ties, std::uint64_t seed, CapsuleGraph& graph) const {
     TieBest(std::min(target, graph.primitive_count() + ties), seed, graph);
     CutLoosest(spending_, target, task_.Weigh(graph).edge_gap, graph);
-    task_.FindShape(kGrowthSteps, 1.0, seed, alone_, observer_, graph);
+    task_.FindShape(kGrowthSteps, 1.0, seed, alone_, meter_, graph);
     RemoveSwallowed(graph);
   }
 
   // Adds the best ties and leaves, no more than one to a sphere, until there are `target`
   // primitives.
   void TieBest(int target, std::uint64_t seed, CapsuleGraph& graph) const {
-    task_.Loosen(kLooseSteps, seed, alone_, observer_, graph);
+    task_.Loosen(kLooseSteps, seed, alone_, meter_, graph);
     std::vector<char> is_tied(graph.nodes.size(), 0);
     for (const Edit& tie : RankedAdditions(task_, graph, alone_)) {
       const bool is_leaf = tie.kind == EditKind::kLeaf;
@@ -225,20 +248,22 @@ class Search {
   // What each edit leads to, the budget used up again.
   Attempt Try(const CapsuleGraph& graph, const Edit& edit, std::uint64_t seed) const {
     EditedGraph edited = Apply(graph, edit);
-    if (!edited.possible || observer_.IsCancelled()) return {};
+    if (!edited.possible || meter_.IsCancelled()) return {};
     RemoveSwallowed(edited.graph);
     // What is given up is spent on ties as well as on cuts, by turns.
     if (seed % 2 == 1) TieBest(primitives_, seed, edited.graph);
     CutLoosest(spending_, primitives_, task_.Weigh(edited.graph).edge_gap, edited.graph);
-    task_.FindShape(kTrialSteps, 1.0, seed, alone_, observer_, edited.graph);
+    task_.FindShape(kTrialSteps, 1.0, seed, alone_, meter_, edited.graph);
     RemoveSwallowed(edited.graph);
     if (!spending_.Allows(edited.graph)) return {};
     return Settled(std::move(edited.graph), seed);
   }
 
-  // Tries some edits in parallel; whether the best of them was taken.
-  bool TryAll(const std::vector<Edit>& edits, Attempt& best) {
+  // Tries some edits in parallel, work up to `until` of the meter; whether the best of them was
+  // taken.
+  bool TryAll(const std::vector<Edit>& edits, double until, Attempt& best) {
     std::vector<Attempt> attempts(edits.size());
+    meter_.Expect(until, WorkOf((kTrialSteps + kTakeInSteps) * edits.size(), best.graph));
     pool_.ForEach(edits.size(),
                   [&](std::size_t i) { attempts[i] = Try(best.graph, edits[i], seed_ + i); });
     seed_ += edits.size();
@@ -246,7 +271,7 @@ class Search {
     const auto found =
         std::min_element(attempts.begin(), attempts.end(),
                          [](const Attempt& a, const Attempt& b) { return a.value < b.value; });
-    if (found == attempts.end() || observer_.IsCancelled() ||
+    if (found == attempts.end() || meter_.IsCancelled() ||
         found->value >= (1.0 - kLeastImprovement) * best.value) {
       return false;
     }
@@ -267,9 +292,10 @@ class Search {
     return Settled(std::move(graph), seed);
   }
 
-  void Renew(Attempt& best) {
-    if (observer_.IsCancelled()) return;
+  void Renew(double until, Attempt& best) {
+    if (meter_.IsCancelled()) return;
     std::vector<Attempt> attempts(kRenewals.size());
+    meter_.Expect(until, WorkOf(kStepsOfGrowth * attempts.size(), best.graph));
     pool_.ForEach(attempts.size(), [&](std::size_t i) {
       attempts[i] = Renewed(best.graph, kRenewals[i], seed_ + i);
     });
@@ -284,25 +310,27 @@ class Search {
     std::vector<Removal> removals = RemovalsOf(best.graph, task_.Weigh(best.graph));
     std::size_t next = 0;
     for (int trials = 0; trials * usual_ < kTrialsTimesPrimitives && next < removals.size() &&
-                         !observer_.IsCancelled();) {
+                         !meter_.IsCancelled();) {
       std::vector<Edit> edits;
       for (; edits.size() < kTrialsAtOnce && next < removals.size(); ++next) {
         edits.push_back(removals[next].edit);
       }
       trials += static_cast<int>(edits.size());
-      if (!TryAll(edits, best)) continue;
+      const double share = static_cast<double>(trials) * usual_ / kTrialsTimesPrimitives;
+      if (!TryAll(edits, kGrown + share * (kExchanged - kGrown), best)) continue;
       removals = RemovalsOf(best.graph, task_.Weigh(best.graph));
       next = 0;
     }
   }
 
   void Tie(Attempt& best) {
-    while (best.graph.primitive_count() < primitives_ && !observer_.IsCancelled()) {
+    while (best.graph.primitive_count() < primitives_ && !meter_.IsCancelled()) {
       CapsuleGraph loose = best.graph;
-      task_.Loosen(kLooseSteps, seed_, pool_, observer_, loose);
+      task_.Loosen(kLooseSteps, seed_, pool_, meter_, loose);
       std::vector<Edit> ties = RankedAdditions(task_, loose, pool_);
       ties.resize(std::min(ties.size(), kTies));
-      if (!TryAll(ties, best)) return;
+      const double left = kTied - meter_.until();
+      if (!TryAll(ties, meter_.until() + kTieRound * left, best)) return;
     }
   }
 
@@ -312,7 +340,7 @@ class Search {
   int usual_;       // about so many where only spheres or only capsules are limited
   const ThreadPool& pool_;
   const ThreadPool alone_{1};  // inside what runs in parallel already
-  const FitObserver& observer_;
+  WorkMeter& meter_;
   std::uint64_t seed_ = kTrialSeeds;
   std::vector<Attempt> leaders_;
 };
@@ -321,8 +349,8 @@ class Search {
 
 std::vector<CapsuleGraph> FindEnclosingGraphs(const EnclosingTask& task, const Spending& spending,
                                               const std::vector<CapsuleGraph>& starts,
-                                              const ThreadPool& pool, const FitObserver& observer) {
-  return Search(task, spending, pool, observer).Run(starts);
+                                              const ThreadPool& pool, WorkMeter& meter) {
+  return Search(task, spending, pool, meter).Run(starts);
 }
 
 }  // namespace capfit::refine

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
+#include "core/base/work_meter.h"
 #include "core/refine/capsule_graph.h"
 #include "core/refine/enclosing_task.h"
 #include "core/refine/growth.h"
@@ -27,7 +27,7 @@ namespace capfit::refine {
                                                             const Spending& spending,
                                                             const std::vector<CapsuleGraph>& starts,
                                                             const ThreadPool& pool,
-                                                            const FitObserver& observer);
+                                                            WorkMeter& meter);
 
 }  // namespace capfit::refine
 

@@ -290,10 +290,10 @@ EnclosingTask::EnclosingTask(Thinned thinned, double tolerance_m)
       grid_(thinned.points_m) {}
 
 void EnclosingTask::Settle(const coverage::TightenPhase& phase, std::uint64_t seed,
-                           const ThreadPool& pool, const FitObserver& observer,
+                           const ThreadPool& pool, const WorkMeter& meter,
                            CapsuleGraph& graph) const {
   capsule::PrimitiveSet set = SetOf(graph);
-  coverage::Tighten(grid_, allowed_m_, areas_m2_, size_m_, phase, seed, pool, observer, set);
+  coverage::Tighten(grid_, allowed_m_, areas_m2_, size_m_, phase, seed, pool, meter, set);
   for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
     graph.nodes[v].center_m = set.spheres[v].center_m;
     graph.nodes[v].radius_m = set.spheres[v].radius_m;
@@ -301,28 +301,28 @@ void EnclosingTask::Settle(const coverage::TightenPhase& phase, std::uint64_t se
 }
 
 void EnclosingTask::FindShape(int steps, double looseness, std::uint64_t seed,
-                              const ThreadPool& pool, const FitObserver& observer,
+                              const ThreadPool& pool, const WorkMeter& meter,
                               CapsuleGraph& graph) const {
   coverage::TightenPhase phase = kShapePhase;
   phase.first_penalty /= looseness;
   phase.steps = steps;
-  Settle(phase, seed, pool, observer, graph);
+  Settle(phase, seed, pool, meter, graph);
 }
 
 void EnclosingTask::TakeIn(int steps, std::uint64_t seed, const ThreadPool& pool,
-                           const FitObserver& observer, CapsuleGraph& graph) const {
+                           const WorkMeter& meter, CapsuleGraph& graph) const {
   coverage::TightenPhase phase = kInsidePhase;
   phase.steps = steps;
-  Settle(phase, seed, pool, observer, graph);
+  Settle(phase, seed, pool, meter, graph);
 }
 
 void EnclosingTask::Loosen(int steps, std::uint64_t seed, const ThreadPool& pool,
-                           const FitObserver& observer, CapsuleGraph& graph) const {
+                           const WorkMeter& meter, CapsuleGraph& graph) const {
   coverage::TightenPhase phase = kShapePhase;
   phase.first_penalty = phase.last_penalty = kLoosePenalty;
   phase.last_trust = 0.006;
   phase.steps = steps;
-  Settle(phase, seed, pool, observer, graph);
+  Settle(phase, seed, pool, meter, graph);
 }
 
 std::vector<Vec3> EnclosingTask::WorstPoints(const CapsuleGraph& graph, int count,

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
+#include "core/base/work_meter.h"
 #include "core/capsule/primitive_set.h"
 #include "core/coverage/cover_vertices.h"
 #include "core/coverage/point_grid.h"
@@ -38,13 +38,13 @@ class EnclosingTask {
   // finds the shape of a set whose spheres are guesses. Which of several shapes comes out of it is
   // a lottery; `looseness` around 1 is how cheap it begins.
   void FindShape(int steps, double looseness, std::uint64_t seed, const ThreadPool& pool,
-                 const FitObserver& observer, CapsuleGraph& graph) const;
+                 const WorkMeter& meter, CapsuleGraph& graph) const;
   // The same with hardly anything left out.
-  void TakeIn(int steps, std::uint64_t seed, const ThreadPool& pool, const FitObserver& observer,
+  void TakeIn(int steps, std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
               CapsuleGraph& graph) const;
 
   // Settles at one low price of points outside, so that those which cost most to take in show.
-  void Loosen(int steps, std::uint64_t seed, const ThreadPool& pool, const FitObserver& observer,
+  void Loosen(int steps, std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
               CapsuleGraph& graph) const;
   // The points that stick out furthest, some way from each other; body frame.
   [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const CapsuleGraph& graph, int count,
@@ -71,7 +71,7 @@ class EnclosingTask {
                                     double spacing);
   EnclosingTask(Thinned thinned, double tolerance_m);
   void Settle(const coverage::TightenPhase& phase, std::uint64_t seed, const ThreadPool& pool,
-              const FitObserver& observer, CapsuleGraph& graph) const;
+              const WorkMeter& meter, CapsuleGraph& graph) const;
 
   double size_m_ = 0.0;           // of the body, the square root of its surface area
   std::vector<double> areas_m2_;  // that each point stands for, both halves

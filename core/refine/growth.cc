@@ -1,6 +1,7 @@
 #include "core/refine/growth.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -30,6 +31,10 @@ constexpr std::size_t kMostFailures = 2;
 constexpr double kSpareThoroughShare = 0.35;
 // So often capsules are cut and all is settled again.
 constexpr int kCuttingRounds = 3;
+// A round of trials is taken for this share of what is left of the work, until it shows how far it
+// went; a trial in earnest for so many glances.
+constexpr double kRoundShare = 0.1;
+constexpr int kGlancesPerThorough = 3;
 // A round spends at least this share of what is there already.
 constexpr double kLeastBatchShare = 0.05;
 
@@ -127,14 +132,14 @@ void SortByScore(std::vector<Candidate>& candidates) {
 template <class Admit, class Score>
 std::vector<Candidate> TryAll(const Objective& objective, const CapsuleGraph& graph,
                               const std::vector<Edit>& edits, const ThreadPool& pool,
-                              const FitObserver& observer, double thorough_share,
+                              WorkMeter& meter, double until, double thorough_share,
                               const Admit& admit, const Score& score) {
   const std::unique_ptr<Objective::Round> round = objective.StartRound(graph);
   std::vector<Candidate> candidates(edits.size());
   const auto attempt = [&](Trial trial) {
     pool.ForEach(candidates.size(), [&](std::size_t i) {
       Candidate& c = candidates[i];
-      if (observer.IsCancelled()) {
+      if (meter.IsCancelled()) {
         c.result.possible = false;
         return;
       }
@@ -144,12 +149,15 @@ std::vector<Candidate> TryAll(const Objective& objective, const CapsuleGraph& gr
         c.result.possible = c.result.possible && admit(c.result.graph);
       }
       if (c.result.possible) c.score = score(c.result.graph, round->Try(trial, c.result));
+      meter.Add(trial == Trial::kGlance ? 1 : kGlancesPerThorough);
     });
     std::erase_if(candidates, [](const Candidate& c) { return !c.result.possible; });
     SortByScore(candidates);
   };
-  attempt(Trial::kGlance);
   const auto kept = static_cast<std::size_t>(thorough_share * static_cast<double>(edits.size()));
+  meter.ExpectShare(kRoundShare, until,
+                    static_cast<std::int64_t>(edits.size() + kGlancesPerThorough * kept));
+  attempt(Trial::kGlance);
   candidates.resize(std::min(candidates.size(), std::max(kLeastThorough, kept)));
   attempt(Trial::kThorough);
   return candidates;
@@ -220,9 +228,9 @@ CapsuleGraph KeepBest(const CapsuleGraph& graph, const std::vector<Candidate>& c
 }
 
 bool GrowOnce(const Objective& objective, const Spending& spending, const GrowthOptions& options,
-              const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
+              const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
   const std::vector<Candidate> candidates = TryAll(
-      objective, graph, Additions(objective, options, graph), pool, observer,
+      objective, graph, Additions(objective, options, graph), pool, meter, options.until,
       options.thorough_share, [&](const CapsuleGraph& after) { return spending.Allows(after); },
       [&](const CapsuleGraph& after, double gain) {
         return gain / CostOf(spending, options, graph, after);
@@ -242,10 +250,10 @@ bool GrowOnce(const Objective& objective, const Spending& spending, const Growth
 
 // Capsules and spheres that could go, least loss first.
 std::vector<Candidate> RankRemovals(const Objective& objective, const GrowthOptions& options,
-                                    const ThreadPool& pool, const FitObserver& observer,
+                                    const ThreadPool& pool, WorkMeter& meter,
                                     const CapsuleGraph& graph) {
   return TryAll(
-      objective, graph, Removals(graph), pool, observer, kSpareThoroughShare,
+      objective, graph, Removals(graph), pool, meter, options.until, kSpareThoroughShare,
       [&](const CapsuleGraph& after) { return SavingOf(options, graph, after) > 0.0; },
       [&](const CapsuleGraph& after, double gain) {
         return gain / std::max(0.5, SavingOf(options, graph, after));
@@ -279,29 +287,35 @@ CapsuleGraph TakeAway(const std::vector<Candidate>& candidates, std::size_t firs
 }
 
 void Fill(const Objective& objective, const Spending& spending, const GrowthOptions& options,
-          const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
-  const int most_rounds = 4 + RoomIn(spending, graph);
-  for (int i = 0; i < most_rounds && RoomIn(spending, graph) > 0; ++i) {
-    if (observer.IsCancelled()) return;
-    if (!GrowOnce(objective, spending, options, pool, observer, graph)) return;
+          const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+  const int room = RoomIn(spending, graph);
+  const double begin = meter.until();
+  for (int i = 0; i < 4 + room && RoomIn(spending, graph) > 0; ++i) {
+    const double left = static_cast<double>(RoomIn(spending, graph)) / room;
+    meter.Expect(begin + std::min(1.0, 1.0 - left) * (options.until - begin), 1);
+    if (meter.IsCancelled()) return;
+    if (!GrowOnce(objective, spending, options, pool, meter, graph)) return;
   }
 }
 
 // Gives up the least and spends it elsewhere, as long as that pays. Where it does not, the next
 // least is given up instead.
 void Exchange(const Objective& objective, const Spending& spending, const GrowthOptions& options,
-              const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
+              const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
   objective.Settle(Effort::kTighten, graph);
   double value = objective.Value(graph);
   std::vector<Candidate> removals;
   std::size_t failures = 0;
-  for (int i = 0; i < options.exchanges && !observer.IsCancelled(); ++i) {
-    if (failures == 0) removals = RankRemovals(objective, options, pool, observer, graph);
+  const double begin = meter.until();
+  GrowthOptions refill = options;
+  for (int i = 0; i < options.exchanges && !meter.IsCancelled(); ++i) {
+    if (failures == 0) removals = RankRemovals(objective, options, pool, meter, graph);
     if (failures >= removals.size()) return;
     const int most = std::max(2, static_cast<int>(kExchangeShare * graph.primitive_count()));
     CapsuleGraph other = TakeAway(removals, failures, most, options, graph);
     objective.Settle(Effort::kTouch, other);
-    Fill(objective, spending, options, pool, observer, other);
+    refill.until = begin + (i + 1.0) / options.exchanges * (options.until - begin);
+    Fill(objective, spending, refill, pool, meter, other);
     const double other_value = objective.Value(other);
     if (other_value < value) {
       graph = std::move(other);
@@ -335,10 +349,10 @@ CapsuleGraph CutLargest(const Spending& spending, CapsuleGraph graph) {
 
 }  // namespace
 
-void SpendByCutting(const Objective& objective, const Spending& spending,
-                    const FitObserver& observer, CapsuleGraph& graph) {
+void SpendByCutting(const Objective& objective, const Spending& spending, WorkMeter& meter,
+                    CapsuleGraph& graph) {
   double value = objective.Value(graph);
-  for (int round = 0; round < kCuttingRounds && !observer.IsCancelled(); ++round) {
+  for (int round = 0; round < kCuttingRounds && !meter.IsCancelled(); ++round) {
     CapsuleGraph cut = CutLargest(spending, graph);
     if (cut.primitive_count() == graph.primitive_count()) return;
     objective.Settle(Effort::kFinish, cut);
@@ -352,11 +366,11 @@ void SpendByCutting(const Objective& objective, const Spending& spending,
 }
 
 void Spare(const Objective& objective, const Spending& spending, const GrowthOptions& options,
-           const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
-  while (!spending.Allows(graph) && !observer.IsCancelled()) {
+           const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+  while (!spending.Allows(graph) && !meter.IsCancelled()) {
     const int excess = std::max({1, graph.primitive_count() - spending.max_primitives,
                                  graph.capsule_count() - spending.max_capsules});
-    const std::vector<Candidate> removals = RankRemovals(objective, options, pool, observer, graph);
+    const std::vector<Candidate> removals = RankRemovals(objective, options, pool, meter, graph);
     if (removals.empty()) return;
     graph = TakeAway(removals, 0, excess, options, graph);
     objective.Settle(Effort::kTouch, graph);
@@ -364,9 +378,9 @@ void Spare(const Objective& objective, const Spending& spending, const GrowthOpt
 }
 
 void Grow(const Objective& objective, const Spending& spending, const GrowthOptions& options,
-          const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph) {
-  Fill(objective, spending, options, pool, observer, graph);
-  if (options.exchanges > 0) Exchange(objective, spending, options, pool, observer, graph);
+          const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+  Fill(objective, spending, options, pool, meter, graph);
+  if (options.exchanges > 0) Exchange(objective, spending, options, pool, meter, graph);
 }
 
 }  // namespace capfit::refine

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
+#include "core/base/work_meter.h"
 #include "core/refine/capsule_graph.h"
 #include "core/refine/objective.h"
 
@@ -35,21 +35,22 @@ struct GrowthOptions {
   int exchanges = 0;             // rounds that give up the least and spend it elsewhere
   // What each further piece of the graph counts, in primitives: sets in one piece are preferred.
   double piece_cost = 0.0;
+  double until = 1.0;  // what the meter shows when this growing is done
 };
 
 // Removes what costs least until the graph is within the spending.
 void Spare(const Objective& objective, const Spending& spending, const GrowthOptions& options,
-           const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph);
+           const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph);
 
 // Adds what gains most per primitive until nothing fits or nothing gains. Each round tries all
 // edits, settled near by, in parallel; the best ones that do not touch each other are kept.
 void Grow(const Objective& objective, const Spending& spending, const GrowthOptions& options,
-          const ThreadPool& pool, const FitObserver& observer, CapsuleGraph& graph);
+          const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph);
 
 // Spends what growing left, where single edits gain too little to tell: cuts the capsules with most
 // surface in two and settles all; kept where the value falls.
-void SpendByCutting(const Objective& objective, const Spending& spending,
-                    const FitObserver& observer, CapsuleGraph& graph);
+void SpendByCutting(const Objective& objective, const Spending& spending, WorkMeter& meter,
+                    CapsuleGraph& graph);
 
 }  // namespace capfit::refine
 

@@ -43,6 +43,11 @@ constexpr double kMostSpacing = 0.027;
 constexpr int kFineSteps = 8;
 constexpr double kFineLooseness = 0.5;  // the shape is found, it need not be found anew
 constexpr int kFineTakeInSteps = 2;
+// How much of the time of a best fit has gone by when it is done with each, as measured.
+constexpr double kSettled = 0.02;
+constexpr double kGrown = 0.5;
+constexpr double kExchanged = 0.75;
+constexpr double kFinished = 0.78;
 
 Spending SpendingOf(const circle::Budget& budget) {
   return {std::min(budget.max_primitives, kNoLimit), std::min(budget.max_spheres, kNoLimit),
@@ -93,35 +98,43 @@ void RemoveUseless(CapsuleGraph& graph) {
 
 // Settles the start and brings it up to the budget.
 CapsuleGraph FindSet(const Objective& objective, const Spending& spending, const ThreadPool& pool,
-                     const FitObserver& observer, CapsuleGraph graph) {
-  const GrowthOptions plan = PlanGrowth(spending);
+                     double until, WorkMeter& meter, CapsuleGraph graph) {
+  const double begin = meter.until();
+  const auto at = [&](double share) { return begin + share * (until - begin); };
+  GrowthOptions plan = PlanGrowth(spending);
   GrowthOptions at_first = plan;
   at_first.exchanges = 0;
+  at_first.until = at(kGrown);
+  plan.until = at(kExchanged);
+  meter.Expect(at(kSettled), 1);
   objective.Settle(Effort::kRough, graph);
   RemoveUseless(graph);
-  Spare(objective, spending, at_first, pool, observer, graph);
-  Grow(objective, spending, at_first, pool, observer, graph);
-  Grow(objective, spending, plan, pool, observer, graph);
+  Spare(objective, spending, at_first, pool, meter, graph);
+  Grow(objective, spending, at_first, pool, meter, graph);
+  Grow(objective, spending, plan, pool, meter, graph);
+  meter.Expect(at(kFinished), 1);
   objective.Settle(Effort::kFinish, graph);
   RemoveUseless(graph);
   // What has become useless in the end is spent once more.
   const int used = graph.primitive_count();
   GrowthOptions last;
   last.piece_cost = kPieceCost;
-  Grow(objective, spending, last, pool, observer, graph);
+  last.until = until;
+  Grow(objective, spending, last, pool, meter, graph);
   if (graph.primitive_count() != used) objective.Settle(Effort::kTighten, graph);
-  SpendByCutting(objective, spending, observer, graph);
+  SpendByCutting(objective, spending, meter, graph);
   return graph;
 }
 
 // The best set that one of the starts leads to.
 CapsuleGraph FindBestSet(const Objective& objective, const Spending& spending,
-                         const ThreadPool& pool, const FitObserver& observer,
+                         const ThreadPool& pool, WorkMeter& meter,
                          std::vector<CapsuleGraph> starts) {
   CapsuleGraph best;
   double least = std::numeric_limits<double>::max();
-  for (CapsuleGraph& start : starts) {
-    CapsuleGraph graph = FindSet(objective, spending, pool, observer, std::move(start));
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const double until = static_cast<double>(i + 1) / static_cast<double>(starts.size());
+    CapsuleGraph graph = FindSet(objective, spending, pool, until, meter, std::move(starts[i]));
     // Over the spending only where a cancellation cut the search short.
     const double value = objective.Value(graph) + Excess(spending, graph);
     if (value < least) {
@@ -133,20 +146,25 @@ CapsuleGraph FindBestSet(const Objective& objective, const Spending& spending,
 }
 
 CapsuleGraph FindBestFit(const body::Body& body, const RefineOptions& options,
-                         const ThreadPool& pool, const FitObserver& observer) {
+                         const ThreadPool& pool, WorkMeter& meter) {
   const Spending spending = SpendingOf(options.budget);
   std::vector<CapsuleGraph> starts =
       StartingGraphs(Guise::kBestFit, body, options.parts, spending, /*sizes=*/1, kMostSpared);
   OccupancyGrid grid = MakeOccupancyGrid(body, options.parts, kCellM, body.is_symmetric);
   CoverPoints thinned = MakeCoverPoints(ThinOut(SelectedPoints(body, options), kThinnedCellM));
   const BestFitObjective objective(std::move(grid), std::move(thinned), options.seed);
-  return FindBestSet(objective, spending, pool, observer, std::move(starts));
+  return FindBestSet(objective, spending, pool, meter, std::move(starts));
 }
 
 // Settles each of the graphs once more, with points enough to tell their values apart; the best
 // first.
 std::vector<CapsuleGraph> Finish(const EnclosingTask& task, const std::vector<CapsuleGraph>& graphs,
-                                 const ThreadPool& pool, const FitObserver& observer) {
+                                 const ThreadPool& pool, WorkMeter& meter) {
+  std::int64_t work = 0;
+  for (const CapsuleGraph& graph : graphs) {
+    work += (kFineSteps + kFineTakeInSteps) * graph.primitive_count();
+  }
+  meter.Expect(1.0, work);
   struct Finished {
     CapsuleGraph graph;
     double value;
@@ -155,8 +173,8 @@ std::vector<CapsuleGraph> Finish(const EnclosingTask& task, const std::vector<Ca
   std::vector<Finished> finished(graphs.size());
   pool.ForEach(graphs.size(), [&](std::size_t i) {
     CapsuleGraph graph = graphs[i];
-    task.FindShape(kFineSteps, kFineLooseness, /*seed=*/1, alone, observer, graph);
-    task.TakeIn(kFineTakeInSteps, /*seed=*/2, alone, observer, graph);
+    task.FindShape(kFineSteps, kFineLooseness, /*seed=*/1, alone, meter, graph);
+    task.TakeIn(kFineTakeInSteps, /*seed=*/2, alone, meter, graph);
     const double value = task.Value(graph, alone);
     finished[i] = {std::move(graph), value};
   });
@@ -169,7 +187,7 @@ std::vector<CapsuleGraph> Finish(const EnclosingTask& task, const std::vector<Ca
 
 std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const coverage::CoverTarget& target,
                                         const RefineOptions& options, const ThreadPool& pool,
-                                        const FitObserver& observer) {
+                                        WorkMeter& meter) {
   const Spending spending = SpendingOf(options.budget);
   const int primitives = spending.UsualPrimitives();
   const double share = 1.0 / std::sqrt(static_cast<double>(primitives));
@@ -179,11 +197,10 @@ std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const coverage::
   const int most_spared = primitives > kFewPrimitives ? 0 : primitives;
   const std::vector<CapsuleGraph> starts =
       StartingGraphs(Guise::kEnclose, body, options.parts, spending, /*sizes=*/2, most_spared);
-  const std::vector<CapsuleGraph> found =
-      FindEnclosingGraphs(task, spending, starts, pool, observer);
+  const std::vector<CapsuleGraph> found = FindEnclosingGraphs(task, spending, starts, pool, meter);
   const double fine_spacing = std::clamp(kFineSpacing * share, kLeastSpacing, spacing);
   const EnclosingTask fine(target, body.is_symmetric, options.tolerance_m, fine_spacing);
-  std::vector<CapsuleGraph> finished = Finish(fine, found, pool, observer);
+  std::vector<CapsuleGraph> finished = Finish(fine, found, pool, meter);
   // Few primitives are judged well enough by thinned points.
   if (primitives <= kFewPrimitives) finished.resize(1);
   return finished;
@@ -205,12 +222,13 @@ body::Part PartAt(const body::Body& body, const Vec3& point_m) {
 std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
                                              const coverage::CoverTarget& target,
                                              const RefineOptions& options, const ThreadPool& pool,
-                                             const FitObserver& observer) {
+                                             FitObserver& observer) {
+  WorkMeter meter(observer);
   std::vector<CapsuleGraph> graphs;
   if (options.enclose) {
-    graphs = FindEnclosing(body, target, options, pool, observer);
+    graphs = FindEnclosing(body, target, options, pool, meter);
   } else {
-    graphs.push_back(FindBestFit(body, options, pool, observer));
+    graphs.push_back(FindBestFit(body, options, pool, meter));
   }
   std::vector<capsule::PrimitiveSet> sets;
   for (const CapsuleGraph& graph : graphs) {

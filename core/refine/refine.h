@@ -33,13 +33,14 @@ struct RefineOptions {
 //
 // `target`: coverage::TargetOf(body, options.parts). Returns one set or, of larger enclosing ones,
 // a few, those that seem best first: which of them is tightest only coverage can tell. Same input,
-// same bits, for any pool. On cancellation the set so far comes back. Grows with budget and
+// same bits, for any pool. On cancellation the set so far comes back. Tells the
+// observer the fraction of the stage. Grows with budget and
 // vertices.
 [[nodiscard]] std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
                                                            const coverage::CoverTarget& target,
                                                            const RefineOptions& options,
                                                            const ThreadPool& pool,
-                                                           const FitObserver& observer);
+                                                           FitObserver& observer);
 
 }  // namespace capfit::refine
 

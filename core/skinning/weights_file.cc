@@ -30,10 +30,13 @@ std::uint32_t LittleEndian(std::uint32_t word) {
   return word;
 }
 
+absl::Status MissingMember(const std::string& name) {
+  return InvalidField(ErrorReason::kMissing, name, "is missing from the weights header");
+}
+
 absl::StatusOr<std::string> TextMember(const Json& header, const std::string& name) {
   const auto found = header.find(name);
-  if (found == header.end())
-    return InvalidField(ErrorReason::kMalformedFile, name, "is missing from the weights header");
+  if (found == header.end()) return MissingMember(name);
   if (!found->is_string()) return InvalidField(ErrorReason::kMalformedFile, name, "must be a text");
   return found->get<std::string>();
 }
@@ -41,31 +44,31 @@ absl::StatusOr<std::string> TextMember(const Json& header, const std::string& na
 absl::Status ExpectText(const Json& header, const std::string& name, const std::string& expected) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string text, TextMember(header, name));
   if (text == expected) return absl::OkStatus();
-  return InvalidField(ErrorReason::kMalformedFile, name,
-                      absl::StrCat("is \"", text, "\", must be \"", expected, "\""));
+  return InvalidField(ErrorReason::kUnsupportedFile, name,
+                      absl::StrCat("is \"", text, "\", must be \"", expected, "\""),
+                      {{"value", text}, {"limit", expected}});
 }
 
-absl::StatusOr<std::uint64_t> CountMember(const Json& header, const std::string& name,
-                                          std::uint64_t limit) {
+absl::StatusOr<std::uint64_t> CountMember(const Json& header, const std::string& name) {
   const auto found = header.find(name);
-  if (found == header.end())
-    return InvalidField(ErrorReason::kMalformedFile, name, "is missing from the weights header");
+  if (found == header.end()) return MissingMember(name);
   if (!found->is_number_unsigned()) {
     return InvalidField(ErrorReason::kMalformedFile, name,
                         absl::StrCat("is ", found->dump(), ", must be a whole number >= 0"));
   }
   const auto count = found->get<std::uint64_t>();
-  if (count <= limit) return count;
-  return InvalidField(ErrorReason::kMalformedFile, name,
-                      absl::StrCat("is ", count, ", must be at most ", limit));
+  if (count <= kMaxCount) return count;
+  return OutOfRange(name, count, std::uint64_t{0}, kMaxCount);
 }
 
 absl::Status CheckKind(const Json& header) {
   CAPFIT_RETURN_IF_ERROR(ExpectText(header, "format", "capfit-dense-weights"));
-  CAPFIT_ASSIGN_OR_RETURN(const std::uint64_t version, CountMember(header, "version", kMaxCount));
-  if (version != 1)
-    return InvalidField(ErrorReason::kMalformedFile, "version",
-                        absl::StrCat("is ", version, ", must be 1"));
+  CAPFIT_ASSIGN_OR_RETURN(const std::uint64_t version, CountMember(header, "version"));
+  if (version != 1) {
+    return InvalidField(ErrorReason::kUnsupportedFile, "version",
+                        absl::StrCat("is ", version, ", must be 1"),
+                        {{"value", absl::StrCat(version)}, {"limit", "1"}});
+  }
   CAPFIT_RETURN_IF_ERROR(ExpectText(header, "dtype", "float32"));
   CAPFIT_RETURN_IF_ERROR(ExpectText(header, "byte_order", "little"));
   return ExpectText(header, "layout", "row-major");
@@ -73,9 +76,10 @@ absl::Status CheckKind(const Json& header) {
 
 absl::Status WrongSize(const WeightsHeader& header, const std::string& found) {
   return InvalidField(
-      ErrorReason::kMalformedFile, "weights",
+      ErrorReason::kCountMismatch, "weights",
       absl::StrCat("hold ", found, " bytes, must hold ", header.data_bytes(), " (",
-                   header.sphere_count, " spheres x ", header.vertex_count, " vertices x 4)"));
+                   header.sphere_count, " spheres x ", header.vertex_count, " vertices x 4)"),
+      {{"value", found}, {"limit", absl::StrCat(header.data_bytes())}});
 }
 
 // Index of the first number that is not finite.
@@ -108,13 +112,14 @@ absl::StatusOr<WeightsHeader> ParseWeightsHeader(const std::string& text) {
     return InvalidField(ErrorReason::kMalformedFile, "header", "must be one JSON object");
   }
   CAPFIT_RETURN_IF_ERROR(CheckKind(json));
-  CAPFIT_ASSIGN_OR_RETURN(const std::uint64_t spheres, CountMember(json, "spheres", kMaxCount));
-  CAPFIT_ASSIGN_OR_RETURN(const std::uint64_t vertices, CountMember(json, "vertices", kMaxCount));
+  CAPFIT_ASSIGN_OR_RETURN(const std::uint64_t spheres, CountMember(json, "spheres"));
+  CAPFIT_ASSIGN_OR_RETURN(const std::uint64_t vertices, CountMember(json, "vertices"));
   CAPFIT_ASSIGN_OR_RETURN(const std::string data_file, TextMember(json, "data"));
   WeightsHeader header{spheres, vertices, data_file};
   if (spheres != 0 && vertices > kMaxWeightsBytes / 4 / spheres) {
-    return InvalidField(ErrorReason::kMalformedFile, "spheres * vertices * 4",
-                        absl::StrCat("is more than ", kMaxWeightsBytes, " bytes"));
+    return InvalidField(ErrorReason::kTooLarge, "spheres * vertices * 4",
+                        absl::StrCat("is more than ", kMaxWeightsBytes, " bytes"),
+                        {{"limit", absl::StrCat(kMaxWeightsBytes)}});
   }
   return header;
 }
@@ -154,9 +159,10 @@ absl::StatusOr<DenseWeights> ReadWeightsData(const WeightsHeader& header, std::i
   if (in.peek() != std::istream::traits_type::eof()) return WrongSize(header, "more");
   if (const auto at = FirstNotFinite(result.weights)) {
     return InvalidField(
-        ErrorReason::kMalformedFile,
+        ErrorReason::kNotFinite,
         absl::StrCat("weights[", *at / header.vertex_count, "][", *at % header.vertex_count, "]"),
-        absl::StrCat("is ", result.weights[*at], ", must be finite"));
+        absl::StrCat("is ", result.weights[*at], ", must be finite"),
+        {{"value", absl::StrCat(result.weights[*at])}, {"limit", "finite"}});
   }
   return result;
 }

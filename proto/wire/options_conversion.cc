@@ -197,11 +197,7 @@ absl::Status WithWirePaths(const absl::Status& status, const v1::FitOptions& opt
   const std::string name = field.substr(sizeof(kLandmarks) - 1);
   for (int i = 0; i < options.landmarks_size(); ++i) {
     if (options.landmarks(i).name() != name) continue;
-    const std::string problem(status.message().substr(field.size() + 1));
-    return WithWarnings(
-        InvalidField(ReasonOf(status).value_or(ErrorReason::kContradictsBody),
-                     absl::StrCat("options.landmarks[", i, "].position"), problem, FactsOf(status)),
-        WarningsOf(status));
+    return WithField(status, absl::StrCat("options.landmarks[", i, "].position"));
   }
   return status;
 }

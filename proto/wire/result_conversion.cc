@@ -229,6 +229,20 @@ v1::Summary SummaryToWire(const pipeline::FitResult& result, const std::string& 
   return wire;
 }
 
+v1::ApproximateBodyUnaryResponse ResultToWire(const pipeline::FitResult& result,
+                                              const std::string& request_id) {
+  v1::ApproximateBodyUnaryResponse wire;
+  *wire.mutable_primitives() = PrimitivesToWire(result);
+  *wire.mutable_summary() = SummaryToWire(result, request_id);
+  for (const Warning& warning : result.warnings) *wire.add_warnings() = WarningToWire(warning);
+  *wire.mutable_landmarks() = LandmarksToWire(result);
+  for (const pipeline::PolygonResult& polygon : result.polygons) {
+    *wire.add_feature_polygons() = PolygonToWire(polygon);
+  }
+  wire.mutable_vertex_gaps()->Add(result.vertex_gaps.begin(), result.vertex_gaps.end());
+  return wire;
+}
+
 WeightBlock BlockAt(const skinning::DenseWeights& weights, std::size_t first_sphere,
                     std::size_t first_vertex, std::size_t max_weights) {
   if (first_sphere >= weights.sphere_count || weights.vertex_count == 0) return {};

@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "capfit/v1/result.pb.h"
+#include "capfit/v1/service.pb.h"
 #include "core/pipeline/fit.h"
 
 namespace capfit::wire {
@@ -24,6 +25,10 @@ namespace capfit::wire {
 [[nodiscard]] v1::PrimitiveSet PrimitivesToWire(const pipeline::FitResult& result);
 [[nodiscard]] v1::Summary SummaryToWire(const pipeline::FitResult& result,
                                         const std::string& request_id);
+
+// All of it in one message, but for weights.
+[[nodiscard]] v1::ApproximateBodyUnaryResponse ResultToWire(const pipeline::FitResult& result,
+                                                            const std::string& request_id);
 
 // Which block of a dense matrix: whole rows, or a piece of one row.
 struct WeightBlock {

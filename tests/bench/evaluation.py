@@ -130,7 +130,7 @@ def draw_pictures(store, errors, bodies, folder, budget):
     if not ranked:
         return pictures
     name = ranked[-1]
-    words = (f"{name}, {cells.SPHERE_MESHES}, n_p {budget}, "
+    words = (f"{name}, {page.WORDS[cells.SPHERE_MESHES]}, n_p {budget}, "
              f"E_r {errors[name][cells.SPHERE_MESHES][budget]['E_r']:.3f}")
     prefix = store.sphere_mesh_prefix(by_name[name])
     if not os.path.exists(f"{prefix}.{budget}.capsules.json"):

@@ -17,7 +17,7 @@ STYLE = {
     "paper best": ("#e08214", "s", "-", "capfit, paper"),
     "tight enclose": ("#2166ac", "o", "-", "capfit, tight"),
     "tight best": ("#2166ac", "o", "-", "capfit, tight"),
-    SPHERE_MESHES: ("#555555", "^", "--", "Sphere-Meshes (2013), own code"),
+    SPHERE_MESHES: ("#555555", "^", "--", "improved Sphere-Meshes, own code"),
 }
 # Seconds in the paper's table 1 (i7-7700, 64k faces).
 PAPER_S = {22: .005, 32: .044, 48: .035, 64: .048, 95: .110, 128: .106, 167: .163, 207: .153,
@@ -130,7 +130,7 @@ def figure_10(ratios, path):
              label)
         draw(right, lambda row, m=method: seconds(row, m), method, line, label)
     draw(right, lambda row: seconds(row, SPHERE_MESHES), SPHERE_MESHES, "--",
-         "Sphere-Meshes, own code")
+         "Sphere-Meshes (2013), own code")
     left.axhline(1, color="#999999", linewidth=1)
     left.set_ylabel("time of Sphere-Meshes / time of capfit")
     right.set_ylabel("time, s")

@@ -2,16 +2,19 @@
 # Runs one of the samples against a real server with a mannequin, and compares what it prints with
 # the command line's own result.
 #
-#   sample_test.sh python|cpp|buf SERVER CAPFIT CPP_SAMPLE
+#   sample_test.sh python|cpp|buf|buf_unary SERVER CAPFIT CPP_SAMPLE PYTHON_SITE
+#
+# PYTHON_SITE: where tests/client/python/install_package.sh has put the package.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-sample=$1 server=$2 capfit=$3 cpp_sample=$4
+sample=$1 server=$2 capfit=$3 cpp_sample=$4 python_site=$5
+buf=$(PATH=$PATH:$root/node_modules/.bin type -P buf || true)
 
 skip() { echo "SKIPPED: $*" >&2; exit 77; }
 case "$sample" in
-  python) /usr/bin/python3 -c 'import grpc, google.protobuf' 2>/dev/null ||
-            skip "Debian's /usr/bin/python3 has no grpc: apt-get install python3-grpcio python3-protobuf" ;;
-  buf) [ -x "$root/node_modules/.bin/buf" ] || skip "no buf: run .ci/buf once, it installs it" ;;
+  python) PYTHONPATH=$python_site /usr/bin/python3 -c 'import capfit' 2>/dev/null ||
+            skip "no package in $python_site, see the test python_client.install" ;;
+  buf*) [ -n "$buf" ] || skip "no buf: run .ci/buf once, it installs it" ;;
 esac
 
 scratch=$(mktemp -d)
@@ -38,19 +41,9 @@ expect() {
   /usr/bin/python3 -c 'import json,sys; r=json.load(open(sys.argv[1])); print(len(r["spheres"]), len(r["capsules"]))' \
     "$scratch/result.json"
 }
-count() { echo "$(grep -c '^sphere ' "$scratch/out") $(grep -c '^capsule ' "$scratch/out")"; }
-
-case "$sample" in
-  python)
-    "$root/client/samples/python/run.sh" "$address" "$body" >"$scratch/out"
-    wanted=$(expect) got=$(count) ;;
-  cpp)
-    "$cpp_sample" "$address" "$body" >"$scratch/out"
-    wanted=$(expect --max-spheres 32 --max-capsules 32) got=$(count) ;;
-  buf)
-    "$root/client/samples/buf/approximate.sh" "$address" "$body" >"$scratch/out"
-    wanted=$(expect)
-    got=$(/usr/bin/python3 - "$scratch/out" <<'PY'
+# How many spheres and capsules the last message of JSON answers has; it must have the summary too.
+count_json() {
+  /usr/bin/python3 - "$scratch/out" <<'PY'
 import json, sys
 text, decoder, place, primitives = open(sys.argv[1]).read(), json.JSONDecoder(), 0, None
 while place < len(text.rstrip()):
@@ -61,9 +54,29 @@ while place < len(text.rstrip()):
 assert "metrics" in message["summary"], "the last message is the summary"
 print(len(primitives["spheres"]), len(primitives["capsules"]))
 PY
-)
+}
+# Samples are copied away from the repository: they need nothing beside them.
+outside() {
+  mkdir "$scratch/outside"
+  cp "$root/client/samples/$1" "$scratch/outside/"
+  cd "$scratch/outside"
+}
+count() { echo "$(grep -c '^sphere ' "$scratch/out") $(grep -c '^capsule ' "$scratch/out")"; }
+
+case "$sample" in
+  python)
+    outside python/approximate.py
+    PYTHONPATH=$python_site /usr/bin/python3 approximate.py "$address" "$body" >"$scratch/out"
+    wanted=$(expect) got=$(count) ;;
+  cpp)
+    "$cpp_sample" "$address" "$body" >"$scratch/out"
+    wanted=$(expect --max-spheres 32 --max-capsules 32) got=$(count) ;;
+  buf)
+    outside buf/approximate.sh
+    PATH=$(dirname "$buf"):$PATH ./approximate.sh "$address" "$body" >"$scratch/out"
+    wanted=$(expect) got=$(count_json)
     # Reflection shows all services, health too.
-    methods=$("$root/node_modules/.bin/buf" curl --protocol grpc --http2-prior-knowledge \
+    methods=$("$buf" curl --protocol grpc --http2-prior-knowledge \
       --list-methods "http://$address")
     for method in capfit.v1.BodyApproximationService/ApproximateBody \
                   capfit.v1.BodyApproximationService/GetServerInfo grpc.health.v1.Health/Check; do
@@ -71,11 +84,15 @@ PY
     done
     # buf's exit code is 8 times the gRPC code: 3 is INVALID_ARGUMENT.
     code=0
-    echo '{"chunk": {"file_bytes": "AAAA"}}' | "$root/node_modules/.bin/buf" curl --protocol grpc \
+    echo '{"chunk": {"file_bytes": "AAAA"}}' | "$buf" curl --protocol grpc \
       --http2-prior-knowledge -d @- \
       "http://$address/capfit.v1.BodyApproximationService/ApproximateBody" 2>"$scratch/error" || code=$?
     [ "$code" -eq 24 ] || { echo "a chunk before the header gave exit code $code" >&2; exit 1; }
     grep -q 'chunk came before the header' "$scratch/error" ;;
+  buf_unary)
+    # In the repository, where the buf that npm installed is found.
+    "$root/client/samples/buf/approximate_unary.sh" "$address" "$body" >"$scratch/out"
+    wanted=$(expect) got=$(count_json) ;;
 esac
 [ "$got" = "$wanted" ] || { echo "$sample: got '$got' spheres and capsules, wanted '$wanted'" >&2; exit 1; }
 [ "${wanted% *}" -gt 9 ] || { echo "only '$wanted' spheres and capsules" >&2; exit 1; }

@@ -26,7 +26,7 @@ TEST(EnumConversion, EveryCoreValueComesBack) {
   ExpectRoundTrip<body::LandmarkMethod>(4);
   ExpectRoundTrip<body::Part>(body::kPartCount);
   ExpectRoundTrip<Stage>(kStageCount);
-  ExpectRoundTrip<section::Sex>(4);
+  ExpectRoundTrip<section::Sex>(3);
   ExpectRoundTrip<pipeline::FitMode>(2);
   ExpectRoundTrip<pipeline::Quality>(2);
   ExpectRoundTrip<pipeline::SkinningMode>(2);

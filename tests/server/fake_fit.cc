@@ -50,6 +50,7 @@ pipeline::FitResult HandMadeResult(std::size_t vertex_count) {
   result.primitives.origins = {
       {body::Part::kTorso, 4, 0}, {body::Part::kLeftArm, 7, 2}, {body::Part::kRightArm, -1, 1}};
   result.primitives.capsules = {{0, 1}, {0, 2}};
+  result.sphere_names = {"chest_1", "left_upper_arm_1", "right_upper_arm_1"};
   result.landmarks = {{"neck", {0.0, 1.4, 0.1}, body::LandmarkMethod::kMeasured, 0.75},
                       {"left_wrist", {0.5, 1.0, 0.2}, body::LandmarkMethod::kCaller, 1.0}};
   result.polygons = {
@@ -63,6 +64,21 @@ pipeline::FitResult HandMadeResult(std::size_t vertex_count) {
     result.vertex_gaps[vertex_count / 2] = std::numeric_limits<float>::quiet_NaN();
   }
   result.warnings = {{"HOLES_CLOSED", "2 holes were closed", 2}};
+  result.effective_options.max_spheres = 32;
+  result.effective_options.max_capsules = 31;
+  result.effective_options.quality = pipeline::Quality::kTight;
+  result.effective_options.engine = "unity_cloth";
+  result.effective_options.parts.head = true;
+  result.effective_options.require_parts.legs = true;
+  result.effective_options.sex = section::Sex::kFemale;
+  result.effective_options.unit = body::Unit::kCentimetre;
+  result.effective_options.up = body::UpAxis::kZ;
+  result.effective_options.seed = 7;
+  result.effective_options.tolerance_m = 0.002;
+  result.effective_options.want_polygons = true;
+  result.effective_options.want_vertex_gaps = vertex_count > 0;
+  result.body = {1234, 2345, {-50, -20, 0}, {50, 20, 170}, 1.7, true};
+  result.version = "1.2.3";
   result.body_from_caller.scale = 0.01;
   result.body_from_caller.translation = {1, 2, 3};
   result.stage_seconds = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.0, 0.8, 0.9};

@@ -20,9 +20,13 @@ void ExpectSameGap(const metrics::GapStatistics& got, const metrics::GapStatisti
 }
 
 TEST(ResultConversion, PrimitivesComeBackBitForBit) {
-  const capsule::PrimitiveSet set = HandMadeResult().primitives;
-  const auto back = PrimitivesFromWire(PrimitivesToWire(set));
-  ASSERT_TRUE(back.ok()) << back.status();
+  const pipeline::FitResult sent = HandMadeResult();
+  const capsule::PrimitiveSet& set = sent.primitives;
+  pipeline::FitResult got;
+  const absl::Status status = PrimitivesFromWire(PrimitivesToWire(sent), got);
+  ASSERT_TRUE(status.ok()) << status;
+  const capsule::PrimitiveSet* const back = &got.primitives;
+  EXPECT_EQ(got.sphere_names, sent.sphere_names);
   ASSERT_EQ(back->spheres.size(), set.spheres.size());
   for (std::size_t i = 0; i < set.spheres.size(); ++i) {
     EXPECT_EQ(back->spheres[i].center_m, set.spheres[i].center_m);
@@ -32,6 +36,26 @@ TEST(ResultConversion, PrimitivesComeBackBitForBit) {
     EXPECT_EQ(back->origins[i].mirror, set.origins[i].mirror);
   }
   EXPECT_EQ(back->capsules, set.capsules);
+}
+
+TEST(ResultConversion, WhatHeldAndWhatWasFittedComeBack) {
+  const pipeline::FitResult sent = HandMadeResult(4);
+  const v1::Summary wire = SummaryToWire(sent, "");
+  EXPECT_EQ(wire.options().budget().max_spheres(), 32);
+  EXPECT_FALSE(wire.options().budget().has_max_primitives());
+  EXPECT_EQ(wire.options().capsule_profile(), v1::CAPSULE_PROFILE_TANGENT_HULL);
+  pipeline::FitResult got;
+  const absl::Status status = SummaryFromWire(wire, got);
+  ASSERT_TRUE(status.ok()) << status;
+  // Bit for bit: the same message again.
+  EXPECT_EQ(SummaryToWire(got, "").SerializeAsString(), wire.SerializeAsString());
+  EXPECT_EQ(got.effective_options.engine, "unity_cloth");
+  EXPECT_TRUE(got.effective_options.parts.head);
+  EXPECT_FALSE(got.effective_options.require_parts.torso);
+  EXPECT_EQ(got.effective_options.up, body::UpAxis::kZ);
+  EXPECT_EQ(got.body.vertex_count, 1234);
+  EXPECT_EQ(got.body.box_max, Eigen::Vector3d(50, 20, 170));
+  EXPECT_EQ(got.version, "1.2.3");
 }
 
 TEST(ResultConversion, SummaryComesBack) {
@@ -186,15 +210,16 @@ TEST(ResultConversion, AMissingOrRepeatedBlockIsNoticed) {
 }
 
 TEST(ResultConversion, WrongMessagesOfAServerAreRefused) {
-  v1::PrimitiveSet set = PrimitivesToWire(HandMadeResult().primitives);
+  pipeline::FitResult result;
+  v1::PrimitiveSet set = PrimitivesToWire(HandMadeResult());
   set.mutable_capsules(1)->set_second_sphere(3);
-  EXPECT_EQ(FieldOf(PrimitivesFromWire(set).status()), "primitives.capsules[1]");
+  EXPECT_EQ(FieldOf(PrimitivesFromWire(set, result)), "primitives.capsules[1]");
   set.mutable_capsules(1)->set_first_sphere(2);
   set.mutable_capsules(1)->set_second_sphere(1);
-  EXPECT_FALSE(PrimitivesFromWire(set).ok());
-  set = PrimitivesToWire(HandMadeResult().primitives);
+  EXPECT_FALSE(PrimitivesFromWire(set, result).ok());
+  set = PrimitivesToWire(HandMadeResult());
   set.mutable_spheres(2)->set_part(v1::BODY_PART_UNSPECIFIED);
-  EXPECT_EQ(FieldOf(PrimitivesFromWire(set).status()), "primitives.spheres[2].part");
+  EXPECT_EQ(FieldOf(PrimitivesFromWire(set, result)), "primitives.spheres[2].part");
 }
 
 TEST(ResultConversion, PlainTextIsShortAscii) {

@@ -131,6 +131,87 @@ TEST(Service, MisuseOfTheStreamIsRefused) {
   }
 }
 
+Request DeclaringHeader(int vertices, int faces) {
+  Request header = Header();
+  header.mutable_header()->mutable_mesh()->mutable_arrays()->set_vertex_count(vertices);
+  header.mutable_header()->mutable_mesh()->mutable_arrays()->set_face_count(faces);
+  return header;
+}
+
+TEST(Service, TheFitStartsWhenTheDeclaredCountsAreMet) {
+  const auto server = StartServer(InstantBackend());
+  Call call(*server);
+  call.stream->Write(DeclaringHeader(3, 1));
+  call.stream->Write(Chunk());  // and the send side stays open
+  EXPECT_TRUE(call.Finish().ok());
+}
+
+TEST(Service, TheFitStartsWhenTheDeclaredBytesAreMet) {
+  const std::string file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto server = StartServer(InstantBackend());
+  Call call(*server);
+  Request header;
+  header.mutable_header()->mutable_mesh()->mutable_file()->set_byte_count(
+      static_cast<std::int64_t>(file.size()));
+  call.stream->Write(header);
+  for (const std::string& piece : {file.substr(0, 10), file.substr(10)}) {
+    Request chunk;
+    chunk.mutable_chunk()->set_file_bytes(piece);
+    call.stream->Write(chunk);
+  }
+  EXPECT_TRUE(call.Finish().ok());
+}
+
+TEST(Service, PolygonsAreCompleteWithTheirLastCorner) {
+  Gate gate;
+  const auto server = StartServer(WaitingBackend(gate));
+  Call call(*server);
+  call.stream->Write(DeclaringHeader(4, 1));
+  Request positions = Chunk();
+  v1::MeshArrays& arrays = *positions.mutable_chunk()->mutable_arrays();
+  arrays.clear_triangle_indices();
+  for (const float x : {1.F, 2.F, 3.F}) arrays.add_positions(x);
+  arrays.add_face_sizes(4);
+  call.stream->Write(positions);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(gate.waiting, 0);
+  Request corners;
+  for (const std::uint32_t i : {0U, 1U, 2U, 3U}) {
+    corners.mutable_chunk()->mutable_arrays()->add_face_indices(i);
+  }
+  call.stream->Write(corners);
+  EXPECT_TRUE(WaitFor([&] { return gate.waiting == 1; }));
+  gate.open = true;
+  EXPECT_TRUE(call.Finish().ok());
+}
+
+TEST(Service, AChunkTooManyStopsTheFit) {
+  Gate gate;
+  const auto server = StartServer(WaitingBackend(gate));
+  Call call(*server);
+  call.stream->Write(DeclaringHeader(3, 1));
+  call.stream->Write(Chunk());
+  ASSERT_TRUE(WaitFor([&] { return gate.waiting == 1; }));
+  call.stream->Write(Chunk());
+  const grpc::Status status = call.Finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << status.error_message();
+  EXPECT_EQ(FieldOf(status), "chunk");
+  EXPECT_TRUE(WaitFor([&] { return gate.waiting == 0; }));
+}
+
+TEST(Service, AMessageAboveTheLimitIsNamed) {
+  const auto server = StartServer(InstantBackend());
+  Call call(LoopbackChannel(*server));
+  Request header;
+  header.mutable_header()->mutable_mesh()->mutable_file();
+  Request chunk;
+  chunk.mutable_chunk()->set_file_bytes(std::string(kMaxMessageBytes, ' '));
+  call.Send({header, chunk});
+  const grpc::Status status = call.Finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << status.error_message();
+  EXPECT_THAT(status.error_message(), HasSubstr(std::to_string(kMaxMessageBytes)));
+}
+
 TEST(Service, AWrongHeaderIsAnsweredBeforeTheUploadEnds) {
   const auto server = StartServer(InstantBackend());
   Call call(*server);

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
+#include "capfit/v1/error.pb.h"
 #include "core/base/status.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -60,6 +64,51 @@ TEST(StatusConversion, CodeMessageFieldAndReasonComeBack) {
       EXPECT_EQ(ReasonOf(back), ReasonOf(status));
     }
   }
+}
+
+TEST(StatusConversion, FieldValueAndLimitAreMetadata) {
+  const absl::Status sent = OutOfRange("options.budget.max_primitives", 3, 15, 1000);
+  const auto info = Find<google::rpc::ErrorInfo>(ToGrpcStatus(sent));
+  ASSERT_TRUE(info);
+  EXPECT_EQ(info->reason(), "OUT_OF_RANGE");
+  EXPECT_EQ(info->metadata().at("field"), "options.budget.max_primitives");
+  EXPECT_EQ(info->metadata().at("value"), "3");
+  EXPECT_EQ(info->metadata().at("limit"), "[15, 1000]");
+  ErrorFacts facts = FactsOf(sent);
+  std::sort(facts.begin(), facts.end());
+  EXPECT_EQ(FactsOf(FromGrpcStatus(ToGrpcStatus(sent))), facts);
+}
+
+TEST(StatusConversion, TheContractListsExactlyTheReasonsOfTheCore) {
+  std::set<std::string> listed;
+  const google::protobuf::EnumDescriptor& reasons = *v1::ErrorReason_descriptor();
+  for (int i = 1; i < reasons.value_count(); ++i) {
+    listed.insert(reasons.value(i)->name().substr(std::string("ERROR_REASON_").size()));
+  }
+  std::set<std::string> known;
+  for (const KnownReason& reason : ErrorReasons()) known.insert(std::string(reason.name));
+  EXPECT_EQ(listed, known);
+}
+
+TEST(StatusConversion, AReasonOfALaterServerIsTreatedAsItsCode) {
+  google::rpc::Status rich;
+  google::rpc::ErrorInfo info;
+  info.set_reason("NEWER_THAN_THIS");
+  rich.add_details()->PackFrom(info);
+  const absl::Status status = FromGrpcStatus(
+      {grpc::StatusCode::FAILED_PRECONDITION, "who knows", rich.SerializeAsString()});
+  EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(ReasonOf(status), std::nullopt);
+}
+
+TEST(StatusConversion, ManyWarningsStayWithinTheTrailersLimit) {
+  const std::vector<Warning> warnings(200, {"HOLES_CLOSED", std::string(300, 'x'), 1});
+  const grpc::Status status =
+      ToGrpcStatus(WithWarnings(Refused(ErrorReason::kNotABody, "a chair"), warnings));
+  EXPECT_LE(status.error_details().size(), 6000U);
+  const std::vector<Warning> back = WarningsOf(FromGrpcStatus(status));
+  EXPECT_GT(back.size(), 5U);
+  EXPECT_LT(back.size(), 20U);
 }
 
 TEST(StatusConversion, EveryErrorHasAStableReason) {

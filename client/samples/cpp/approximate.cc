@@ -21,8 +21,9 @@ int main(int argc, char** argv) {
                                              capfit::mesh::MeshFormat::kUnknown, options);
   if (!result.ok()) return std::fprintf(stderr, "%s\n", result.status().ToString().c_str()), 1;
 
+  // 17 digits: reading them gives the same bits again.
   for (const auto& [center, radius] : result->primitives.spheres) {
-    std::printf("sphere %g %g %g %g\n", center.x(), center.y(), center.z(), radius);
+    std::printf("sphere %.17g %.17g %.17g %.17g\n", center.x(), center.y(), center.z(), radius);
   }
   for (const auto& [first, second] : result->primitives.capsules) {
     std::printf("capsule %d %d\n", first, second);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -24,6 +25,7 @@ struct Node {
   std::vector<int> triangles;   // ascending, those that are alive
   int version = 0;              // how often it has changed
   bool is_alive = true;
+  int place = 0;  // in the last snapshot
 };
 
 struct Candidate {
@@ -56,8 +58,8 @@ class Complex {
   // Collapses the cheapest edge; false when none is left.
   bool CollapseOne();
 
-  [[nodiscard]] int primitives() const { return spheres_ + edges_ + 2 * triangles_alive_; }
-  [[nodiscard]] SphereMesh Snapshot() const;
+  [[nodiscard]] int spheres() const { return spheres_; }
+  [[nodiscard]] SphereMesh Snapshot();
 
  private:
   Node& At(int i) { return nodes_[static_cast<std::size_t>(i)]; }
@@ -74,24 +76,22 @@ class Complex {
   CollapseOptions options_;
   std::vector<Node> nodes_;
   std::vector<std::array<int, 3>> corners_;
-  std::vector<char> triangle_is_alive_;
   std::priority_queue<Candidate> queue_;
-  int spheres_ = 0, edges_ = 0, triangles_alive_ = 0;
+  std::vector<int> alive_;  // of the nodes, when last looked at
+  int spheres_ = 0;
 };
 
 Complex::Complex(const mesh::BodyMesh& mesh, const CollapseOptions& options) : options_(options) {
   nodes_.resize(mesh.vertices().size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].sphere.center_m = mesh.vertices()[i];
   corners_.resize(mesh.triangles().size());
-  triangle_is_alive_.assign(corners_.size(), 1);
   for (std::size_t t = 0; t < corners_.size(); ++t) AddTriangle(mesh, t);
   spheres_ = static_cast<int>(nodes_.size());
-  triangles_alive_ = static_cast<int>(corners_.size());
+  alive_.resize(nodes_.size());
+  std::iota(alive_.begin(), alive_.end(), 0);
   for (int a = 0; a < spheres_; ++a) {
     for (const int b : At(a).neighbours) {
-      if (b <= a) continue;
-      Offer(a, b);
-      ++edges_;
+      if (b > a) Offer(a, b);
     }
   }
 }
@@ -140,8 +140,6 @@ void Complex::Offer(int a, int b) {
 }
 
 void Complex::RemoveTriangle(int t) {
-  triangle_is_alive_[static_cast<std::size_t>(t)] = 0;
-  --triangles_alive_;
   for (const int corner : Corners(t)) Erase(At(corner).triangles, t);
 }
 
@@ -173,13 +171,10 @@ void Complex::MergeTriangles(int kept, int gone) {
 
 void Complex::MergeEdges(int kept, int gone) {
   for (const int other : At(gone).neighbours) {
-    --edges_;
     Erase(At(other).neighbours, gone);
     if (other == kept) continue;
-    const std::size_t before = At(kept).neighbours.size();
     Insert(At(kept).neighbours, other);
     Insert(At(other).neighbours, kept);
-    edges_ += static_cast<int>(At(kept).neighbours.size() - before);
   }
   At(gone).neighbours.clear();
 }
@@ -208,41 +203,35 @@ bool Complex::CollapseOne() {
   return false;
 }
 
-SphereMesh Complex::Snapshot() const {
+SphereMesh Complex::Snapshot() {
+  std::erase_if(alive_, [&](int i) { return !At(i).is_alive; });
   SphereMesh mesh;
-  std::vector<int> place(nodes_.size(), -1);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (!nodes_[i].is_alive) continue;
-    place[i] = static_cast<int>(mesh.spheres.size());
-    mesh.spheres.push_back(nodes_[i].sphere);
+  for (std::size_t i = 0; i < alive_.size(); ++i) {
+    At(alive_[i]).place = static_cast<int>(i);
+    mesh.spheres.push_back(At(alive_[i]).sphere);
   }
-  const auto placed = [&](int i) { return place[static_cast<std::size_t>(i)]; };
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    for (const int j : nodes_[i].neighbours) {
-      if (j > static_cast<int>(i)) mesh.edges.push_back({place[i], placed(j)});
+  for (const int i : alive_) {
+    for (const int j : At(i).neighbours) {
+      if (j > i) mesh.edges.push_back({At(i).place, At(j).place});
     }
-  }
-  for (std::size_t t = 0; t < corners_.size(); ++t) {
-    if (!triangle_is_alive_[t]) continue;
-    mesh.triangles.push_back(
-        {placed(corners_[t][0]), placed(corners_[t][1]), placed(corners_[t][2])});
+    for (const int t : At(i).triangles) {
+      const auto [a, b, c] = Corners(t);
+      if (a == i) mesh.triangles.push_back({At(a).place, At(b).place, At(c).place});
+    }
   }
   return mesh;
 }
 
 }  // namespace
 
-void CollapseEdges(const mesh::BodyMesh& mesh, std::span<const int> budgets,
-                   const CollapseOptions& options,
-                   const std::function<void(std::size_t, const SphereMesh&)>& on_budget) {
+std::vector<SphereMesh> CollapseEdges(const mesh::BodyMesh& mesh, int most_spheres,
+                                      const CollapseOptions& options) {
   Complex complex(mesh, options);
-  std::size_t next = 0;
-  const auto report = [&] {
-    for (; next < budgets.size() && complex.primitives() <= budgets[next]; ++next) {
-      on_budget(next, complex.Snapshot());
-    }
-  };
-  for (report(); next < budgets.size() && complex.CollapseOne();) report();
+  std::vector<SphereMesh> series;
+  do {
+    if (complex.spheres() <= most_spheres) series.push_back(complex.Snapshot());
+  } while (complex.CollapseOne());
+  return series;
 }
 
 }  // namespace capfit::bench

@@ -12,12 +12,12 @@
 namespace capfit::coverage {
 namespace {
 
-const NullObserver kObserver;
+NullObserver silent;
 
 CoverReport Cover(const TubeBody& body, const CoverOptions& options, int threads,
                   capsule::PrimitiveSet& set) {
   const ThreadPool pool(threads);
-  return CoverBody(body.target, options, pool, kObserver, set);
+  return CoverBody(body.target, options, pool, silent, set);
 }
 
 double FurthestVertex(const CoverTarget& target, const capsule::PrimitiveSet& set) {
@@ -166,10 +166,10 @@ TEST(CoverBodyTest, NothingToCoverAndNothingToCoverWith) {
   const ThreadPool pool(1);
   TubeBody body = MakeTubeBody(13, 0.0);
   capsule::PrimitiveSet empty;
-  const CoverReport without = CoverBody(body.target, {}, pool, kObserver, empty);
+  const CoverReport without = CoverBody(body.target, {}, pool, silent, empty);
   EXPECT_EQ(without.max_vertex_distance_m, std::numeric_limits<double>::infinity());
   capsule::PrimitiveSet set = body.set;
-  const CoverReport report = CoverBody({}, {}, pool, kObserver, set);
+  const CoverReport report = CoverBody({}, {}, pool, silent, set);
   EXPECT_EQ(report.growth_steps, 0);
   EXPECT_EQ(set.spheres[0].radius_m, body.set.spheres[0].radius_m);
 }
@@ -182,7 +182,7 @@ TEST(CoverBodyTest, PointsWithoutTrianglesAndASingleSphere) {
   capsule::PrimitiveSet set;
   set.spheres.push_back({{0.5, 0.5, 0.5}, 0.01});
   set.origins.emplace_back();
-  const CoverReport report = CoverBody(target, {}, pool, kObserver, set);
+  const CoverReport report = CoverBody(target, {}, pool, silent, set);
   EXPECT_LE(report.max_vertex_distance_m, 0.0);
   EXPECT_LE(FurthestVertex(target, set), 0.0);
   EXPECT_TRUE(std::isfinite(set.spheres[0].radius_m));
@@ -199,11 +199,33 @@ TEST(CoverBodyTest, CancellingStopsAtOnceWithASoundSet) {
   const ThreadPool pool(1);
   const TubeBody body = MakeTubeBody(14, 0.0);
   capsule::PrimitiveSet set = body.set;
-  const CoverReport report = CoverBody(body.target, {}, pool, Cancelled(), set);
+  Cancelled cancelled;
+  const CoverReport report = CoverBody(body.target, {}, pool, cancelled, set);
   EXPECT_EQ(report.growth_steps, 0);
   for (std::size_t i = 0; i < set.spheres.size(); ++i) {
     EXPECT_EQ(set.spheres[i].center_m, body.set.spheres[i].center_m);
   }
+}
+
+// Keeps what it is told.
+class Listener final : public FitObserver {
+ public:
+  void OnStage(Stage, double) override {}
+  void OnFraction(double fraction_of_stage) override { fractions.push_back(fraction_of_stage); }
+  [[nodiscard]] bool IsCancelled() const override { return false; }
+
+  std::vector<double> fractions;
+};
+
+TEST(CoverBodyTest, TellsHowFarItIs) {
+  const TubeBody body = MakeTubeBody(14, 0.0);
+  capsule::PrimitiveSet set = body.set;
+  Listener listener;
+  (void)CoverBody(body.target, {}, ThreadPool(2), listener, set);
+  ASSERT_GT(listener.fractions.size(), 15u);  // each step of each phase
+  EXPECT_GE(listener.fractions.front(), 0.0);
+  EXPECT_LE(listener.fractions.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(listener.fractions.begin(), listener.fractions.end()));
 }
 
 TEST(CertifiedGapTest, BoundsDenseSamplesFromAboveAndClosely) {

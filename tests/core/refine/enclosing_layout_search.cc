@@ -95,8 +95,8 @@ class EnclosingLayoutSearch {
   void Settle(std::size_t subject, int steps, CapsuleGraph& graph) {
     const EnclosingTask& task = *subjects_[subject].enclosing;
     const std::uint64_t seed = random_.NextBelow(1'000'000);
-    task.FindShape(steps, 1.0, seed, alone_, observer_, graph);
-    task.TakeIn(kTakeInSteps, seed, alone_, observer_, graph);
+    task.FindShape(steps, 1.0, seed, alone_, meter_, graph);
+    task.TakeIn(kTakeInSteps, seed, alone_, meter_, graph);
   }
 
   [[nodiscard]] double ValueOf(std::size_t subject, const CapsuleGraph& graph) const {
@@ -250,7 +250,8 @@ class EnclosingLayoutSearch {
   Spending spending_;
   Random random_;
   const ThreadPool alone_{1};
-  const NullObserver observer_;
+  NullObserver observer_;
+  WorkMeter meter_{observer_};
 };
 
 }  // namespace

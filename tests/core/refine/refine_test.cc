@@ -80,7 +80,8 @@ capsule::PrimitiveSet Refine(const body::Body& body, const RefineOptions& option
                              int threads = 2) {
   const ThreadPool pool(threads);
   const coverage::CoverTarget target = coverage::TargetOf(body, options.parts);
-  std::vector<capsule::PrimitiveSet> sets = RefineSet(body, target, options, pool, NullObserver());
+  NullObserver observer;
+  std::vector<capsule::PrimitiveSet> sets = RefineSet(body, target, options, pool, observer);
   if (!options.enclose) return sets.front();
   coverage::CoverOptions cover;
   cover.tolerance_m = options.tolerance_m;
@@ -88,20 +89,47 @@ capsule::PrimitiveSet Refine(const body::Body& body, const RefineOptions& option
   std::size_t smallest = 0;
   double least_m3 = HUGE_VAL;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    const double volume_m3 =
-        coverage::CoverBody(target, cover, pool, NullObserver(), sets[i]).volume_m3;
+    const double volume_m3 = coverage::CoverBody(target, cover, pool, observer, sets[i]).volume_m3;
     if (volume_m3 < least_m3) least_m3 = volume_m3, smallest = i;
   }
   return sets[smallest];
+}
+
+// Keeps what it is told.
+class Listener final : public FitObserver {
+ public:
+  void OnStage(Stage, double) override {}
+  void OnFraction(double fraction_of_stage) override { fractions.push_back(fraction_of_stage); }
+  [[nodiscard]] bool IsCancelled() const override { return false; }
+
+  std::vector<double> fractions;
+};
+
+TEST(RefineSetTest, TellsHowFarItIs) {
+  const body::Body& body = CutMannequin();
+  for (const bool enclose : {true, false}) {
+    const RefineOptions options = WithPrimitives(64, enclose);
+    Listener listener;
+    (void)RefineSet(body, coverage::TargetOf(body, options.parts), options, ThreadPool(2),
+                    listener);
+    std::vector<double>& told = listener.fractions;
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    told.erase(std::unique(told.begin(), told.end()), told.end());
+    ASSERT_GT(told.size(), 30u) << enclose;
+    EXPECT_GE(told.front(), 0.0);
+    EXPECT_GT(told.back(), 0.75) << enclose;
+    EXPECT_LE(told.back(), 1.0);
+  }
 }
 
 // Between what the search leaves outside and what has to be inside there is little.
 TEST(RefineSetTest, EnclosingSetsAreNearlyThatBeforeCoverage) {
   for (const RefineOptions& options :
        {WithSpheresAndCapsules(32, 32, true), WithPrimitives(100, true)}) {
+    NullObserver observer;
     const std::vector<capsule::PrimitiveSet> sets =
         RefineSet(CutMannequin(), coverage::TargetOf(CutMannequin(), options.parts), options,
-                  ThreadPool(2), NullObserver());
+                  ThreadPool(2), observer);
     ASSERT_FALSE(sets.empty());
     for (const capsule::PrimitiveSet& set : sets) {
       EXPECT_LT(FurthestVertex(CutMannequin(), set), 0.015);

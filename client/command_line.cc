@@ -1,0 +1,68 @@
+#include "client/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+#include "client/animate_command.h"
+#include "client/approximate_command.h"
+#include "client/arguments.h"
+#include "client/completion_command.h"
+#include "client/evaluate_command.h"
+#include "client/exit_code.h"
+#include "client/info_command.h"
+#include "client/picture/mannequin_command.h"
+#include "client/picture/render_command.h"
+#include "core/base/version.h"
+
+namespace capfit::client {
+namespace {
+
+void AddCommands(CLI::App& app, int& exit_code) {
+  app.set_version_flag("--version", std::string(Version()));
+  app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
+  app.require_subcommand(1);
+  app.footer(
+      "\"-\" is standard input or output wherever a file is asked for.\n"
+      "Exit codes: 0 done; 1 the command line is wrong, or a file cannot be read or written;\n"
+      "2 an input or option is refused; 3 the server cannot be reached, is full, took too long or "
+      "failed.");
+  AddApproximateCommand(app, exit_code);
+  AddEvaluateCommand(app, exit_code);
+  AddAnimateCommand(app, exit_code);
+  AddRenderCommand(app, exit_code);
+  AddMannequinCommand(app, exit_code);
+  AddInfoCommand(app, exit_code);
+  AddCompletionCommand(app, exit_code);
+}
+
+int RefuseUsage(const CLI::App& app, const std::vector<std::string>& arguments,
+                const std::string& problem) {
+  const CLI::App* const command = CommandOf(app, arguments);
+  std::cerr << "capfit: " << problem << "\nRun 'capfit"
+            << (command == nullptr ? "" : " " + command->get_name()) << " --help' for help.\n";
+  return kExitUsage;
+}
+
+}  // namespace
+
+int RunCommandLine(const std::vector<std::string>& arguments) {
+  CLI::App app{"capfit: human bodies as few spheres and tapered capsules", "capfit"};
+  int exit_code = kExitDone;
+  AddCommands(app, exit_code);
+  if (const std::string problem = UnknownName(app, arguments); !problem.empty()) {
+    return RefuseUsage(app, arguments, problem);
+  }
+  std::vector<std::string> words = JoinLists(app, arguments);
+  std::reverse(words.begin(), words.end());  // as CLI11 takes them
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // help and version
+    return RefuseUsage(app, arguments, Complaint(error));
+  }
+  return exit_code;
+}
+
+}  // namespace capfit::client

@@ -1,0 +1,20 @@
+// The word that was meant.
+#ifndef CAPFIT_CLIENT_DID_YOU_MEAN_H_
+#define CAPFIT_CLIENT_DID_YOU_MEAN_H_
+
+#include <string>
+#include <vector>
+
+namespace capfit::client {
+
+// How many letters must be changed, added, left out or swapped with their neighbour.
+[[nodiscard]] int EditDistance(const std::string& a, const std::string& b);
+
+// "; did you mean approximate?" for the nearest of `known` that `word` begins, or that is at most a
+// third of its letters away; "" where none is.
+[[nodiscard]] std::string DidYouMean(const std::string& word,
+                                     const std::vector<std::string>& known);
+
+}  // namespace capfit::client
+
+#endif  // CAPFIT_CLIENT_DID_YOU_MEAN_H_

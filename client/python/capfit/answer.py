@@ -1,0 +1,149 @@
+"""Puts the messages of an answer together to one result, and holds the server to the contract."""
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, Callable, Dict, List, Optional
+
+import numpy
+from numpy.typing import NDArray
+
+from capfit.errors import contract_broken
+from capfit.result import Result
+from capfit.result_document import result_of
+from capfit.v1 import result_pb2
+from capfit.words import message_document, word_of
+
+ProgressFunction = Callable[[str, float], object]
+
+# In the order of an answer: whether they may come more than once.
+_PARTS = {"progress": True, "warning": True, "landmarks": False, "feature_polygon": True,
+          "primitives": False, "skinning": True, "vertex_gaps": True, "summary": False}
+_ORDER = list(_PARTS)
+
+
+def _float_array(message: Any, name: str) -> NDArray[Any]:
+    """A repeated float as an array, a hundred times as fast as element by element: packed, the
+    numbers are the end of the bytes of a message that has nothing else."""
+    values = getattr(message, name)
+    alone = type(message)()
+    getattr(alone, name).MergeFrom(values)
+    data = alone.SerializeToString()
+    return numpy.frombuffer(data, "<f4", len(values), len(data) - 4 * len(values))
+
+
+class Answer:
+    """Use: add() each message in order, then result(). Both raise CapfitError "INTERNAL" where the
+    answer breaks the contract. Parts of a later version of the contract are ignored."""
+
+    def __init__(self, on_progress: Optional[ProgressFunction]) -> None:
+        self._on_progress = on_progress
+        self._last = ""
+        self._document: Dict[str, Any] = {"warnings": [], "landmarks": {}}
+        self._polygons: List[Dict[str, Any]] = []
+        self._weights: Optional[NDArray[numpy.float32]] = None
+        self._weight_count = 0
+        self._gaps: Optional[NDArray[numpy.float32]] = None
+        self._gap_count = 0
+
+    def add(self, response: Any) -> None:
+        """Takes the next message."""
+        part = response.WhichOneof("part")
+        if part is None:
+            return
+        if self._last and (_ORDER.index(part) < _ORDER.index(self._last)
+                           or part == self._last and not _PARTS[part]):
+            raise contract_broken(f"{part} after {self._last}")
+        self._last = part
+        getattr(self, f"_add_{part}")(getattr(response, part))
+
+    def result(self) -> Result:
+        """The whole, after the last message."""
+        if self._last != "summary":
+            raise contract_broken("it ends without a summary")
+        for name, numbers, count in (("weights", self._weights, self._weight_count),
+                                     ("vertex gaps", self._gaps, self._gap_count)):
+            if numbers is not None and count != numbers.size:
+                raise contract_broken(f"it brings {count} {name} of {numbers.size}")
+        try:
+            result = result_of(self._document)
+        except KeyError as error:
+            raise contract_broken(f"it ends without {error}") from None
+        return dataclasses.replace(result, weights=self._weights, vertex_gaps=self._gaps)
+
+    def _add_progress(self, progress: Any) -> None:
+        stage = word_of(result_pb2.Stage.DESCRIPTOR, progress.stage)
+        if stage is not None and self._on_progress is not None:
+            self._on_progress(stage, progress.fraction_done)
+
+    def _add_warning(self, warning: Any) -> None:
+        self._document["warnings"].append(message_document(warning))
+
+    def _add_landmarks(self, landmarks: Any) -> None:
+        for landmark in landmarks.landmarks:
+            members = message_document(landmark)
+            self._document["landmarks"][members.pop("name")] = members
+
+    def _add_feature_polygon(self, polygon: Any) -> None:
+        members = message_document(polygon)
+        circles = members["circles"]
+        members["circles"] = [[*circle["center"], circle["radius"]] for circle in circles]
+        self._polygons.append(members)
+
+    def _add_primitives(self, primitives: Any) -> None:
+        spheres = [message_document(sphere) for sphere in primitives.spheres]
+        capsules = [message_document(capsule) for capsule in primitives.capsules]
+        for capsule in capsules:
+            if not 0 <= capsule["first_sphere"] < capsule["second_sphere"] < len(spheres):
+                raise contract_broken(f"a capsule between spheres {capsule['first_sphere']} and "
+                                      f"{capsule['second_sphere']} of {len(spheres)}")
+        self._document.update({
+            "spheres": [[*sphere["center"], sphere["radius"]] for sphere in spheres],
+            "capsules": [[one["first_sphere"], one["second_sphere"]] for one in capsules],
+            "sphere_names": [sphere["name"] for sphere in spheres],
+            "sphere_parts": [sphere["part"] for sphere in spheres],
+            "sphere_mirrors": [sphere.get("mirror") for sphere in spheres],
+            "sphere_polygons": [sphere.get("polygon") for sphere in spheres],
+            "capsule_parts": [capsule["part"] for capsule in capsules],
+        })
+
+    def _add_skinning(self, block: Any) -> None:
+        if self._weights is None:
+            shape = (block.total_sphere_count, block.total_vertex_count)
+            self._weights = numpy.empty(shape, numpy.float32)
+        dense = block.dense
+        rows = slice(block.first_sphere, block.first_sphere + block.sphere_count)
+        columns = slice(dense.first_vertex, dense.first_vertex + dense.vertex_count)
+        if (block.first_sphere * self._weights.shape[1]
+                + block.sphere_count * dense.first_vertex != self._weight_count
+                or self._weights[rows, columns].size != len(dense.weights)):
+            raise contract_broken(f"{len(dense.weights)} weights for spheres {rows} and vertices "
+                                  f"{columns} of {self._weights.shape}")
+        numbers = _float_array(dense, "weights")
+        self._weights[rows, columns] = numbers.reshape(block.sphere_count, dense.vertex_count)
+        self._weight_count += len(numbers)
+
+    def _add_vertex_gaps(self, chunk: Any) -> None:
+        if self._gaps is None:
+            self._gaps = numpy.empty(chunk.total_vertex_count, numpy.float32)
+        end = chunk.first_vertex + len(chunk.gaps)
+        if chunk.first_vertex != self._gap_count or end > self._gaps.size:
+            raise contract_broken(f"gaps of vertices {chunk.first_vertex} to {end} of "
+                                  f"{self._gaps.size}")
+        self._gaps[chunk.first_vertex:end] = _float_array(chunk, "gaps")
+        self._gap_count = end
+
+    def _add_summary(self, summary: Any) -> None:
+        members = message_document(summary)
+        options, metrics = members["options"], members["metrics"]
+        metrics["parts"] = {part.pop("part"): part for part in metrics["parts"]}
+        members["stages"] = {time["stage"]: time["seconds"] for time in members["stages"]}
+        self._document.update(members)
+        self._document.update({
+            "unit": options["unit"],
+            "up_axis": options["up_axis"],
+            "metres_per_unit": members["body_from_caller"]["scale"],
+        })
+        if options["want_feature_polygons"]:
+            self._document["feature_polygons"] = self._polygons
+        else:
+            self._document.pop("sphere_polygons", None)

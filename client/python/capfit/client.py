@@ -1,0 +1,209 @@
+"""Calls a capfit server."""
+from __future__ import annotations
+
+import functools
+import inspect
+import re
+import time
+from typing import Any, Callable, Optional, TypeVar, cast
+
+import grpc
+from numpy.typing import ArrayLike
+
+from capfit.answer import Answer, ProgressFunction
+from capfit.errors import CapfitError, error_of
+from capfit.options import Landmarks, Words, fit_options
+from capfit.result import Result
+from capfit.server_info import ServerInfo, info_of
+from capfit.upload import Body, Faces, array_upload, file_upload
+from capfit.v1 import mesh_pb2, server_info_pb2, service_pb2, service_pb2_grpc
+from capfit.words import nearest, number_of
+
+DEFAULT_PORT = 50051
+_MAX_ATTEMPTS = 4
+_FIRST_PAUSE_SECONDS = 0.2
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_Value = TypeVar("_Value")
+
+
+def _naming_nearest(function: _Function) -> _Function:
+    """A keyword that the function does not have is a TypeError that names the nearest it has."""
+    known = set(inspect.signature(function).parameters) - {"self"}
+
+    @functools.wraps(function)
+    def checked(*arguments: Any, **keywords: Any) -> Any:
+        for name in keywords:
+            if name not in known:
+                raise TypeError(f"{function.__name__}() has no option {name!r}"
+                                + nearest(name, known))
+        return function(*arguments, **keywords)
+
+    return cast(_Function, checked)
+
+
+class Client:
+    """A connection to a capfit server: `Client("HOST:PORT")`, or "HOST" for port 50051.
+
+    Connects at the first call, may be used from several threads at once, and is a context manager:
+
+        with capfit.Client("127.0.0.1:50051") as client:
+            result = client.approximate("body.glb", max_primitives=64, parts="all")
+    """
+
+    def __init__(self, address: str) -> None:
+        self._address = _with_port(address)
+        # gRPC's own retries stall when a call that is still sending its upload is repeated.
+        options = [("grpc.enable_retries", 0)]
+        self._channel = grpc.insecure_channel(self._address, options=options)
+        make_stub: Any = service_pb2_grpc.BodyApproximationServiceStub
+        self._stub = make_stub(self._channel)
+
+    def __enter__(self) -> Client:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the connection, and the calls that are under way."""
+        self._channel.close()
+
+    @_naming_nearest
+    def approximate(
+        self,
+        body: Optional[Body] = None,
+        *,
+        vertices: Optional[ArrayLike] = None,
+        faces: Optional[Faces] = None,
+        file_format: str = "auto",
+        unit: str = "auto",
+        up_axis: str = "auto",
+        max_primitives: Optional[int] = None,
+        max_spheres: Optional[int] = None,
+        max_capsules: Optional[int] = None,
+        max_polygon_error: Optional[float] = None,
+        engine: str = "",
+        parts: Optional[Words] = None,
+        require_parts: Optional[Words] = None,
+        fit_mode: str = "enclose",
+        quality: str = "paper",
+        tolerance_m: float = 0.0,
+        sex: str = "auto",
+        skinning: str = "none",
+        landmarks: Optional[Landmarks] = None,
+        seed: int = 0,
+        want_feature_polygons: bool = False,
+        want_vertex_gaps: bool = False,
+        request_id: str = "",
+        timeout: float = 300.0,
+        on_progress: Optional[ProgressFunction] = None,
+    ) -> Result:
+        """Fits spheres and capsules to a body.
+
+        The mesh is a file (`body`: its path or its bytes; `file_format` obj, ply, stl, off, glb) or
+        arrays: `vertices` (n, 3) and `faces` (m, 3), or a list of polygons of vertex indices.
+
+        unit, up_axis       m, cm, mm, in; x, y, z; "auto": found from the body
+        max_primitives      spheres and cones together; default: 64
+        max_spheres, max_capsules    counted apart, instead; one or both
+        max_polygon_error   as many as bring each section's error down to this, instead
+        engine              a cloth engine whose limits and capsules hold, e.g. "nvcloth"
+        parts               "all", or words of torso, arms, legs, head, hands, feet, as a list or
+                            with commas; default: torso, arms, legs
+        require_parts       refuse a body without these
+        fit_mode            "enclose": nothing outside; "best": the smallest error
+        quality             "paper": the published method; "tight": closer
+        tolerance_m         how far a vertex may stick out with "enclose", in metres
+        sex                 "auto", "female", "male": whether the bust may be split
+        skinning            "dense": weights that carry the centres along come too
+        landmarks           {name: (x, y, z)} that you know better
+        seed                the same seed gives the same bits
+        want_feature_polygons, want_vertex_gaps    whether they come too
+        request_id          name of the job in the server's logs
+        timeout             seconds for the whole call, upload and queueing included
+        on_progress         called with the stage's name and the fraction done, on this thread
+
+        A server that is full or not reachable is asked up to four times, with the pauses that it
+        names. CapfitError: the call failed. ValueError, TypeError: what was given cannot even be
+        sent. OSError: the file cannot be read.
+        """
+        if (body is None) == (vertices is None) or (vertices is None) != (faces is None):
+            raise TypeError("approximate() takes a body, or vertices and faces")
+        if body is not None:
+            mesh, upload = file_upload(body, file_format)
+        else:
+            mesh, upload = array_upload(cast(Any, vertices), cast(Any, faces))
+        mesh.unit = number_of(mesh_pb2.LengthUnit.DESCRIPTOR, "unit", unit)
+        mesh.up_axis = number_of(mesh_pb2.UpAxis.DESCRIPTOR, "up_axis", up_axis)
+        options = fit_options(
+            max_primitives=max_primitives, max_spheres=max_spheres, max_capsules=max_capsules,
+            max_polygon_error=max_polygon_error, engine=engine, parts=parts,
+            require_parts=require_parts, fit_mode=fit_mode, quality=quality,
+            tolerance_m=tolerance_m, sex=sex, skinning=skinning, landmarks=landmarks, seed=seed,
+            want_feature_polygons=want_feature_polygons, want_vertex_gaps=want_vertex_gaps)
+        header = service_pb2.ApproximateBodyHeader(mesh=mesh, options=options,
+                                                   request_id=request_id)
+        first = service_pb2.ApproximateBodyRequest(header=header)
+
+        def attempt(seconds: float) -> Result:
+            call = self._stub.ApproximateBody(upload(first), timeout=seconds)
+            answer = Answer(on_progress)
+            try:
+                for response in call:
+                    answer.add(response)
+                return answer.result()
+            finally:
+                call.cancel()  # does nothing where the call has ended
+
+        return self._with_retries(timeout, attempt)
+
+    def server_info(self, timeout: float = 10.0) -> ServerInfo:
+        """What the server is and what it accepts. CapfitError: the call failed."""
+        request = server_info_pb2.GetServerInfoRequest()
+
+        def attempt(seconds: float) -> ServerInfo:
+            return info_of(self._stub.GetServerInfo(request, timeout=seconds))
+
+        return self._with_retries(timeout, attempt)
+
+    def _with_retries(self, timeout: float, attempt: Callable[[float], _Value]) -> _Value:
+        """Tries until one succeeds, or another is of no use or would end after the deadline."""
+        if not timeout > 0:
+            raise ValueError(f"timeout is {timeout!r}, must be above 0 seconds")
+        deadline = time.monotonic() + timeout
+        number = 1
+        while True:
+            try:
+                return attempt(max(deadline - time.monotonic(), 0.001))
+            except grpc.RpcError as rpc_error:
+                error = error_of(rpc_error, self._address, timeout)
+                pause = _pause_after(error, number)
+                if pause is None or time.monotonic() + pause >= deadline:
+                    raise error from rpc_error
+            time.sleep(pause)
+            number += 1
+
+
+def _pause_after(error: CapfitError, attempt: int) -> Optional[float]:
+    """What the server asked for, else twice as long each time; None: no use in another try."""
+    if error.code not in ("UNAVAILABLE", "RESOURCE_EXHAUSTED") or attempt == _MAX_ATTEMPTS:
+        return None
+    if error.retry_seconds is not None:
+        return error.retry_seconds
+    if error.code == "RESOURCE_EXHAUSTED":
+        return None
+    return float(_FIRST_PAUSE_SECONDS * 2 ** (attempt - 1))
+
+
+def _with_port(address: str) -> str:
+    """HOST:PORT of HOST, [V6] or HOST:PORT; gRPC's own targets (unix:..., dns:///...) as is."""
+    if re.match(r"(unix|unix-abstract|vsock|ipv4|ipv6):|[a-z]+:///", address):
+        return address
+    match = re.fullmatch(r"(\[[0-9a-fA-F:.%]+\]|[^:\[\]/]+)(?::([0-9]+))?", address)
+    if match is None:
+        raise ValueError(f"address is {address!r}, must be HOST or HOST:PORT")
+    port = DEFAULT_PORT if match[2] is None else int(match[2])
+    if not 1 <= port <= 65535:
+        raise ValueError(f"the port of {address!r} must be in [1, 65535]")
+    return f"{match[1]}:{port}"

@@ -1,0 +1,15 @@
+export { type CallOptions, CapfitClient, type ClientOptions, type InfoOptions } from "./client";
+export { CapfitError, type ErrorReason, type StatusCode, type Warning } from "./errors";
+export type { ArrayMesh, FileMesh, Frame, Mesh, PolygonFaces } from "./mesh";
+export type { FitOptions, Vector } from "./options";
+export {
+  type BodyFacts, type Capsule, type EffectiveBudget, type EffectiveOptions, type Engine,
+  type FeaturePolygon, type GapStatistics, type Landmark, type Metrics, type PartMetrics, Result,
+  type ServerInfo, type ServerLimits, type Similarity, type Sphere, type Summary,
+} from "./result";
+export type { Progress, ProgressFunction } from "./result_collector";
+export type { ResultJson } from "./result_json";
+export type {
+  BodyPart, BodyPartGroup, CapsuleProfile, FitMode, LandmarkMethod, LengthUnit, MeshFileFormat,
+  Quality, Sex, SkinningForm, Stage, UpAxis,
+} from "./words";

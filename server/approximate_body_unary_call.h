@@ -1,0 +1,52 @@
+// One ApproximateBodyUnary call. No geometry here.
+#ifndef CAPFIT_SERVER_APPROXIMATE_BODY_UNARY_CALL_H_
+#define CAPFIT_SERVER_APPROXIMATE_BODY_UNARY_CALL_H_
+
+#include <grpcpp/support/server_callback.h>
+
+#include <memory>
+
+#include "server/fit_job.h"
+
+namespace capfit::server {
+
+// The request is read and the fit runs on the executor. Lives until OnDone and until the job is
+// over, whichever comes last.
+class ApproximateBodyUnaryCall final
+    : public grpc::ServerUnaryReactor,
+      public FitObserver,
+      public std::enable_shared_from_this<ApproximateBodyUnaryCall> {
+ public:
+  // Begins a call; it owns itself. Request and response live until it is finished.
+  static ApproximateBodyUnaryCall* Start(grpc::CallbackServerContext* context,
+                                         const v1::ApproximateBodyUnaryRequest* request,
+                                         v1::ApproximateBodyUnaryResponse* response,
+                                         const CallServices& services);
+
+  // For Start only.
+  ApproximateBodyUnaryCall(grpc::CallbackServerContext* context,
+                           const v1::ApproximateBodyUnaryRequest* request,
+                           v1::ApproximateBodyUnaryResponse* response, const CallServices& services)
+      : services_(services), job_(services, *context), request_(*request), response_(*response) {}
+
+  void OnCancel() override { job_.Cancel(); }
+  void OnDone() override;
+
+  void OnStage(Stage, double) override {}
+  [[nodiscard]] bool IsCancelled() const override { return job_.IsOver(); }
+
+ private:
+  void Begin();
+  [[nodiscard]] absl::Status RunJob();
+  void End(const absl::Status& status);
+
+  const CallServices services_;
+  FitJob job_;
+  const v1::ApproximateBodyUnaryRequest& request_;
+  v1::ApproximateBodyUnaryResponse& response_;
+  std::shared_ptr<ApproximateBodyUnaryCall> self_;  // until OnDone
+};
+
+}  // namespace capfit::server
+
+#endif  // CAPFIT_SERVER_APPROXIMATE_BODY_UNARY_CALL_H_

@@ -1,0 +1,165 @@
+// Results of a real server.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, test } from "node:test";
+
+import { CapfitClient, type Progress, type Result, type Sphere, type Vector } from "capfit";
+
+import { address, file, polygons, triangles, vertices } from "./bodies.js";
+
+const client = new CapfitClient(address);
+after(() => client.close());
+
+const vertexCount = vertices.length / 3;
+const distance = (a: Vector, b: Vector) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+
+function checkModel(result: Result): void {
+  const { spheres, capsules, metrics } = result;
+  assert.ok(spheres.length >= 10);
+  assert.equal(metrics.sphereCount, spheres.length);
+  assert.equal(metrics.capsuleCount, capsules.length);
+  assert.equal(new Set(spheres.map(({ name }) => name)).size, spheres.length);
+  assert.ok(spheres.every(({ radius, center }) => radius > 0 && center.every(Number.isFinite)));
+  for (const { first, second } of capsules) {
+    assert.ok(0 <= first && first < second && second < spheres.length);
+  }
+}
+
+test("a file gives spheres and capsules with their parts, names and mirrors", async () => {
+  const seen: Progress[] = [];
+  const result = await client.approximate(
+    { file, format: "obj" },
+    { maxPrimitives: 64, parts: "all", quality: "tight" },
+    { timeoutMs: 120_000, onProgress: (progress) => seen.push(progress), requestId: "a job" },
+  );
+  checkModel(result);
+  assert.ok(result.metrics.primitiveCount <= 64);
+  assert.ok(result.spheres.some(({ part }) => part === "head"));
+  result.spheres.forEach(({ mirror }, index) => {
+    assert.equal(result.spheres[mirror!]?.mirror, index, `mirror of sphere ${index}`);
+  });
+  assert.ok(result.metrics.volumeError > 0 && result.metrics.volumeError < 1);
+  assert.ok(result.metrics.parts.left_arm!.gap.meanM > 0);
+  assert.ok(distance(result.landmarks["left_wrist"]!.position, [0, 0, 0]) > 0);
+  for (const { method, confidence } of Object.values(result.landmarks)) {
+    assert.ok(method === "measured" || method === "ratio");
+    assert.ok(confidence > 0 && confidence <= 1);
+  }
+  assert.equal(result.weights, undefined);
+  assert.equal(result.vertexGaps, undefined);
+  assert.equal(result.featurePolygons, undefined);
+
+  const { summary } = result;
+  assert.equal(summary.requestId, "a job");
+  assert.equal(summary.version, process.env["CAPFIT_VERSION"]);
+  assert.deepEqual(summary.options.budget, { maxPrimitives: 64 });
+  assert.equal(summary.options.quality, "tight");
+  assert.equal(summary.options.fitMode, "enclose");
+  assert.deepEqual(summary.options.parts, ["torso", "arms", "legs", "head", "hands", "feet"]);
+  assert.equal(summary.body.vertexCount, vertexCount);
+  assert.ok(summary.seconds > 0 && summary.stages.mesh! > 0);
+
+  assert.ok(seen.length > 1);
+  seen.forEach(({ fractionDone }, index) => {
+    assert.ok(fractionDone >= (seen[index - 1]?.fractionDone ?? 0) && fractionDone <= 1);
+  });
+});
+
+test("arrays give the spheres of the file", async () => {
+  const wanted = await client.approximate({ file });
+  for (const faces of [triangles, polygons]) {
+    const result = await client.approximate({ vertices, faces });
+    assert.deepEqual(result.spheres, wanted.spheres);
+    assert.deepEqual(result.capsules, wanted.capsules);
+  }
+  const rounded = Float32Array.from(vertices);
+  const single = await client.approximate({ vertices: rounded, faces: polygons });
+  assert.equal(single.spheres.length, wanted.spheres.length);
+  single.spheres.forEach(({ center }, index) => {
+    assert.ok(distance(center, wanted.spheres[index]!.center) < 1e-4);
+  });
+});
+
+test("weights carry the centres", async () => {
+  const { spheres, weights } = await client.approximate({ file }, { skinning: "dense" });
+  assert.equal(weights!.length, spheres.length);
+  spheres.forEach(({ center }: Sphere, index) => {
+    const row = weights![index]!;
+    assert.equal(row.length, vertexCount);
+    const sum: Vector = [0, 0, 0];
+    row.forEach((weight, vertex) => {
+      for (let axis = 0; axis < 3; axis++) sum[axis]! += weight * vertices[3 * vertex + axis]!;
+    });
+    assert.ok(distance(sum, center) < 1e-3, `sphere ${index} is carried to ${sum}`);
+  });
+});
+
+test("vertex gaps and feature polygons come where they are asked for", async () => {
+  const result = await client.approximate(
+    { file }, { parts: "all", wantVertexGaps: true, wantFeaturePolygons: true });
+  assert.equal(result.vertexGaps!.length, vertexCount);
+  assert.ok(Math.max(...result.vertexGaps!.filter((gap) => !Number.isNaN(gap))) < 1e-4);
+  const featurePolygons = result.featurePolygons!;
+  assert.ok(featurePolygons.some(({ name }) => name === "waist"));
+  assert.ok(featurePolygons.every(({ outline, circles }) =>
+    outline.length >= 3 && circles.every(({ radius }) => radius >= 0)));
+  const used = result.spheres.map(({ polygon }) => polygon).filter((polygon) => polygon !== null);
+  assert.ok(used.length > 0 && used.every((polygon) => featurePolygons[polygon!] !== undefined));
+  const json = result.toJson();
+  assert.equal(json.feature_polygons!.length, featurePolygons.length);
+  assert.deepEqual(json.sphere_polygons, result.spheres.map(({ polygon }) => polygon));
+});
+
+test("every option arrives", async () => {
+  const first = await client.approximate({ file });
+  const { position } = first.landmarks["left_wrist"]!;
+  const result = await client.approximate(
+    { file, unit: "metre", upAxis: "y" },
+    {
+      maxSpheres: 40, maxCapsules: 30, engine: "nvcloth", fitMode: "best_fit", quality: "paper",
+      parts: ["torso", "arms"], requireParts: ["arms"], sex: "female", skinning: "none",
+      landmarks: { left_wrist: position }, seed: 2n ** 40n + 1n,
+    },
+  );
+  checkModel(result);
+  assert.equal(result.landmarks["left_wrist"]!.method, "caller");
+  const { options } = result.summary;
+  assert.equal(options.budget.maxSpheres! <= 40, true);
+  assert.equal(options.budget.maxCapsules! <= 30, true);
+  assert.equal(options.engine, "nvcloth");
+  assert.equal(options.fitMode, "best_fit");
+  assert.deepEqual(options.parts, ["torso", "arms"]);
+  assert.deepEqual(options.requireParts, ["arms"]);
+  assert.equal(options.sex, "female");
+  assert.equal(options.callerLandmarkCount, 1);
+  assert.equal(options.seed, 2 ** 40 + 1);
+  assert.equal(options.unit, "metre");
+  assert.equal(options.upAxis, "y");
+
+  const loose = await client.approximate({ file }, { maxPolygonError: 1.5, toleranceM: 0.01 });
+  assert.equal(loose.summary.options.budget.maxPolygonError, 1.5);
+  assert.equal(loose.summary.options.toleranceM, 0.01);
+});
+
+test("toJson is what the command line writes", async () => {
+  const result = await client.approximate({ file }, { parts: "all", maxPrimitives: 80, seed: 7 });
+  const ours = JSON.parse(JSON.stringify(result));
+  assert.deepEqual(ours, result.toJson());
+  const theirs = JSON.parse(readFileSync(process.env["CAPFIT_RESULT"]!, "utf8"));
+  assert.deepEqual(Object.keys(ours.stages), Object.keys(theirs.stages));
+  for (const json of [ours, theirs]) {
+    delete json.seconds;
+    delete json.stages;
+  }
+  assert.deepEqual(ours, theirs);
+  assert.deepEqual(Object.keys(ours), Object.keys(theirs));
+});
+
+test("the server tells what it takes", async () => {
+  const info = await client.serverInfo();
+  assert.equal(info.version, process.env["CAPFIT_VERSION"]);
+  assert.ok(info.limits.maxUploadBytes > 1e6);
+  assert.deepEqual(info.formats, ["obj", "ply", "stl", "off", "glb"]);
+  assert.ok(info.engines.some(({ name, profile }) => name === "nvcloth" && profile !== null));
+  assert.ok(info.features.includes("quality.tight"));
+});
