@@ -23,8 +23,9 @@ struct BodyOptions {
   // kAuto: found from the height. One that makes no human body of it is refused, an odd one is
   // taken (warning UNIT_CONTRADICTS_BODY).
   Unit unit = Unit::kAuto;
-  // kAuto: found from the body. One that is more than 45 degrees from the body's own is not used
-  // (warning UP_AXIS_CONTRADICTS_BODY); one that is upside down is refused.
+  // kAuto: found from the body. Taken within 15 degrees of the body's own; a body that leans by
+  // more stands along its own. From 45 degrees on that is a warning UP_AXIS_CONTRADICTS_BODY; one
+  // that is upside down is refused.
   UpAxis up = UpAxis::kAuto;
   // Landmarks that the caller knows better, in the caller's frame. They replace the found ones. One
   // that lies off the body or far from where the body shows it is refused: INVALID_ARGUMENT with

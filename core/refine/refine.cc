@@ -218,6 +218,16 @@ body::Part PartAt(const body::Body& body, const Vec3& point_m) {
   return body::PartOf(body.vertex_segments[nearest]);
 }
 
+// The two of a pair belong to the two parts of a pair, and what lies in the middle to the trunk.
+void MirrorParts(const body::PartSelection& parts, capsule::PrimitiveSet& set) {
+  for (std::size_t v = 0; v < set.origins.size(); ++v) {
+    body::Part& part = set.origins[v].part;
+    const std::size_t image = U(set.origins[v].mirror);
+    if (image > v) set.origins[image].part = body::MirrorPart(part);
+    if (image == v && body::MirrorPart(part) != part && parts.torso) part = body::Part::kTorso;
+  }
+}
+
 }  // namespace
 
 std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
@@ -238,6 +248,7 @@ std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
     pool.ForEach(graph.nodes.size(), [&](std::size_t v) {
       set.origins[v].part = PartAt(body, graph.nodes[v].center_m);
     });
+    if (graph.symmetric) MirrorParts(options.parts, set);
     sets.push_back(std::move(set));
   }
   return sets;

@@ -249,6 +249,31 @@ TEST(FindBody, FitsAsTheBodyStandsWhereTheToldAxisLiesAcrossIt) {
   }
 }
 
+// A body that leans against its told axis is found as well as without.
+TEST(FindBody, LeaningBodiesAreFoundWithTheirToldAxis) {
+  for (const double degrees : {-40.0, -13.0, 13.0, 40.0, 50.0}) {
+    for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1)}) {
+      const mesh::BodyMesh mesh =
+          SmallMannequin().Transformed(Moved(degrees * 0.0174532925, axis, 1, {0, 0, 0}));
+      const auto untold = Find(mesh);
+      BodyOptions options;
+      options.up = UpAxis::kY;
+      const auto told = Find(mesh, options);
+      ASSERT_TRUE(untold.ok() && told.ok()) << told.status();
+      const auto place = [](const Body& body, LandmarkId id) {
+        return Eigen::Vector3d(
+            body.body_from_caller.Inverse().Apply(body.landmark(id)->position_m));
+      };
+      for (int i = 0; i < kLandmarkCount; ++i) {
+        const LandmarkId id = static_cast<LandmarkId>(i);
+        ASSERT_TRUE(told->landmark(id)) << LandmarkName(id) << " " << degrees;
+        EXPECT_LT((place(*told, id) - place(*untold, id)).norm(), 0.05)
+            << LandmarkName(id) << " " << degrees << " about " << axis.transpose();
+      }
+    }
+  }
+}
+
 TEST(FindBody, RefusesAnUpAxisThatIsUpsideDown) {
   BodyOptions options;
   options.up = UpAxis::kY;

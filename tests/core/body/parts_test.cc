@@ -204,7 +204,7 @@ TEST(BodyUnit, ToldIsDoubtedWhereAnotherIsFarMoreUsualOrNobodyIsSoStout) {
   EXPECT_FALSE(doubt(Unit::kMetre, 1.6, 0.2));       // among the heaviest
   EXPECT_FALSE(doubt(Unit::kMetre, 2.3, 0.12));
   EXPECT_TRUE(doubt(Unit::kCentimetre, 63, 3700));  // inches: an adult's shape
-  EXPECT_TRUE(doubt(Unit::kInch, 110, 18'000));     // centimetres: 2.79 m
+  EXPECT_TRUE(doubt(Unit::kInch, 112, 18'000));     // centimetres: 2.84 m
   EXPECT_TRUE(doubt(Unit::kMetre, 1.6, 0.02));
   EXPECT_TRUE(doubt(Unit::kMetre, 1.6, 0.3));
   const auto warning = doubt(Unit::kCentimetre, 63, 3700);
