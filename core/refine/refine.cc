@@ -122,6 +122,7 @@ CapsuleGraph FindSet(const Objective& objective, const Spending& spending, const
   last.until = until;
   Grow(objective, spending, last, pool, meter, graph);
   if (graph.primitive_count() != used) objective.Settle(Effort::kTighten, graph);
+  meter.Expect(until, 1);
   SpendByCutting(objective, spending, meter, graph);
   return graph;
 }
@@ -230,6 +231,7 @@ std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
   } else {
     graphs.push_back(FindBestFit(body, options, pool, meter));
   }
+  meter.Expect(1.0, 1);
   std::vector<capsule::PrimitiveSet> sets;
   for (const CapsuleGraph& graph : graphs) {
     capsule::PrimitiveSet set = SetOf(graph);

@@ -93,8 +93,8 @@ TEST_F(CommandTest, RefusesWhatItCannotDo) {
   EXPECT_GE(Run({"mannequin"}), 100);
   const std::string errors = testing::internal::GetCapturedStderr();
   EXPECT_THAT(errors, HasSubstr("must end in .obj or .ply"));
-  EXPECT_THAT(errors, HasSubstr("height_m is 3, must be in [0.8, 2.3]"));
-  EXPECT_THAT(errors, HasSubstr("parts must name arms"));
+  EXPECT_THAT(errors, HasSubstr("--height-m is 3, must be in [0.8, 2.3]"));
+  EXPECT_THAT(errors, HasSubstr("--parts must name arms"));
   EXPECT_THAT(errors, HasSubstr("cannot write"));
 }
 
@@ -133,7 +133,7 @@ TEST_F(CommandTest, HeatMapShowsTheGapsOfTheFile) {
   EXPECT_EQ(Run({"render", Path("b.obj"), Path("r.json"), "-o", Path("h.png"), "--gaps",
                  Path("r.gaps.json")}),
             2);
-  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("gaps has 7 vertices"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("--gaps has 7 vertices"));
 }
 
 TEST_F(CommandTest, RendersFramesOfAnAnimation) {
@@ -153,7 +153,7 @@ TEST_F(CommandTest, RendersFramesOfAnAnimation) {
   EXPECT_EQ(render("0", "c.bin"), 2);
   EXPECT_EQ(render("0", "none.bin"), 1);
   const std::string errors = testing::internal::GetCapturedStderr();
-  EXPECT_THAT(errors, HasSubstr("show has frame 2, must be below 2"));
+  EXPECT_THAT(errors, HasSubstr("--show has frame 2, must be below 2"));
   EXPECT_THAT(errors, HasSubstr("must be a multiple of"));
 }
 
@@ -169,7 +169,7 @@ TEST_F(CommandTest, RenderRefusesBadInput) {
   EXPECT_EQ(Run({"render", Path("none.obj"), Path("r.json"), "-o", Path("p.png")}), 1);
   const std::string errors = testing::internal::GetCapturedStderr();
   EXPECT_THAT(errors, HasSubstr("spheres[0]"));
-  EXPECT_THAT(errors, HasSubstr("width is 9, must be in [200, 6000]"));
+  EXPECT_THAT(errors, HasSubstr("--width is 9, must be in [200, 6000]"));
 }
 
 }  // namespace
