@@ -97,7 +97,7 @@ class Blocks(unittest.TestCase):
         self.assertIn("page.md:11: ends with 3", self.problems("sh", "true\nexit_3() { return 3; }; exit_3\n")[0])
 
     def test_shell_that_must_be_marked(self):
-        for code in ("sudo true", "tests/run.sh", "apt-get install x", "deploy/quickstart.sh  # y"):
+        for code in ("sudo true", "tests/run.sh", "apt-get install x", "deploy/quickstart.sh  # y", "pip install x"):
             self.assertIn("must be marked", self.problems("sh", code)[0])
             self.assertEqual(self.problems("sh", code, "skip because of rain"), [])
 

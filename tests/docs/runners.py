@@ -11,7 +11,7 @@ import tempfile
 
 TIMEOUT_SECONDS = 300
 # What would change the machine, build for minutes or call these tests again: must be marked.
-FORBIDDEN = re.compile(r"(?<![\w/-])(apt-get|sudo|docker|npm|ctest|cmake|"
+FORBIDDEN = re.compile(r"(?<![\w/-])(apt-get|sudo|docker|npm|pip3?|ctest|cmake|"
                        r"(?:\./)?(?:deploy|tests|\.ci)/[\w./-]+)(?![\w-])")
 
 
