@@ -340,5 +340,6 @@ class RefusedHereTest(ServerTest):
         for address in ("", "a:b", "http://127.0.0.1:50051"):
             with self.assertRaisesRegex(ValueError, "must be HOST or HOST:PORT"):
                 capfit.Client(address)
-        for address in ("localhost", "[::1]", "[::1]:50051", "unix:/tmp/capfit", "dns:///localhost"):
+        for address in ("localhost", "[::1]", "[::1]:50051", "unix:/tmp/capfit",
+                        "dns:///localhost"):
             capfit.Client(address).close()

@@ -6,7 +6,8 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 target=$(realpath -m "$1")
 python=/usr/bin/python3
-export PATH=/usr/bin:$PATH PIP_ROOT_USER_ACTION=ignore PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_CACHE_DIR=1
+export PATH=/usr/bin:$PATH
+export PIP_ROOT_USER_ACTION=ignore PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_CACHE_DIR=1
 
 skip() { echo "SKIPPED: $*; deploy/install_packages.sh test" >&2; exit 77; }
 "$python" -W ignore -c "import google.protobuf, grpc, jsonschema, numpy, setuptools, pip, wheel" ||
@@ -30,7 +31,9 @@ wheel "$scratch/from_tree" .
 cd "$scratch"
 rm -rf repository
 wheel from_sdist capfit-*.tar.gz
-files() { "$python" -m zipfile --list "$1" | awk 'NR > 1 && $1 !~ /RECORD|METADATA/ {print $1, $NF}' | sort; }
+files() {
+  "$python" -m zipfile --list "$1" | awk 'NR > 1 && $1 !~ /RECORD|METADATA/ {print $1, $NF}' | sort
+}
 diff <(files from_tree/*.whl) <(files from_sdist/*.whl)
 
 rm -rf "$target"
