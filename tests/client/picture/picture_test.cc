@@ -373,8 +373,8 @@ TEST(PageContentTest, PolygonsAreDrawnInPlaceAndOnASheetWithItsOwnScaleBar) {
   ASSERT_NE(outline, nullptr);
   const double bar_px = (bars[1]->points.back() - bars[1]->points.front()).norm();
   const double pixels_per_unit = BoxAround(outline->points).width / 0.32;
-  EXPECT_TRUE(HasText(page, "10 cm"));
-  EXPECT_NEAR(bar_px, 0.1 * pixels_per_unit, 1e-6 * bar_px);
+  EXPECT_TRUE(HasText(page, "20 cm"));
+  EXPECT_NEAR(bar_px, 0.2 * pixels_per_unit, 1e-6 * bar_px);
   EXPECT_GT(BoxAround(outline->points).y, panel.box.bottom());
   EXPECT_LE(page.texts.back().box.bottom(), page.height);
 }
@@ -444,7 +444,10 @@ TEST(PictureTest, PixelsOfTheLegendAndTheScaleBarAreWhatTheySay) {
   }
   const PagePath* const bar = PathNamed(page, "scale bar");
   int inked = 0;
-  for (int x = 0; x < page.width / 7; ++x) {
+  // From a little before the bar to a little behind it: its label follows.
+  const int begin = static_cast<int>(bar->points[0].x()) - 4;
+  const int end = static_cast<int>(bar->points[1].x()) + 4;
+  for (int x = begin; x <= end; ++x) {
     inked += ColorAt(pixels, {x, bar->points[0].y()}).x() < 0.6f;
   }
   EXPECT_NEAR(inked, (bar->points[1] - bar->points[0]).norm(), 2.5);
