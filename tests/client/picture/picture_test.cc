@@ -291,7 +291,7 @@ INSTANTIATE_TEST_SUITE_P(
                     PageCase{"Narrow", 1.7, mannequin::MannequinPose::kT, 300, 900},
                     PageCase{"Low", 1.7, mannequin::MannequinPose::kT, 2400, 400},
                     PageCase{"Large", 1.7, mannequin::MannequinPose::kT, 6000, 4400}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(PageContentTest, ScaleBarIsAsLongAsTheBodyIsDrawnInAnyUnit) {
   for (const double unit_per_m : {1.0, 100.0, 1000.0, 39.3701}) {

@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Lengths, ScaleBarTest,
                                          BarCase{"AFinger", 20, 150, 5, "5 mm"},
                                          BarCase{"AHouse", 0.01, 150, 10'000, "10 m"},
                                          BarCase{"ATown", 1e-5, 150, 1e7, "10 km"}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 TEST(ScaleBarProperty, TakesMoreThanTwoFifthsOfTheRoomAtAnyScale) {
   for (double scale = 1e-4; scale < 1e3; scale *= 1.07) {
