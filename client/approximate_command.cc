@@ -151,7 +151,8 @@ void AddApproximateCommand(CLI::App& app, int& exit_code) {
       "approximate", "Fit spheres and tapered capsules to a body; write RESULT.json");
   command->add_option("BODY", arguments->body, "Mesh file: .obj, .ply, .stl, .off or .glb")
       ->required()
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->group("Input");  // the first group of the help
   AddOutputFlags(*command, *arguments);
   AddFitFlags(*command, arguments->fit);
   AddPlaceFlags(*command, *arguments);

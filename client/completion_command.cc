@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/exit_code.h"
+#include "client/help_format.h"
 #include "client/word_option.h"
 
 namespace capfit::client {
@@ -20,17 +21,13 @@ std::string FlagsOf(const CLI::Option& option, const char* separator) {
   return absl::StrJoin(flags, separator);
 }
 
-// "paper tight" of an option whose help shows "paper|tight" or "{paper,tight}"; "" for one that
-// takes anything, which help shows in capital letters.
+// "paper tight" of an option whose help shows "paper|tight"; "" for one that takes anything, which
+// help shows in capital letters.
 std::string WordsOf(const CLI::Option& option) {
-  std::string words = option.get_type_name();
-  if (const std::size_t brace = words.find('{'); brace != std::string::npos) {
-    words = words.substr(brace + 1, words.find('}') - brace - 1);
-  }
+  std::string words = ShownType(option);
   const auto is_capital = [](unsigned char letter) { return std::isupper(letter) != 0; };
   if (std::any_of(words.begin(), words.end(), is_capital)) return "";
-  const auto is_between = [](char letter) { return letter == '|' || letter == ','; };
-  std::replace_if(words.begin(), words.end(), is_between, ' ');
+  std::replace(words.begin(), words.end(), '|', ' ');
   return words;
 }
 

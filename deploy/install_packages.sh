@@ -4,7 +4,7 @@
 #   deploy/install_packages.sh [build] [test] [bench] [check] [run]
 #
 #   build  compiler and libraries                     (default)
-#   test   what the tests call besides: the Python package and its builder, JSON Schema, buf
+#   test   what the tests call besides: Python and the builder of its package, JSON Schema, buf, plugins
 #   bench  what draws the plots of the evaluation
 #   check  formatter, linter, fuzzer and sanitizer runtimes
 #   run    the shared libraries of the finished programs only

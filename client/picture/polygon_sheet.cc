@@ -25,7 +25,7 @@ std::string RatioText(const FlatPolygon& polygon) {
 }
 
 // Around outline and circles, y up.
-Rect Extent(const FlatPolygon& polygon) {
+Rect DrawingBox(const FlatPolygon& polygon) {
   std::vector<Vector2d> points = polygon.outline;
   for (const FlatCircle& circle : polygon.circles) {
     points.emplace_back(circle.center - Vector2d::Constant(circle.radius));
@@ -50,7 +50,7 @@ class Planner {
   Planner(const std::vector<FlatPolygon>& polygons, const Rect& area, double text_size)
       : polygons_(polygons), area_(area), text_size_(text_size) {
     for (const FlatPolygon& polygon : polygons) {
-      extents_.push_back(Extent(polygon));
+      extents_.push_back(DrawingBox(polygon));
       word_widths_.push_back(std::max(TextWidth(Spaced(polygon.name), text_size), 4.0 * text_size));
     }
   }

@@ -33,10 +33,10 @@ constexpr double kFacingTrust = 0.35;
 // Length of an arm along the surface, from where it leaves the trunk: 0.21 of the height without
 // hand, 0.26 to 0.33 with.
 constexpr double kArmShare = 0.26;
-// A told axis this near to the body's own (15 degrees) is taken as it is. Beyond that the body
-// leans, and its own axis serves better: at 40 degrees landmarks were up to 22 cm off along the
+// A told axis this near to the body's own (5 degrees) is taken as it is. Beyond that the body
+// leans, and its own axis serves better: at 13 degrees landmarks were up to 15 cm off along the
 // told one.
-constexpr double kTakenCosine = 0.96593;
+constexpr double kTakenCosine = 0.99619;
 // Beyond this (45 degrees) nobody only leans; as near to the opposite the body is upside down.
 constexpr double kToldCosine = 0.70711;
 

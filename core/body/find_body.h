@@ -23,7 +23,7 @@ struct BodyOptions {
   // kAuto: found from the height. One that makes no human body of it is refused, an odd one is
   // taken (warning UNIT_CONTRADICTS_BODY).
   Unit unit = Unit::kAuto;
-  // kAuto: found from the body. Taken within 15 degrees of the body's own; a body that leans by
+  // kAuto: found from the body. Taken within 5 degrees of the body's own; a body that leans by
   // more stands along its own. From 45 degrees on that is a warning UP_AXIS_CONTRADICTS_BODY; one
   // that is upside down is refused.
   UpAxis up = UpAxis::kAuto;

@@ -95,8 +95,9 @@ int ExcessCapsules(const FitOptions& options, const capsule::PrimitiveSet& set) 
   std::optional<int> max_shapes;
   Lower(engine->max_shapes, max_shapes);
   std::optional<int> max_primitives = options.max_primitives;
-  const bool has_budget = options.max_spheres.has_value() || options.max_capsules.has_value() ||
-                          options.polygon_error.has_value() || max_shapes.has_value();
+  const bool has_budget = max_primitives.has_value() || options.max_spheres.has_value() ||
+                          options.max_capsules.has_value() || options.polygon_error.has_value() ||
+                          max_shapes.has_value();
   if (!has_budget) Lower(kDefaultMaxPrimitives, max_primitives);
   return std::max({Excess(capsule::ShapeCount(set), max_shapes, 1),
                    Excess(set.primitive_count(), max_primitives, kPrimitivesOfOwnCapsule),

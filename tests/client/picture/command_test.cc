@@ -113,6 +113,38 @@ TEST_F(CommandTest, RendersStillsHeatAndTheBodyAlone) {
   EXPECT_EQ(render({"render", Path("b.obj"), "-o", Path("a.png"), "--views", "front,back"}), 0);
 }
 
+TEST_F(CommandTest, PolygonsAreDrawnWhereTheResultHasThem) {
+  ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "2000"}), 0);
+  ASSERT_TRUE(WriteFileBytes(Path("p.json"), R"({"spheres": [[0, 0.9, 0, 0.2]],
+      "feature_polygons": [{"name": "hip", "part": "torso", "outside_area_ratio": 0.1,
+        "outline": [[-0.1, 0.9, -0.1], [0.1, 0.9, -0.1], [0.1, 0.9, 0.1], [-0.1, 0.9, 0.1]],
+        "circles": [[0, 0.9, 0, 0.1]]}]})")
+                  .ok());
+  const auto render = [&](const std::string& result, const std::string& output,
+                          std::vector<std::string> more) {
+    std::vector<std::string> words = {"render",     Path("b.obj"), Path(result), "-o",
+                                      Path(output), "--width",     "400",        "--polygons"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Run(words);
+  };
+  EXPECT_EQ(render("p.json", "p.png", {}), 0);
+  EXPECT_THAT(*ReadFileBytes(Path("p.png")), StartsWith("\x89PNG"));
+  EXPECT_EQ(render("p.json", "p.svg", {"--views", "front"}), 0);
+  EXPECT_THAT(*ReadFileBytes(Path("p.svg")), HasSubstr("stroke-dasharray"));
+  WriteResult();
+  ASSERT_TRUE(WriteFileBytes(Path("flat.json"), R"({"spheres": [[0, 0.9, 0, 0.2]],
+      "feature_polygons": [{"outline": [[0, 0.9, 0], [1, 0.9, 0]], "circles": []}]})")
+                  .ok());
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(render("r.json", "p.png", {}), 2);
+  EXPECT_EQ(render("flat.json", "p.png", {}), 2);
+  EXPECT_EQ(render("p.json", "p.png", {"--heat"}), 2);
+  const std::string errors = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(errors, HasSubstr("only `capfit approximate --polygons`"));
+  EXPECT_THAT(errors, HasSubstr("feature_polygons[0].outline has 2 points"));
+  EXPECT_THAT(errors, HasSubstr("not with --heat"));
+}
+
 TEST_F(CommandTest, HeatMapShowsTheGapsOfTheFile) {
   ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "2000"}), 0);
   WriteResult();

@@ -45,7 +45,8 @@ TEST_P(PartsAlone, AreFitted) {
   if (fit == FitMode::kEnclose) {
     EXPECT_EQ(result->metrics.vertices_out, 0);
     EXPECT_LE(result->metrics.max_gap_m, 1e-3);
-    EXPECT_LT(result->metrics.E_r, 5.0);  // a ball around a hand is four times as large
+    // Quality paper has one ball for a hand or a foot, which is long and flat.
+    EXPECT_LT(result->metrics.E_r, quality == Quality::kPaper ? 10.0 : 5.0);
   } else {
     EXPECT_LT(result->metrics.E_r, 3.0);
   }
