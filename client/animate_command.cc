@@ -1,25 +1,23 @@
 #include "client/animate_command.h"
 
-#include <bit>
 #include <cstdio>
 #include <fstream>
+#include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "client/exit_code.h"
+#include "client/picture/belongs.h"
+#include "client/picture/centers_file.h"
 #include "client/picture/file_bytes.h"
+#include "client/picture/result_body.h"
 #include "client/weights_output.h"
 #include "core/base/status.h"
-#include "core/mesh/read_mesh.h"
 
 namespace capfit::client {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "frames are little-endian float32");
 
 struct AnimateArguments {
   std::string body;
@@ -31,16 +29,19 @@ struct AnimateArguments {
 
 using Centers = std::vector<Eigen::Vector3d>;
 
-absl::Status CheckVertexCount(const AnimateArguments& arguments,
-                              const skinning::DenseWeights& weights) {
-  CAPFIT_ASSIGN_OR_RETURN(const std::string file, ReadFileBytes(arguments.body));
-  CAPFIT_ASSIGN_OR_RETURN(
-      const mesh::PolygonSoup soup,
-      mesh::ReadMesh(std::as_bytes(std::span(file)), mesh::FormatFromFileName(arguments.body)));
-  if (soup.positions.size() == weights.vertex_count) return absl::OkStatus();
-  return InvalidField(ErrorReason::kMalformedFile, "weights",
-                      absl::StrCat("are for ", weights.vertex_count, " vertices, but the body has ",
-                                   soup.positions.size()));
+// That the weights are the body's and, where they were named by their result, the result's.
+absl::Status CheckWeights(const AnimateArguments& arguments,
+                          const skinning::DenseWeights& weights) {
+  CAPFIT_ASSIGN_OR_RETURN(const mesh::PolygonSoup soup, ReadBodyFile(arguments.body));
+  CAPFIT_RETURN_IF_ERROR(CheckVertexCount("WEIGHTS", weights.vertex_count, soup));
+  if (IsWeightsHeader(arguments.weights)) return absl::OkStatus();
+  CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(arguments.weights));
+  CAPFIT_ASSIGN_OR_RETURN(const ResultSet result, ParseResultSet(text));
+  CAPFIT_RETURN_IF_ERROR(CheckBelongs(result, soup));
+  if (result.spheres.size() == weights.sphere_count) return absl::OkStatus();
+  return InvalidField(ErrorReason::kContradictsBody, "WEIGHTS",
+                      absl::StrCat("are for ", weights.sphere_count, " spheres, RESULT has ",
+                                   result.spheres.size(), "; fit again with --skinning dense"));
 }
 
 // Whether a whole frame was read; an error for a part of one.
@@ -55,8 +56,10 @@ absl::StatusOr<bool> ReadFrame(std::istream& in, std::size_t frame, std::vector<
 
 absl::StatusOr<std::vector<Centers>> MoveCenters(const AnimateArguments& arguments,
                                                  const skinning::DenseWeights& weights) {
-  std::ifstream in(arguments.frames, std::ios::binary);
-  if (!in) return absl::NotFoundError(absl::StrCat("cannot read ", arguments.frames));
+  std::ifstream file;
+  if (arguments.frames != "-") file.open(arguments.frames, std::ios::binary);
+  if (!file) return absl::NotFoundError(absl::StrCat("cannot read ", arguments.frames));
+  std::istream& in = arguments.frames == "-" ? std::cin : file;
   const ThreadPool pool(arguments.threads);
   std::vector<float> numbers(3 * weights.vertex_count);
   Centers vertices(weights.vertex_count);
@@ -77,35 +80,14 @@ absl::StatusOr<std::vector<Centers>> MoveCenters(const AnimateArguments& argumen
   return frames;
 }
 
-std::string AsBinary(const std::vector<Centers>& frames) {
-  std::string bytes;
-  for (const Centers& centers : frames) {
-    for (const Eigen::Vector3d& center : centers) {
-      const Eigen::Vector3f single = center.cast<float>();
-      bytes.append(reinterpret_cast<const char*>(single.data()), 3 * sizeof(float));
-    }
-  }
-  return bytes;
-}
-
-std::string AsJson(const std::vector<Centers>& frames) {
-  std::string text;
-  for (const Centers& centers : frames) {
-    nlohmann::json row = nlohmann::json::array();
-    for (const Eigen::Vector3d& c : centers) row.push_back({c.x(), c.y(), c.z()});
-    text += (text.empty() ? "{\"frames\": [\n  " : ",\n  ") + row.dump();
-  }
-  return text + "\n]}\n";
-}
-
 absl::Status RunAnimate(const AnimateArguments& arguments) {
+  CAPFIT_RETURN_IF_ERROR(CheckWritable(arguments.output));
   CAPFIT_ASSIGN_OR_RETURN(const skinning::DenseWeights weights, ReadWeights(arguments.weights));
-  CAPFIT_RETURN_IF_ERROR(CheckVertexCount(arguments, weights));
+  CAPFIT_RETURN_IF_ERROR(CheckWeights(arguments, weights));
   CAPFIT_ASSIGN_OR_RETURN(const std::vector<Centers> frames, MoveCenters(arguments, weights));
-  const std::string bytes =
-      FileEnding(arguments.output) == ".json" ? AsJson(frames) : AsBinary(frames);
-  CAPFIT_RETURN_IF_ERROR(FileProblem(WriteFileBytes(arguments.output, bytes)));
-  std::printf("%zu frames of %zu sphere centres\n", frames.size(), weights.sphere_count);
+  CAPFIT_RETURN_IF_ERROR(WriteFileBytes(arguments.output, FormatCenters(frames, arguments.output)));
+  std::fprintf(arguments.output == "-" ? stderr : stdout, "%zu frames of %zu sphere centres\n",
+               frames.size(), weights.sphere_count);
   return absl::OkStatus();
 }
 
@@ -115,19 +97,26 @@ void AddAnimateCommand(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<AnimateArguments>();
   CLI::App* const command = app.add_subcommand(
       "animate", "Carry the sphere centres along with the body's moved vertices");
-  command->add_option("BODY", arguments->body, "Mesh file that was fitted")->required();
+  command->add_option("BODY", arguments->body, "Mesh file that was fitted")
+      ->required()
+      ->type_name("FILE");
   command
       ->add_option("WEIGHTS", arguments->weights,
                    "RESULT.json that was written with --skinning dense, or its .weights.json")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   command
       ->add_option("--frames", arguments->frames,
                    "Moved vertices: little-endian float32, frames x vertices x 3")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Centres: .json, or little-endian float32, frames x spheres x 3")
-      ->required();
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Centres, for `render --centers`: little-endian float32, frames x spheres x 3, or "
+          "{\"frames\": [[[x, y, z], ...], ...]} in a file that ends in .json")
+      ->required()
+      ->type_name("FILE");
   command->add_option("--threads", arguments->threads, "Threads; 0: one per core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();

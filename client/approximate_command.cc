@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "client/approximate_flags.h"
 #include "client/body_client.h"
@@ -13,6 +14,7 @@
 #include "client/progress_line.h"
 #include "client/result_json.h"
 #include "client/result_table.h"
+#include "client/server_flags.h"
 #include "client/weights_output.h"
 #include "core/base/status.h"
 #include "core/mesh/read_mesh.h"
@@ -23,7 +25,7 @@ namespace {
 struct ApproximateArguments {
   std::string body;
   std::string output;
-  std::string server = "127.0.0.1:50051";
+  std::string server = kDefaultServer;
   bool is_local = false;
   int threads = 0;
   double timeout_seconds = 300.0;
@@ -65,37 +67,80 @@ absl::StatusOr<pipeline::FitResult> FitBody(const ApproximateArguments& argument
                             : FitThere(bytes, format, options, arguments, progress);
 }
 
-absl::Status RunApproximate(const ApproximateArguments& arguments) {
-  CAPFIT_ASSIGN_OR_RETURN(const pipeline::FitResult result, FitBody(arguments));
-  CAPFIT_RETURN_IF_ERROR(FileProblem(WriteFileBytes(arguments.output, FormatResult(result))));
+// Everything that will be written; NOT_FOUND names what cannot be.
+absl::Status CheckOutputs(const ApproximateArguments& arguments) {
+  const bool is_stream = arguments.output == "-";
+  const bool has_weights = arguments.fit.options.skinning != pipeline::SkinningMode::kNone;
+  const bool has_gaps = arguments.fit.options.want_vertex_gaps;
+  if (is_stream && (has_weights || has_gaps)) {
+    return InvalidField(ErrorReason::kConflict,
+                        has_weights ? "options.skinning" : "options.want_vertex_gaps",
+                        "writes files beside RESULT.json, so --output must be a file name");
+  }
+  std::vector<std::string> paths = {arguments.output};
+  if (has_weights) {
+    for (const std::string& path : WeightsPaths(arguments.output)) paths.push_back(path);
+  }
+  if (has_gaps) {
+    for (const std::string& path : GapsPaths(arguments.output)) paths.push_back(path);
+  }
+  for (const std::string& path : paths) CAPFIT_RETURN_IF_ERROR(CheckWritable(path));
+  return absl::OkStatus();
+}
+
+absl::Status WriteOutputs(const pipeline::FitResult& result,
+                          const ApproximateArguments& arguments) {
+  CAPFIT_RETURN_IF_ERROR(
+      WriteFileBytes(arguments.output, FormatResult(result, arguments.request_id)));
   if (result.weights) {
     CAPFIT_RETURN_IF_ERROR(WriteWeights(*result.weights, arguments.output));
   }
-  if (!result.vertex_gaps.empty()) {
-    CAPFIT_RETURN_IF_ERROR(FileProblem(
-        WriteVertexGaps(result.vertex_gaps, result.body_from_caller.scale, arguments.output)));
+  if (result.vertex_gaps.empty()) return absl::OkStatus();
+  return WriteVertexGaps(result.vertex_gaps, result.body_from_caller.scale, arguments.output);
+}
+
+absl::Status RunApproximate(const ApproximateArguments& arguments) {
+  CAPFIT_RETURN_IF_ERROR(CheckOutputs(arguments));
+  const absl::StatusOr<pipeline::FitResult> result = FitBody(arguments);
+  if (!result.ok()) {
+    return arguments.is_local ? result.status()
+                              : WithServerAdvice(result.status(), arguments.server, "--local");
   }
-  if (!arguments.quiet) std::fputs(ResultTable(result).c_str(), stdout);
+  PrintWarnings(result->warnings);
+  CAPFIT_RETURN_IF_ERROR(WriteOutputs(*result, arguments));
+  if (arguments.quiet) return absl::OkStatus();
+  std::fputs(ResultTable(*result).c_str(), arguments.output == "-" ? stderr : stdout);
   return absl::OkStatus();
 }
 
 void AddPlaceFlags(CLI::App& command, ApproximateArguments& arguments) {
-  CLI::Option* const server =
-      command.add_option("--server", arguments.server, "HOST:PORT of the server that fits")
-          ->capture_default_str();
+  CLI::Option* const server = AddServerFlag(command, arguments.server);
   CLI::Option* const local =
-      command.add_flag("--local", arguments.is_local, "Fit in this process, without a server");
-  local->excludes(server);
-  command.add_option("--threads", arguments.threads, "With --local: threads; 0: one per core")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command
-      .add_option("--timeout", arguments.timeout_seconds,
-                  "With a server: seconds that the whole call may take")
-      ->check(CLI::Range(0.001, 86'400.0))
-      ->capture_default_str();
-  command.add_option("--request-id", arguments.request_id,
-                     "With a server: name of this job in its logs");
+      command.add_flag("--local", arguments.is_local, "Fit in this process, without a server")
+          ->excludes(server);
+  CLI::Option* const threads =
+      command.add_option("--threads", arguments.threads, "With --local: threads; 0: one per core")
+          ->check(CLI::Range(0, 256))
+          ->capture_default_str();
+  CLI::Option* const timeout = AddTimeoutFlag(command, arguments.timeout_seconds,
+                                              "Seconds that the whole call to the server may take");
+  CLI::Option* const request_id =
+      command.add_option("--request-id", arguments.request_id,
+                         "Name of this job, in RESULT.json and in the server's logs");
+  for (CLI::Option* const option : {server, local, threads, timeout, request_id}) {
+    option->group("Server");
+  }
+}
+
+void AddOutputFlags(CLI::App& command, ApproximateArguments& arguments) {
+  command.add_option("-o,--output", arguments.output, "RESULT.json to write")
+      ->required()
+      ->type_name("RESULT.json")
+      ->group("Output");
+  command.add_flag("--progress", arguments.progress, "Show progress though no terminal reads it")
+      ->group("Output");
+  command.add_flag("--quiet", arguments.quiet, "Print no table and no progress, only warnings")
+      ->group("Output");
 }
 
 }  // namespace
@@ -105,14 +150,15 @@ void AddApproximateCommand(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand(
       "approximate", "Fit spheres and tapered capsules to a body; write RESULT.json");
   command->add_option("BODY", arguments->body, "Mesh file: .obj, .ply, .stl, .off or .glb")
-      ->required();
-  command->add_option("-o,--output", arguments->output, "RESULT.json to write")->required();
-  AddPlaceFlags(*command, *arguments);
+      ->required()
+      ->type_name("FILE")
+      ->group("Input");  // the first group of the help
+  AddOutputFlags(*command, *arguments);
   AddFitFlags(*command, arguments->fit);
-  command->add_flag("--polygons", arguments->fit.options.want_polygons,
-                    "Write the feature polygons with their circles too");
-  command->add_flag("--progress", arguments->progress, "Show progress though no terminal reads it");
-  command->add_flag("--quiet", arguments->quiet, "Print no table");
+  AddPlaceFlags(*command, *arguments);
+  command->footer(
+      "The table goes to standard output, with -o - to standard error; warnings go to "
+      "standard error.");
   command->callback([arguments, &exit_code] { exit_code = Report(RunApproximate(*arguments)); });
 }
 

@@ -1,25 +1,19 @@
 #include "client/approximate_flags.h"
 
-#include <set>
-
-#include "client/exit_code.h"
 #include "client/landmarks_file.h"
 #include "client/option_words.h"
 #include "client/picture/file_bytes.h"
+#include "client/word_option.h"
 #include "core/base/status.h"
 #include "core/pipeline/engines.h"
 
 namespace capfit::client {
 namespace {
 
-template <typename Value>
-void AddWord(CLI::App& command, const char* flag, Value& target, const Words<Value>& words,
-             const char* help) {
-  command.add_option(flag, target, help)
-      ->transform(CLI::CheckedTransformer(words).description(""))
-      ->type_name("WORD")
-      ->default_str(WordOf(words, target));
-}
+constexpr char kWhatToFit[] = "What to fit";
+constexpr char kInput[] = "Input";
+constexpr char kOutput[] = "Output";
+constexpr char kBudget[] = "Budget (one of primitives, spheres and capsules, or polygon error)";
 
 void AddBudget(CLI::App& command, pipeline::FitOptions& options) {
   CLI::Option* const primitives = command.add_option("--max-primitives", options.max_primitives,
@@ -31,23 +25,22 @@ void AddBudget(CLI::App& command, pipeline::FitOptions& options) {
       command.add_option("--max-spheres", options.max_spheres, "Spheres, at most");
   CLI::Option* const capsules =
       command.add_option("--max-capsules", options.max_capsules, "Capsules, at most");
-  command
-      .add_option("--engine", options.engine,
-                  "Cloth engine whose limits and capsules hold: " + pipeline::EngineNames())
-      ->type_name("NAME");
+  CLI::Option* const engine =
+      command.add_option("--engine", options.engine,
+                         "Cloth engine whose limits and capsules hold: " + pipeline::EngineNames());
+  engine->type_name("NAME");
   primitives->excludes(error)->excludes(spheres)->excludes(capsules);
   error->excludes(spheres)->excludes(capsules);
+  for (CLI::Option* const option : {primitives, error, spheres, capsules, engine}) {
+    option->group(kBudget);
+  }
 }
 
-void AddPartWords(CLI::App& command, const char* flag, std::vector<std::string>& parts,
-                  const char* help) {
-  std::set<std::string> words = {"all"};
-  for (const auto& [word, member] : PartWords()) words.insert(word);
-  command.add_option(flag, parts, help)
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember(words).description(""))
-      ->type_name("WORD,...");
+CLI::Option* AddPartWords(CLI::App& command, const char* flag, std::vector<std::string>& parts,
+                          const char* help) {
+  std::vector<std::string> words = {"all"};
+  for (const auto& [word, member] : PartWords()) words.push_back(word);
+  return AddWordList(command, flag, parts, words, help);
 }
 
 body::PartSelection Selection(const std::vector<std::string>& words) {
@@ -61,36 +54,62 @@ body::PartSelection Selection(const std::vector<std::string>& words) {
 }  // namespace
 
 void AddFrameFlags(CLI::App& command, body::Unit& unit, body::UpAxis& up) {
-  AddWord(command, "--unit", unit, UnitWords(), "Unit of the file: auto, m, cm, mm, in");
-  AddWord(command, "--up", up, UpWords(), "Axis that points up: auto, x, y, z");
+  AddWordOption(command, "--unit", unit, UnitWords(), "Unit of the file; auto: from the height")
+      ->group(kInput);
+  AddWordOption(command, "--up", up, UpWords(), "Axis that points up; auto: from the body")
+      ->group(kInput);
 }
 
 void AddPartsFlag(CLI::App& command, std::vector<std::string>& parts) {
-  AddPartWords(command, "--parts", parts, "all, or a list of torso,arms,legs,head,hands,feet");
+  AddPartWords(command, "--parts", parts,
+               "Parts, separated by blanks or commas [torso, arms, legs]")
+      ->group(kWhatToFit);
 }
 
 void AddFitFlags(CLI::App& command, FitFlags& flags) {
-  AddBudget(command, flags.options);
+  pipeline::FitOptions& options = flags.options;
+  AddFrameFlags(command, options.unit, options.up);
+  command
+      .add_option(
+          "--landmarks", flags.landmarks_file,
+          "JSON file of known landmarks, {\"left_wrist\": [x, y, z], ...}, or a RESULT.json")
+      ->type_name("FILE")
+      ->group(kInput);
   AddPartsFlag(command, flags.parts);
   AddPartWords(command, "--require-parts", flags.require_parts,
-               "Refuse a body without these, instead of a warning");
-  AddWord(command, "--fit", flags.options.fit, FitModeWords(), "enclose (nothing outside) or best");
-  AddWord(command, "--quality", flags.options.quality, QualityWords(), "paper or tight");
+               "Refuse a body without these, instead of a warning")
+      ->group(kWhatToFit);
+  AddWordOption(command, "--fit", options.fit, FitModeWords(),
+                "enclose: nothing outside; best: the least volume error")
+      ->group(kWhatToFit);
+  AddWordOption(command, "--quality", options.quality, QualityWords(),
+                "paper: the published method; tight: less volume error, more time")
+      ->group(kWhatToFit);
   command
       .add_option("--tolerance-mm", flags.tolerance_mm,
-                  "How far a vertex may stick out, in millimetres of the body")
-      ->capture_default_str();
-  AddWord(command, "--skinning", flags.options.skinning, SkinningWords(),
-          "none, or dense: mean value coordinates beside the result");
-  command.add_option("--landmarks", flags.landmarks_file,
-                     "JSON file of known landmarks: {\"left_wrist\": [x, y, z], ...}");
-  AddWord(command, "--sex", flags.options.sex, SexWords(),
-          "auto, female (split the bust), male or none (do not)");
-  command.add_flag("--heat-map", flags.options.want_vertex_gaps,
-                   "Each vertex's signed distance to the set beside the result");
-  AddFrameFlags(command, flags.options.unit, flags.options.up);
-  command.add_option("--seed", flags.options.seed, "Seed of the random restarts")
-      ->capture_default_str();
+                  "How far a vertex may stick out, in millimetres of the body [0, 100]")
+      ->check(CLI::Range(0.0, 1000.0 * pipeline::kMaxToleranceM))
+      ->type_name("MM")
+      ->capture_default_str()
+      ->group(kWhatToFit);
+  AddWordOption(command, "--sex", options.sex, SexWords(),
+                "Whether the bust is split in three: female always, male never")
+      ->group(kWhatToFit);
+  command.add_option("--seed", options.seed, "Seed of the random restarts")
+      ->capture_default_str()
+      ->group(kWhatToFit);
+  AddBudget(command, options);
+  AddWordOption(command, "--skinning", options.skinning, SkinningWords(),
+                "dense: mean value coordinates beside RESULT.json")
+      ->group(kOutput);
+  command
+      .add_flag("--heat-map", options.want_vertex_gaps,
+                "Each vertex's signed distance to the set beside RESULT.json")
+      ->group(kOutput);
+  command
+      .add_flag("--polygons", options.want_polygons,
+                "The feature polygons with their circles in RESULT.json too")
+      ->group(kOutput);
 }
 
 body::PartSelection PartsOf(const std::vector<std::string>& words) {
@@ -103,9 +122,8 @@ absl::StatusOr<pipeline::FitOptions> OptionsOf(const FitFlags& flags) {
   options.require_parts = Selection(flags.require_parts);
   options.tolerance_m = 1e-3 * flags.tolerance_mm;
   if (!flags.landmarks_file.empty()) {
-    const absl::StatusOr<std::string> text = ReadFileBytes(flags.landmarks_file);
-    if (!text.ok()) return FileProblem(text.status());
-    CAPFIT_ASSIGN_OR_RETURN(options.landmarks, ParseLandmarks(*text));
+    CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(flags.landmarks_file));
+    CAPFIT_ASSIGN_OR_RETURN(options.landmarks, ParseLandmarks(text));
   }
   return options;
 }

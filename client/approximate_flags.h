@@ -19,8 +19,8 @@ struct FitFlags {
   std::string landmarks_file;  // empty: none
 };
 
-// Adds the flags to `command`; CLI11 checks words and that there is one budget at most. Ranges of
-// numbers are checked by pipeline::ValidateOptions.
+// Adds the flags to `command`, in groups; CLI11 checks words and that there is one budget at most.
+// Ranges of numbers are checked by pipeline::ValidateOptions, but for those whose unit differs.
 void AddFitFlags(CLI::App& command, FitFlags& flags);
 // --unit and --up alone, for commands that only look at a body.
 void AddFrameFlags(CLI::App& command, body::Unit& unit, body::UpAxis& up);

@@ -53,7 +53,8 @@ std::vector<std::string> FlagsOf(const CLI::App& command) {
 
 std::vector<std::string> CommandsOf(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* const command : app.get_subcommands({})) names.push_back(command->get_name());
+  for (const CLI::App* const command : app.get_subcommands({}))
+    names.push_back(command->get_name());
   return names;
 }
 
@@ -61,7 +62,11 @@ std::vector<std::string> CommandsOf(const CLI::App& app) {
 
 const CLI::App* CommandOf(const CLI::App& app, const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
-    if (!IsFlag(argument)) return app.get_subcommand_no_throw(argument);
+    if (IsFlag(argument)) continue;
+    for (const CLI::App* const command : app.get_subcommands({})) {
+      if (command->get_name() == argument) return command;
+    }
+    break;
   }
   return nullptr;
 }

@@ -14,8 +14,8 @@ namespace capfit::client {
 [[nodiscard]] std::vector<std::string> JoinLists(const CLI::App& app,
                                                  std::vector<std::string> arguments);
 
-// What is wrong with the command or a long flag, with the one that may have been meant: "'aproximate'
-// is no command; did you mean approximate?"; "" where all are known.
+// What is wrong with the command or a long flag, with the one that may have been meant:
+// "'aproximate' is no command; did you mean approximate?"; "" where all are known.
 [[nodiscard]] std::string UnknownName(const CLI::App& app,
                                       const std::vector<std::string>& arguments);
 

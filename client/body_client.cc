@@ -12,6 +12,7 @@
 
 #include "absl/strings/numbers.h"
 #include "client/result_collector.h"
+#include "core/base/host_and_port.h"
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/options_conversion.h"
@@ -162,11 +163,11 @@ absl::StatusOr<pipeline::FitResult> Approximate(v1::BodyApproximationService::St
 
 }  // namespace
 
-BodyClient BodyClient::Connect(const std::string& host_and_port) {
+BodyClient BodyClient::Connect(const std::string& address) {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);
-  return BodyClient(
-      grpc::CreateCustomChannel(host_and_port, grpc::InsecureChannelCredentials(), arguments));
+  return BodyClient(grpc::CreateCustomChannel(WithPort(address).value_or(address),
+                                              grpc::InsecureChannelCredentials(), arguments));
 }
 
 BodyClient::BodyClient(const std::shared_ptr<grpc::Channel>& channel)

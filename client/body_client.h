@@ -37,8 +37,9 @@ struct CallOptions {
 // (not reachable), DEADLINE_EXCEEDED, INTERNAL (the answer breaks the contract).
 class BodyClient {
  public:
-  // Does not block: the connection is made by the first call.
-  [[nodiscard]] static BodyClient Connect(const std::string& host_and_port);
+  // "host", "host:port", "[::1]:7": see core/base/host_and_port.h; without a port 50051. Does not
+  // block: the connection is made by the first call.
+  [[nodiscard]] static BodyClient Connect(const std::string& address);
   explicit BodyClient(const std::shared_ptr<grpc::Channel>& channel);
 
   // Uploads a mesh file as it is, in chunks of 256 KiB. kUnknown: the server looks at the bytes.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 
 #include "client/animate_command.h"
 #include "client/approximate_command.h"
@@ -11,6 +12,7 @@
 #include "client/completion_command.h"
 #include "client/evaluate_command.h"
 #include "client/exit_code.h"
+#include "client/help_format.h"
 #include "client/info_command.h"
 #include "client/picture/mannequin_command.h"
 #include "client/picture/render_command.h"
@@ -25,6 +27,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
   app.require_subcommand(1);
   app.footer(
       "\"-\" is standard input or output wherever a file is asked for.\n"
+      "Lists may be separated by blanks or commas, words may be in any case.\n"
       "Exit codes: 0 done; 1 the command line is wrong, or a file cannot be read or written;\n"
       "2 an input or option is refused; 3 the server cannot be reached, is full, took too long or "
       "failed.");
@@ -50,6 +53,7 @@ int RefuseUsage(const CLI::App& app, const std::vector<std::string>& arguments,
 int RunCommandLine(const std::vector<std::string>& arguments) {
   CLI::App app{"capfit: human bodies as few spheres and tapered capsules", "capfit"};
   int exit_code = kExitDone;
+  app.formatter(std::make_shared<HelpFormat>());
   AddCommands(app, exit_code);
   if (const std::string problem = UnknownName(app, arguments); !problem.empty()) {
     return RefuseUsage(app, arguments, problem);

@@ -1,11 +1,14 @@
 #include "client/completion_command.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/exit_code.h"
+#include "client/help_format.h"
 #include "client/word_option.h"
 
 namespace capfit::client {
@@ -18,10 +21,12 @@ std::string FlagsOf(const CLI::Option& option, const char* separator) {
   return absl::StrJoin(flags, separator);
 }
 
-// "paper tight" of an option whose help shows "paper|tight"; "" for one that takes anything.
+// "paper tight" of an option whose help shows "paper|tight"; "" for one that takes anything, which
+// help shows in capital letters.
 std::string WordsOf(const CLI::Option& option) {
-  std::string words = option.get_type_name();
-  if (words.find('|') == std::string::npos) return "";
+  std::string words = ShownType(option);
+  const auto is_capital = [](unsigned char letter) { return std::isupper(letter) != 0; };
+  if (std::any_of(words.begin(), words.end(), is_capital)) return "";
   std::replace(words.begin(), words.end(), '|', ' ');
   return words;
 }
@@ -91,7 +96,7 @@ void AddCompletionCommand(CLI::App& app, int& exit_code) {
   CLI::App* const command =
       app.add_subcommand("completion", "Print a script that completes commands in a shell");
   const auto shell = std::make_shared<std::string>();
-  AddWordOption(*command, "SHELL", *shell, {"bash"}, "The shell")->type_name("bash|")->required();
+  AddWordOption(*command, "SHELL", *shell, {"bash"}, "The shell")->required();
   command->footer("bash: put  source <(capfit completion bash)  into ~/.bashrc.");
   command->callback([&app, shell, &exit_code] {
     std::fputs(BashCompletion(app).c_str(), stdout);

@@ -7,8 +7,8 @@
 
 namespace capfit::client {
 
-// A script for bash, made from the commands and flags of `app` as they are: a flag that takes one of
-// a few words completes to those, everything else to file names.
+// A script for bash, made from the commands and flags of `app` as they are: a flag that takes one
+// of a few words completes to those, everything else to file names.
 [[nodiscard]] std::string BashCompletion(const CLI::App& app);
 
 // Adds the subcommand to `app`. It prints the script for all of the app's commands.

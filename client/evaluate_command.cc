@@ -2,21 +2,21 @@
 
 #include <cstdio>
 #include <memory>
-#include <span>
 #include <string>
 
 #include "absl/strings/str_cat.h"
 #include "client/approximate_flags.h"
 #include "client/exit_code.h"
+#include "client/picture/belongs.h"
 #include "client/picture/file_bytes.h"
 #include "client/picture/result_body.h"
 #include "client/picture/result_set.h"
 #include "client/result_json.h"
 #include "client/result_table.h"
 #include "core/base/status.h"
+#include "core/body/body_unit.h"
 #include "core/body/find_body.h"
 #include "core/coverage/cover_vertices.h"
-#include "core/mesh/read_mesh.h"
 #include "core/metrics/measure.h"
 
 namespace capfit::client {
@@ -33,19 +33,23 @@ struct EvaluateArguments {
   bool as_json = false;
 };
 
-absl::StatusOr<body::Body> LoadBody(const EvaluateArguments& arguments, const ThreadPool& pool) {
-  CAPFIT_ASSIGN_OR_RETURN(const std::string file, ReadFileBytes(arguments.body));
-  CAPFIT_ASSIGN_OR_RETURN(
-      const mesh::PolygonSoup soup,
-      mesh::ReadMesh(std::as_bytes(std::span(file)), mesh::FormatFromFileName(arguments.body)));
-  return UnderstandBody(soup, arguments.frame, pool);
+// The body, which must be that of the result; in the result's unit where nothing else is told.
+absl::StatusOr<body::Body> LoadBody(const EvaluateArguments& arguments, const ResultSet& result,
+                                    const ThreadPool& pool) {
+  CAPFIT_ASSIGN_OR_RETURN(const mesh::PolygonSoup soup, ReadBodyFile(arguments.body));
+  CAPFIT_RETURN_IF_ERROR(CheckBelongs(result, soup));
+  body::BodyOptions frame = arguments.frame;
+  if (frame.unit == body::Unit::kAuto && result.metres_per_unit) {
+    frame.unit = body::UnitOf(*result.metres_per_unit);
+  }
+  return UnderstandBody(soup, frame, pool);
 }
 
 absl::Status RunEvaluate(const EvaluateArguments& arguments) {
   const ThreadPool pool(arguments.threads);
   CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(arguments.result));
   CAPFIT_ASSIGN_OR_RETURN(const ResultSet result, ParseResultSet(text));
-  CAPFIT_ASSIGN_OR_RETURN(const body::Body body, LoadBody(arguments, pool));
+  CAPFIT_ASSIGN_OR_RETURN(const body::Body body, LoadBody(arguments, result, pool));
   const capsule::PrimitiveSet set = InBodyFrame(result, body.body_from_caller);
   metrics::MeasureOptions options;
   options.parts = arguments.parts.empty() ? PartsOfResult(result) : PartsOf(arguments.parts);
@@ -64,13 +68,16 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* const command =
       app.add_subcommand("evaluate", "Measure a result, of capfit or of any other program");
-  command->add_option("BODY", arguments->body, "Mesh file")->required();
-  command->add_option("RESULT", arguments->result, "RESULT.json with spheres and capsules")
-      ->required();
+  command->add_option("BODY", arguments->body, "Mesh file")->required()->type_name("FILE");
+  command
+      ->add_option("RESULT", arguments->result,
+                   "RESULT.json of this body, of capfit or with spheres and capsules alone")
+      ->required()
+      ->type_name("FILE");
   AddFrameFlags(*command, arguments->frame.unit, arguments->frame.up);
   AddPartsFlag(*command, arguments->parts);
   command->get_option("--parts")->description(
-      "Parts that the set is meant to cover [those that RESULT names]");
+      "Parts that the set is meant to cover [those that RESULT was asked for]");
   command->add_option("--threads", arguments->threads, "Threads; 0: one per core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();

@@ -34,7 +34,9 @@ constexpr std::array kFlagNames = {
     FlagName{"bust_m", "--bust-m"},
     FlagName{"waist_m", "--waist-m"},
     FlagName{"hip_m", "--hip-m"},
+    FlagName{"arm_angle_deg", "--arm-angle-deg"},
     FlagName{"faces", "--faces"},
+    FlagName{"parts", "--parts"},
     // Of render and animate.
     FlagName{"width", "--width"},
     FlagName{"height", "--height"},

@@ -19,9 +19,9 @@ struct FlagName {
 // commands check for themselves.
 [[nodiscard]] std::span<const FlagName> FlagNames();
 
-// The message of `status` with flags for paths: "options.budget.max_primitives is 3, must be in [15,
-// 1000]" becomes "--max-primitives is 3, must be in [15, 1000]". Names without a dot are replaced
-// only where they are the field at fault.
+// The message of `status` with flags for paths: "options.budget.max_primitives is 3, must be in
+// [15, 1000]" becomes "--max-primitives is 3, must be in [15, 1000]". Names without a dot are
+// replaced only where they are the field at fault.
 [[nodiscard]] std::string InFlags(const absl::Status& status);
 
 }  // namespace capfit::client

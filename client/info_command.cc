@@ -8,20 +8,20 @@
 
 #include "client/body_client.h"
 #include "client/exit_code.h"
+#include "client/info_table.h"
+#include "client/server_flags.h"
 #include "core/base/status.h"
 
 namespace capfit::client {
 namespace {
 
 struct InfoArguments {
-  std::string server = "127.0.0.1:50051";
+  std::string server = kDefaultServer;
   double timeout_seconds = 10.0;
+  bool as_json = false;
 };
 
-absl::Status RunInfo(const InfoArguments& arguments) {
-  CAPFIT_ASSIGN_OR_RETURN(
-      const v1::GetServerInfoResponse info,
-      BodyClient::Connect(arguments.server).GetServerInfo(arguments.timeout_seconds));
+absl::StatusOr<std::string> InfoJson(const v1::GetServerInfoResponse& info) {
   google::protobuf::util::JsonPrintOptions options;
   options.add_whitespace = true;
   options.preserve_proto_field_names = true;
@@ -29,6 +29,15 @@ absl::Status RunInfo(const InfoArguments& arguments) {
   if (!google::protobuf::util::MessageToJsonString(info, &text, options).ok()) {
     return absl::InternalError("the server's answer cannot be shown");
   }
+  return text;
+}
+
+absl::Status RunInfo(const InfoArguments& arguments) {
+  const absl::StatusOr<v1::GetServerInfoResponse> info =
+      BodyClient::Connect(arguments.server).GetServerInfo(arguments.timeout_seconds);
+  if (!info.ok()) return WithServerAdvice(info.status(), arguments.server, "");
+  CAPFIT_ASSIGN_OR_RETURN(const std::string text,
+                          arguments.as_json ? InfoJson(*info) : InfoTable(*info));
   std::fputs(text.c_str(), stdout);
   return absl::OkStatus();
 }
@@ -39,10 +48,9 @@ void AddInfoCommand(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<InfoArguments>();
   CLI::App* const command =
       app.add_subcommand("info", "Show version, limits, formats, engines and features of a server");
-  command->add_option("--server", arguments->server, "HOST:PORT")->capture_default_str();
-  command->add_option("--timeout", arguments->timeout_seconds, "Seconds to wait")
-      ->check(CLI::Range(0.001, 3600.0))
-      ->capture_default_str();
+  AddServerFlag(*command, arguments->server);
+  AddTimeoutFlag(*command, arguments->timeout_seconds, "Seconds to wait");
+  command->add_flag("--json", arguments->as_json, "Print GetServerInfoResponse as JSON instead");
   command->callback([arguments, &exit_code] { exit_code = Report(RunInfo(*arguments)); });
 }
 

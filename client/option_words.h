@@ -32,10 +32,14 @@ inline Words<section::Sex> SexWords() {
           {"male", section::Sex::kMale}};
 }
 inline Words<body::Unit> UnitWords() {
-  return {{"auto", body::Unit::kAuto},          {"m", body::Unit::kMetre},
-          {"cm", body::Unit::kCentimetre},      {"mm", body::Unit::kMillimetre},
-          {"in", body::Unit::kInch},            {"metre", body::Unit::kMetre},
-          {"centimetre", body::Unit::kCentimetre}, {"millimetre", body::Unit::kMillimetre},
+  return {{"auto", body::Unit::kAuto},
+          {"m", body::Unit::kMetre},
+          {"cm", body::Unit::kCentimetre},
+          {"mm", body::Unit::kMillimetre},
+          {"in", body::Unit::kInch},
+          {"metre", body::Unit::kMetre},
+          {"centimetre", body::Unit::kCentimetre},
+          {"millimetre", body::Unit::kMillimetre},
           {"inch", body::Unit::kInch}};
 }
 inline Words<body::UpAxis> UpWords() {

@@ -18,7 +18,7 @@ std::string Line(const char* format, Values... values) {
 
 template <typename AnyMetrics>
 std::string PartLine(const std::string& name, const AnyMetrics& m, double volume_m3) {
-  return Line("%-12s %7d %8d %9.3f %8.4f %8.4f %9.4f %8.4f %8.2f %8.2f %8.2f %7.2f %8d",
+  return Line("%-10s %7d %8d %7.3f %6.4f %7.4f %7.4f %6.3f %6.2f %6.2f %6.2f %6.2f %5d",
               name.c_str(), m.spheres, m.capsules, 1000.0 * volume_m3, m.E_r, m.outside,
               m.uncovered, m.volume_ratio, 1000.0 * m.gap.mean_m, 1000.0 * m.gap.p95_m,
               1000.0 * m.gap.max_m, 100.0 * m.surface_out, m.vertices_out);
@@ -57,12 +57,11 @@ std::string MetricsTable(const metrics::Metrics& metrics) {
 }
 
 std::string PartsTable(const metrics::Metrics& metrics) {
-  std::string table =
-      Line("%-12s %7s %8s %9s %8s %8s %9s %8s %8s %8s %8s %7s %8s", "part", "spheres", "capsules",
-           "volume", "E_r", "outside", "uncovered", "volume", "gap", "gap", "gap", "skin",
-           "vertices") +
-      Line("%-12s %7s %8s %9s %8s %8s %9s %8s %8s %8s %8s %7s %8s", "", "", "", "litres", "", "",
-           "", "ratio", "mean mm", "95 % mm", "max mm", "out %", "out");
+  constexpr char kNames[] = "%-10s %7s %8s %7s %6s %7s %7s %6s %6s %6s %6s %6s %5s";
+  std::string table = Line(kNames, "part", "spheres", "capsules", "volume", "E_r", "outside", "un-",
+                           "volume", "gap mm", "gap mm", "gap mm", "skin", "vert.") +
+                      Line(kNames, "", "", "", "litres", "", "", "covered", "ratio", "mean", "95 %",
+                           "max", "out %", "out");
   double volume_m3 = 0.0;
   for (std::size_t p = 0; p < metrics.parts.size(); ++p) {
     if (!metrics.parts[p]) continue;
@@ -74,13 +73,8 @@ std::string PartsTable(const metrics::Metrics& metrics) {
 }
 
 std::string ResultTable(const pipeline::FitResult& result) {
-  std::string table =
-      PartsTable(result.metrics) + "\n" + MetricsTable(result.metrics) + "\n" + StagesTable(result);
-  if (!result.warnings.empty()) table += "\n";
-  for (const Warning& warning : result.warnings) {
-    table += "warning: " + warning.message + " (" + warning.code + ")\n";
-  }
-  return table;
+  return PartsTable(result.metrics) + "\n" + MetricsTable(result.metrics) + "\n" +
+         StagesTable(result);
 }
 
 }  // namespace capfit::client

@@ -9,8 +9,9 @@
 
 namespace capfit::client {
 
-// The parts, then the metrics of the whole, then the time of each stage, then warnings: aligned
-// columns, with units, ending with a newline.
+// The parts, then the metrics of the whole, then the time of each stage: aligned columns, with
+// units, at most 100 of them for any fit that makes sense, ending with a newline. (Warnings are for
+// standard error: exit_code.h.)
 [[nodiscard]] std::string ResultTable(const pipeline::FitResult& result);
 
 // The metrics of the whole alone.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/base/host_and_port.h"
 #include "core/base/version.h"
 
 namespace capfit::server {
@@ -48,7 +49,16 @@ std::optional<int> ParseFlags(int argc, const char* const* argv, ServerConfig& c
   CLI::App app{"capfit-server: human body meshes as few spheres and tapered capsules, over gRPC"};
   app.option_defaults()->always_capture_default();
   app.set_version_flag("--version", std::string(Version()));
-  app.add_option("--listen", config.listen, "HOST:PORT to listen on; port 0: any free one");
+  CLI::Validator address;
+  address.description("").operation([](std::string& text) -> std::string {
+    const absl::StatusOr<std::string> whole = WithPort(text, /*lowest_port=*/0);
+    if (!whole.ok()) return std::string(whole.status().message());
+    text = *whole;
+    return "";
+  });
+  app.add_option("--listen", config.listen,
+                 "HOST[:PORT] to listen on, without a port 50051; port 0: any free one")
+      ->transform(address);
   app.add_option("--port-file", config.port_file, "File to write the chosen port to");
   app.add_option("--threads", config.threads, "Threads that compute; 0: one per core")
       ->check(CLI::Range(0, 256));

@@ -14,10 +14,10 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-constexpr double kSameBox = 0.02;          // of the diagonal
-constexpr double kFarCentre = 0.25;        // of the diagonal
+constexpr double kSameBox = 0.02;           // of the diagonal
+constexpr double kFarCentre = 0.25;         // of the diagonal
 constexpr double kSmallestDiagonal = 0.12;  // of the mesh's diagonal
-constexpr double kLargestDiagonal = 2.0;   // of the mesh's diagonal
+constexpr double kLargestDiagonal = 2.0;    // of the mesh's diagonal
 
 // Of what mending keeps; of a mesh that cannot be mended, of the vertices that faces use.
 AlignedBox3d BoxOf(const mesh::PolygonSoup& soup) {
@@ -45,8 +45,8 @@ std::string Text(const AlignedBox3d& box) {
                          box.min().z(), box.max().x(), box.max().y(), box.max().z());
 }
 
-absl::Status Stranger(const std::string& told, const AlignedBox3d& theirs,
-                      const AlignedBox3d& ours, const std::string& advice) {
+absl::Status Stranger(const std::string& told, const AlignedBox3d& theirs, const AlignedBox3d& ours,
+                      const std::string& advice) {
   const double times = ours.diagonal().norm() / theirs.diagonal().norm();
   return InvalidField(
       ErrorReason::kContradictsBody, "RESULT",
@@ -91,12 +91,12 @@ absl::Status CheckBelongs(const ResultSet& result, const mesh::PolygonSoup& body
 absl::Status CheckVertexCount(const std::string& name, std::size_t vertex_count,
                               const mesh::PolygonSoup& body) {
   if (vertex_count == body.positions.size()) return absl::OkStatus();
-  return InvalidField(ErrorReason::kContradictsBody, name,
-                      absl::StrCat("has ", vertex_count, " vertices, BODY has ",
-                                   body.positions.size(), "; give what was written with the result "
-                                   "of this very mesh file"),
-                      {{"value", absl::StrCat(vertex_count)},
-                       {"limit", absl::StrCat(body.positions.size())}});
+  return InvalidField(
+      ErrorReason::kContradictsBody, name,
+      absl::StrCat("has ", vertex_count, " vertices, BODY has ", body.positions.size(),
+                   "; give what was written with the result "
+                   "of this very mesh file"),
+      {{"value", absl::StrCat(vertex_count)}, {"limit", absl::StrCat(body.positions.size())}});
 }
 
 }  // namespace capfit::client

@@ -14,8 +14,8 @@ namespace capfit::client {
 // INVALID_ARGUMENT with both figures where the result cannot be of this mesh.
 //
 // A result of capfit says which box it was fitted to: the mesh's (of what mending keeps of it) must
-// be the same to 2 % of the diagonal on every side. A decimated or otherwise tessellated copy of the
-// body passes; another unit, other axes, another pose or person do not.
+// be the same to 2 % of the diagonal on every side. A decimated or otherwise tessellated copy of
+// the body passes; another unit, other axes, another pose or person do not.
 //
 // Of another program's there are only spheres. All centres must lie within the mesh's box and a
 // quarter of its diagonal around it (centres of a set that stands for a body lie within the body,

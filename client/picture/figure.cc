@@ -64,6 +64,7 @@ double Shade(std::size_t index) {
 
 Matrix3d TurnUpright(const std::vector<Vector3d>& positions, const ResultSet& result,
                      PictureUp up) {
+  if (up == PictureUp::kAuto && result.body_from_caller) return *result.body_from_caller;
   if (up == PictureUp::kAuto) up = LongerOfYAndZ(positions);
   const Vector3d left = LeftOf(result, up);
   Matrix3d turn;

@@ -15,6 +15,15 @@
 
 namespace capfit::client {
 
+// A closed line in space that is drawn over a figure.
+struct FigureCurve {
+  std::string name;
+  std::vector<Eigen::Vector3d> points;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // inside of it: what is behind it is its back
+  Color color = kInk;
+  bool is_outline = false;  // of a feature polygon; otherwise one of its circles
+};
+
 // Upright along +Y, facing +Z. Any length unit.
 struct Figure {
   std::vector<Eigen::Vector3d> vertices;
@@ -24,14 +33,17 @@ struct Figure {
   // Signed distance of each vertex from the union of the solids: < 0 where they cover it, NaN where
   // it is not meant to be covered. Empty: found out when they are drawn.
   std::vector<double> gaps;
+  // Whether each vertex is on a part that the solids stand for; empty: all are. The rest is grey.
+  std::vector<bool> is_fitted;
+  std::vector<FigureCurve> curves;  // for panels of kGhost
 };
 
 // Which axis of the caller's frame points up.
 enum class PictureUp { kAuto, kX, kY, kZ };
 
-// The turn from the caller's frame into the picture's. kAuto: Y or Z, along which the body is
-// longer. Where the result tells left from right by its landmarks, the body's left decides the
-// front; otherwise Y up faces +Z, Z up faces -Y and X up faces +Z.
+// The turn from the caller's frame into the picture's. kAuto: the result's own, or Y or
+// Z, along which the body is longer. Where the result tells left from right by its landmarks, the
+// body's left decides the front; otherwise Y up faces +Z, Z up faces -Y and X up faces +Z.
 [[nodiscard]] Eigen::Matrix3d TurnUpright(const std::vector<Eigen::Vector3d>& positions,
                                           const ResultSet& result, PictureUp up);
 

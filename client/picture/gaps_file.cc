@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "absl/strings/str_cat.h"
+#include "client/picture/belongs.h"
 #include "client/picture/file_bytes.h"
 #include "core/base/status.h"
 
@@ -73,6 +74,11 @@ std::string GapsPath(const std::string& result_path) {
   return std::filesystem::path(result_path).replace_extension(".gaps.json").string();
 }
 
+std::vector<std::string> GapsPaths(const std::string& result_path) {
+  return {GapsPath(result_path),
+          std::filesystem::path(result_path).replace_extension(".gaps.f32").string()};
+}
+
 absl::Status WriteVertexGaps(std::span<const float> gaps, double metres_per_unit,
                              const std::string& result_path) {
   const std::filesystem::path data =
@@ -103,6 +109,17 @@ absl::StatusOr<VertexGaps> ReadVertexGaps(const std::string& header_path) {
                         absl::StrCat("holds ", bytes.size(), " bytes, must hold 4 x ", count));
   }
   return VertexGaps{header["metres_per_unit"].get<double>(), GapsOf(bytes)};
+}
+
+absl::Status CheckGapsBelong(const VertexGaps& gaps, const ResultSet& result,
+                             const mesh::PolygonSoup& body) {
+  CAPFIT_RETURN_IF_ERROR(CheckVertexCount("gaps", gaps.gaps.size(), body));
+  const double expected = result.metres_per_unit.value_or(gaps.metres_per_unit);
+  if (std::abs(gaps.metres_per_unit - expected) <= 1e-6 * expected) return absl::OkStatus();
+  return InvalidField(
+      ErrorReason::kContradictsBody, "gaps",
+      absl::StrCat("are in units of ", gaps.metres_per_unit, " m, RESULT in units of ", expected,
+                   " m; give the file that was written with RESULT"));
 }
 
 }  // namespace capfit::client

@@ -18,6 +18,8 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "client/picture/result_set.h"
+#include "core/mesh/polygon_soup.h"
 
 namespace capfit::client {
 
@@ -29,13 +31,21 @@ struct VertexGaps {
 // "a/result.json" gives "a/result.gaps.json".
 [[nodiscard]] std::string GapsPath(const std::string& result_path);
 
-// Writes both files. UNAVAILABLE with the name of the one that cannot be written.
+// Both files: the header, then the numbers.
+[[nodiscard]] std::vector<std::string> GapsPaths(const std::string& result_path);
+
+// Writes both files. NOT_FOUND with the name of the one that cannot be written.
 [[nodiscard]] absl::Status WriteVertexGaps(std::span<const float> gaps, double metres_per_unit,
                                            const std::string& result_path);
 
 // Reads both, given the header. NOT_FOUND where a file cannot be read; INVALID_ARGUMENT names the
 // member that is missing or wrong, or the size of the numbers' file.
 [[nodiscard]] absl::StatusOr<VertexGaps> ReadVertexGaps(const std::string& header_path);
+
+// INVALID_ARGUMENT with both figures where the gaps are not those of this body and result: another
+// number of vertices, or another unit than the result's.
+[[nodiscard]] absl::Status CheckGapsBelong(const VertexGaps& gaps, const ResultSet& result,
+                                           const mesh::PolygonSoup& body);
 
 }  // namespace capfit::client
 

@@ -45,6 +45,7 @@ class Painter {
 
   [[nodiscard]] Color At(int i, int j) const {
     const std::optional<Color> body = ShowsBody() ? BodyColor(i, j) : std::nullopt;
+    if (options_.style == PanelStyle::kGhost && body) return 0.42f * *body + 0.58f * kPaper;
     if (!ShowsSet() || set_.at(i, j).id < 0) return body.value_or(kPaper);
     const bool is_outline = IsOutline(i, j);
     if (options_.style == PanelStyle::kPrimitives) {
@@ -83,16 +84,23 @@ class Painter {
     const Vector3d weights = Barycentric(t, i, j);
     Vector3d normal = Vector3d::Zero();
     double gap = 0.0;
+    double fitted = 0.0;
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t vertex = t[static_cast<std::size_t>(k)];
       normal += weights[k] * normals_[vertex];
       if (!gaps_.empty()) gap += weights[k] * gaps_[vertex];
+      if (figure_.is_fitted.empty() || figure_.is_fitted[vertex]) fitted += weights[k];
     }
-    const bool is_heat = options_.style == PanelStyle::kHeat;
+    return Lit(SurfaceColor(gap, fitted), view_.Turn(normal.stableNormalized()));
+  }
+
+  // `fitted`: how much of the place belongs to parts that the solids stand for.
+  [[nodiscard]] Color SurfaceColor(double gap, double fitted) const {
     // Warm where the primitives stand off from the covered surface, blue where it sticks out.
-    const Color color =
-        is_heat && !std::isnan(gap) ? SignedColor(-gap / options_.heat_limit) : kSkin;
-    return Lit(color, view_.Turn(normal.stableNormalized()));
+    if (options_.style == PanelStyle::kHeat) {
+      return std::isnan(gap) ? kNotFitted : SignedColor(-gap / options_.heat_limit);
+    }
+    return fitted > 0.5 ? kSkin : kNotFitted;
   }
 
   [[nodiscard]] const Color& SolidColor(int i, int j) const {

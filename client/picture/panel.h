@@ -22,7 +22,8 @@ enum class PanelStyle {
   kBody,             // the body alone
   kBodyAndOutlines,  // the primitives lie over the body like tinted glass, with their outlines
   kPrimitives,       // the primitives alone
-  kHeat              // the body, coloured by the gap at each vertex; grey where there is none
+  kHeat,             // the body, coloured by the gap at each vertex; grey where there is none
+  kGhost             // the body, pale as glass, for what is drawn over it
 };
 
 struct PanelOptions {

@@ -1,210 +1,290 @@
 #include "client/picture/picture.h"
 
-#include <cairo-svg.h>
-#include <cairo.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <memory>
+
+#include "absl/strings/str_cat.h"
+#include "client/picture/polygon_sheet.h"
+#include "client/picture/scale_bar.h"
+#include "core/base/status.h"
 
 namespace capfit::client {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kTitleHeight = 92;
-constexpr int kCaptionHeight = 34;
-constexpr int kBarWidth = 110;
-constexpr int kMargin = 14;
+constexpr int kUsualHeight = 1100;
+constexpr double kGhostHeight = 560.0;  // of the row of panels above the polygons, where it is free
 
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
-using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
-
-cairo_status_t AppendBytes(void* closure, const unsigned char* data, unsigned int length) {
-  static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
-// A box around all figures, solids included.
-struct Box {
+// What a column's figure takes as it is seen, in its own unit.
+struct Extent {
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Vector3d high = -low;
-  void Add(const Vector3d& p, double radius) {
-    low = low.cwiseMin(p - Vector3d::Constant(radius));
-    high = high.cwiseMax(p + Vector3d::Constant(radius));
+  Vector3d high = -low;  // both (right, up, towards the eye)
+  void Add(const Vector3d& turned, double radius) {
+    low = low.cwiseMin(turned - Vector3d::Constant(radius));
+    high = high.cwiseMax(turned + Vector3d::Constant(radius));
   }
+  [[nodiscard]] Vector3d middle() const { return 0.5 * (low + high); }
+  [[nodiscard]] double width() const { return high.x() - low.x(); }
+  [[nodiscard]] double height() const { return high.y() - low.y(); }
 };
 
-Box BoxOf(const Figure& figure) {
-  Box box;
-  for (const Vector3d& p : figure.vertices) box.Add(p, 0.0);
+View ViewOf(const PictureColumn& column, const Vector3d& center, const Vector2d& at, double scale) {
+  return {column.yaw_rad, center, at.x(), at.y(), scale, column.pitch_rad};
+}
+
+Extent ExtentOf(const PictureColumn& column) {
+  const View view = ViewOf(column, Vector3d::Zero(), Vector2d::Zero(), 1.0);
+  const Figure& figure = *column.figure;
+  Extent extent;
+  for (const Vector3d& p : figure.vertices) extent.Add(view.Turn(p), 0.0);
   for (const geometry::TaperedCapsule& solid : figure.solids) {
-    box.Add(solid.a().center_m, solid.a().radius_m);
-    box.Add(solid.b().center_m, solid.b().radius_m);
+    extent.Add(view.Turn(solid.a().center_m), solid.a().radius_m);
+    extent.Add(view.Turn(solid.b().center_m), solid.b().radius_m);
   }
-  return box;
+  for (const FigureCurve& curve : figure.curves) {
+    for (const Vector3d& p : curve.points) extent.Add(view.Turn(p), 0.0);
+  }
+  return extent;
 }
 
-struct Layout {
-  int panel_width;
-  int panel_height;
-  std::vector<View> views;  // of each column
+// Lays out a page from top to bottom.
+class PageMaker {
+ public:
+  PageMaker(const std::vector<PictureColumn>& columns, const PictureOptions& options)
+      : columns_(columns), options_(options) {
+    page_.width = options.width;
+    page_.height = options.height.value_or(kUsualHeight);
+    // Letters are as large as the page allows, and not smaller than can be read.
+    unit_ = std::clamp(std::min(page_.width / 1500.0, page_.height / 1100.0), 0.5, 4.0);
+    margin_ = 14.0 * unit_;
+    for (const PictureColumn& column : columns) extents_.push_back(ExtentOf(column));
+  }
+
+  absl::StatusOr<Page> Make() {
+    AddHead();
+    const double foot = FootHeight();
+    const double panels = HasSheet() && !options_.height ? kGhostHeight * unit_
+                          : HasSheet()                   ? 0.4 * (page_.height - top_)
+                                                         : page_.height - top_ - foot;
+    AddPanels(std::max(panels, 10.0));
+    AddFoot();
+    if (HasSheet()) CAPFIT_RETURN_IF_ERROR(AddPolygons());
+    return std::move(page_);
+  }
+
+ private:
+  [[nodiscard]] bool HasSheet() const { return !options_.polygons.empty(); }
+  [[nodiscard]] bool HasHeat() const {
+    return std::find(options_.rows.begin(), options_.rows.end(), PanelStyle::kHeat) !=
+           options_.rows.end();
+  }
+  [[nodiscard]] double InnerWidth() const { return page_.width - 2.0 * margin_; }
+
+  void AddHead() {
+    top_ = margin_;
+    const auto line = [&](const std::string& text, double size, bool is_bold) {
+      if (text.empty()) return;
+      const TextStyle style{size * unit_, is_bold, TextAnchor::kMiddle, InnerWidth()};
+      AddText(text, 0.5 * page_.width, top_, style, page_);
+      top_ += 1.35 * size * unit_;
+    };
+    line(options_.title, 30.0, true);
+    line(options_.subtitle, 20.0, false);
+    line(options_.note, 18.0, false);
+  }
+
+  // The scale that fits all columns side by side, `height` pixels high each.
+  [[nodiscard]] double PanelScale(double width, double height) const {
+    double widths = 0.0;
+    double highest = 0.0;
+    for (const Extent& extent : extents_) {
+      widths += extent.width();
+      highest = std::max(highest, extent.height());
+    }
+    const double margins = 2.0 * margin_ * static_cast<double>(columns_.size());
+    return std::min(std::max(width - margins, 1.0) / widths,
+                    std::max(height - 2.0 * margin_, 1.0) / highest);
+  }
+
+  void AddPanels(double height) {
+    const double bar = HasHeat() ? 110.0 * unit_ : 0.0;
+    const double width = page_.width - bar;
+    const int row_height =
+        std::max(1, static_cast<int>(height / static_cast<double>(options_.rows.size())));
+    scale_ = PanelScale(width, row_height);
+    double used = 0.0;
+    for (const Extent& extent : extents_) used += ColumnWidth(extent);
+    const double extra = (width - used) / static_cast<double>(columns_.size());
+    double x = 0.0;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const double right = x + ColumnWidth(extents_[i]) + extra;
+      AddColumn(i, x, right, row_height);
+      x = right;
+    }
+    if (HasHeat()) {
+      AddGapBar(options_.heat_limit * options_.mm_per_unit.value_or(1000.0),
+                {width + 8.0 * unit_, top_, bar - 8.0 * unit_ - 0.5 * margin_,
+                 static_cast<double>(row_height)},
+                17.0 * unit_, page_);
+    }
+    top_ += row_height * static_cast<double>(options_.rows.size());
+  }
+
+  [[nodiscard]] double ColumnWidth(const Extent& extent) const {
+    return scale_ * extent.width() + 2.0 * margin_;
+  }
+
+  void AddColumn(std::size_t i, double left, double right, int row_height) {
+    const PictureColumn& column = columns_[i];
+    const double x = std::floor(left);
+    const double width = std::max(1.0, std::floor(right) - x);
+    const View turned = ViewOf(column, Vector3d::Zero(), Vector2d::Zero(), 1.0);
+    const Vector3d middle = extents_[i].middle();
+    const Vector3d center =
+        middle.x() * turned.right() + middle.y() * turned.up() + middle.z() * turned.toward_eye();
+    const View view = ViewOf(column, center, {0.5 * width, 0.5 * row_height}, scale_);
+    for (std::size_t row = 0; row < options_.rows.size(); ++row) {
+      const Rect panel{x, std::floor(top_) + static_cast<double>(row) * row_height, width,
+                       static_cast<double>(row_height)};
+      page_.panels.push_back({panel, i, options_.rows[row], view});
+      if (options_.rows[row] == PanelStyle::kGhost) AddCurves(*column.figure, page_.panels.back());
+    }
+    const double bottom = top_ + row_height * static_cast<double>(options_.rows.size());
+    AddText(column.caption, 0.5 * (left + right), bottom + 0.2 * CaptionSize(),
+            {.size = CaptionSize(),
+             .anchor = TextAnchor::kMiddle,
+             .max_width = right - left - 0.5 * margin_},
+            page_);
+  }
+
+  void AddCurves(const Figure& figure, const PagePanel& panel) {
+    for (const bool is_front : {false, true}) {
+      for (const FigureCurve& curve : figure.curves) AddCurve(curve, panel, is_front);
+    }
+  }
+
+  // The half of a curve that faces the eye, or the other one, which is pale.
+  void AddCurve(const FigureCurve& curve, const PagePanel& panel, bool is_front) {
+    PagePath path;
+    path.name = curve.name + (curve.is_outline ? ": outline" : ": circle") + " in place";
+    path.stroke = curve.color;
+    path.width = (curve.is_outline ? 1.9 : 1.5) * unit_;
+    path.alpha = is_front ? 1.0 : 0.3;
+    const std::size_t count = curve.points.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vector3d& from = curve.points[i];
+      const Vector3d& to = curve.points[(i + 1) % count];
+      const Vector3d outward = 0.5 * (from + to) - curve.middle;
+      // A curve that is seen flat has no back.
+      const bool faces = outward.dot(panel.view.toward_eye()) >= -0.02 * outward.norm();
+      if (faces == is_front) {
+        if (path.points.empty()) path.points.push_back(OnPage(from, panel));
+        path.points.push_back(OnPage(to, panel));
+      }
+      if ((faces != is_front || i + 1 == count) && !path.points.empty()) {
+        page_.paths.push_back(path);
+        path.points.clear();
+      }
+    }
+  }
+
+  static Vector2d OnPage(const Vector3d& point, const PagePanel& panel) {
+    return panel.view.Project(point).head<2>() + Vector2d(panel.box.x, panel.box.y);
+  }
+
+  [[nodiscard]] double CaptionSize() const { return 18.0 * unit_; }
+  [[nodiscard]] double LegendSize() const { return 16.0 * unit_; }
+
+  // Below the panels: captions, then the bar and right of it the legend. The height is the same
+  // wherever it stands, so it is found on a page that nobody sees.
+  [[nodiscard]] double FootHeight() const {
+    Page unseen;
+    const double bar = options_.mm_per_unit ? kBarShare * InnerWidth() : 0.0;
+    const double legend =
+        AddLegend(options_.legend, 0.0, 0.0, InnerWidth() - bar, LegendSize(), unseen);
+    return 1.8 * CaptionSize() + std::max(legend, bar > 0.0 ? 1.5 * LegendSize() : 0.0) +
+           0.5 * margin_;
+  }
+
+  void AddFoot() {
+    const double end = top_ + FootHeight();
+    top_ += 1.8 * CaptionSize();
+    double x = margin_;
+    if (options_.mm_per_unit) {
+      AddBar(scale_, top_);
+      x += kBarShare * InnerWidth();
+    }
+    AddLegend(options_.legend, x, top_, page_.width - margin_ - x, LegendSize(), page_);
+    top_ = end;
+  }
+
+  void AddBar(double pixels_per_unit, double y) {
+    // What its label takes is left free of the share.
+    const double room = kBarShare * InnerWidth() - 6.0 * LegendSize();
+    const ScaleBar bar =
+        FitScaleBar(pixels_per_unit / *options_.mm_per_unit, std::max(room, 2.0 * LegendSize()));
+    AddScaleBar(bar, margin_, y, LegendSize(), page_);
+  }
+
+  absl::Status AddPolygons() {
+    const double heading = top_ + 0.3 * margin_;
+    AddLine("rule", {{margin_, heading}, {page_.width - margin_, heading}}, unit_, page_);
+    const double bar_y = heading + margin_;
+    const Rect area{margin_, bar_y + 1.8 * LegendSize(), InnerWidth(), 0.0};
+    std::optional<double> room;
+    if (options_.height) room = page_.height - area.y - 0.5 * margin_;
+    const SheetPlan plan = PlanSheet(options_.polygons, area, room, LegendSize());
+    const int needed = static_cast<int>(std::ceil(area.y + plan.height + 0.5 * margin_));
+    if (room && plan.height > *room) {
+      return InvalidField(ErrorReason::kOutOfRange, "height",
+                          absl::StrCat("is ", page_.height, ", must be at least ", needed, " for ",
+                                       options_.polygons.size(), " polygons"));
+    }
+    if (!room) page_.height = needed;
+    if (options_.mm_per_unit) AddBar(plan.pixels_per_unit, bar_y);
+    AddText(
+        "seen from above, limbs as if they hung: front down, the body's left to the right; number: "
+        "area of the circles outside (tinted) / area of the polygon",
+        margin_ + kBarShare * InnerWidth(), bar_y,
+        {.size = LegendSize(), .max_width = (1.0 - kBarShare) * InnerWidth()}, page_);
+    AddSheet(options_.polygons, plan, LegendSize(), page_);
+    return absl::OkStatus();
+  }
+
+  static constexpr double kBarShare = 0.16;  // of the page's width, for bar and label
+
+  const std::vector<PictureColumn>& columns_;
+  const PictureOptions& options_;
+  Page page_;
+  double unit_ = 1.0;            // a pixel of a page of 1500 x 1100
+  double margin_ = 0.0;          // in pixels
+  double top_ = 0.0;             // of what is not yet laid out
+  double scale_ = 1.0;           // pixels for each of the figures' units
+  std::vector<Extent> extents_;  // of each column
 };
-
-// Half the box's width as seen under this angle.
-double HalfWidth(const Box& box, double yaw_rad) {
-  const Vector3d half = 0.5 * (box.high - box.low);
-  return std::abs(std::cos(yaw_rad)) * half.x() + std::abs(std::sin(yaw_rad)) * half.z();
-}
-
-bool HasHeat(const PictureOptions& options) {
-  return std::find(options.rows.begin(), options.rows.end(), PanelStyle::kHeat) !=
-         options.rows.end();
-}
-
-Layout LayOut(const std::vector<PictureColumn>& columns, const PictureOptions& options) {
-  Layout layout{};
-  const int bar = HasHeat(options) ? kBarWidth : 0;
-  layout.panel_width = (options.width - bar) / static_cast<int>(columns.size());
-  layout.panel_height =
-      (options.height - kTitleHeight - kCaptionHeight) / static_cast<int>(options.rows.size());
-  double scale = std::numeric_limits<double>::infinity();
-  for (const PictureColumn& column : columns) {
-    const Box box = BoxOf(*column.figure);
-    const double half_height = 0.5 * (box.high.y() - box.low.y());
-    scale = std::min({scale, (0.5 * layout.panel_width - kMargin) / HalfWidth(box, column.yaw_rad),
-                      (0.5 * layout.panel_height - kMargin) / half_height});
-  }
-  for (const PictureColumn& column : columns) {
-    const Box box = BoxOf(*column.figure);
-    layout.views.emplace_back(column.yaw_rad, 0.5 * (box.low + box.high), 0.5 * layout.panel_width,
-                              0.5 * layout.panel_height, scale);
-  }
-  return layout;
-}
-
-// cairo's built-in stroke font needs no font files.
-void PrepareText(cairo_t* cr, double size, cairo_font_weight_t weight) {
-  cairo_select_font_face(cr, "@cairo:", CAIRO_FONT_SLANT_NORMAL, weight);
-  cairo_set_font_size(cr, size);
-  cairo_set_source_rgb(cr, kInk.x(), kInk.y(), kInk.z());
-}
-
-void DrawCentered(cairo_t* cr, const std::string& text, double x, double y) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(cr, text.c_str(), &extents);
-  cairo_move_to(cr, x - 0.5 * extents.width - extents.x_bearing, y);
-  cairo_show_text(cr, text.c_str());
-}
-
-void DrawPanel(cairo_t* cr, Pixels& pixels, double x, double y) {
-  const Surface image(cairo_image_surface_create_for_data(
-                          reinterpret_cast<unsigned char*>(pixels.argb.data()), CAIRO_FORMAT_RGB24,
-                          pixels.width, pixels.height, 4 * pixels.width),
-                      &cairo_surface_destroy);
-  cairo_set_source_surface(cr, image.get(), x, y);
-  cairo_rectangle(cr, x, y, pixels.width, pixels.height);
-  cairo_fill(cr);
-}
-
-// From +limit (the body sticks out of the primitives) up to -limit (they stand off from it).
-void DrawColorBar(cairo_t* cr, const PictureOptions& options) {
-  constexpr int kSteps = 200;
-  const double x = options.width - kBarWidth + 22;
-  const double top = kTitleHeight + 40;
-  const double height = options.height - top - kCaptionHeight - 30;
-  for (int i = 0; i < kSteps; ++i) {
-    const Color color = SignedColor(1.0 - 2.0 * (i + 0.5) / kSteps);
-    cairo_set_source_rgb(cr, color.x(), color.y(), color.z());
-    cairo_rectangle(cr, x, top + height * i / kSteps, 22, height / kSteps + 1);
-    cairo_fill(cr);
-  }
-  PrepareText(cr, 17, CAIRO_FONT_WEIGHT_NORMAL);
-  for (const double value : {1.0, 0.5, 0.0, -0.5, -1.0}) {
-    char label[32];
-    // Taken from 0, so that the middle is +0.
-    const double gap_mm = 0.0 - value * options.heat_limit * options.mm_per_unit;
-    std::snprintf(label, sizeof(label), "%+.3g", gap_mm);
-    cairo_move_to(cr, x + 30, top + 0.5 * height * (1.0 - value) + 6);
-    cairo_show_text(cr, label);
-  }
-  cairo_move_to(cr, x - 8, top - 36);
-  cairo_show_text(cr, "gap, mm");
-  PrepareText(cr, 14, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_move_to(cr, x - 8, top - 14);
-  cairo_show_text(cr, "covered");
-  cairo_move_to(cr, x - 8, top + height + 22);
-  cairo_show_text(cr, "sticks out");
-}
-
-void Compose(cairo_t* cr, const std::vector<PictureColumn>& columns, const PictureOptions& options,
-             const Layout& layout, std::vector<Pixels>& panels) {
-  cairo_set_source_rgb(cr, 1, 1, 1);
-  cairo_paint(cr);
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    const auto column = static_cast<int>(i % columns.size());
-    const auto row = static_cast<int>(i / columns.size());
-    DrawPanel(cr, panels[i], column * layout.panel_width, kTitleHeight + row * layout.panel_height);
-  }
-  PrepareText(cr, 30, CAIRO_FONT_WEIGHT_BOLD);
-  DrawCentered(cr, options.title, 0.5 * options.width, 42);
-  PrepareText(cr, 21, CAIRO_FONT_WEIGHT_NORMAL);
-  DrawCentered(cr, options.subtitle, 0.5 * options.width, 76);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    DrawCentered(cr, columns[i].caption, (static_cast<double>(i) + 0.5) * layout.panel_width,
-                 options.height - 12);
-  }
-  if (HasHeat(options)) DrawColorBar(cr, options);
-}
-
-Surface MakeSurface(const PictureOptions& options, PictureFormat format, std::string& bytes) {
-  cairo_surface_t* const surface =
-      format == PictureFormat::kSvg
-          ? cairo_svg_surface_create_for_stream(AppendBytes, &bytes, options.width, options.height)
-          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, options.width, options.height);
-  return {surface, &cairo_surface_destroy};
-}
-
-std::vector<Pixels> RenderPanels(const std::vector<PictureColumn>& columns,
-                                 const PictureOptions& options, const Layout& layout,
-                                 const ThreadPool& pool) {
-  std::vector<Pixels> panels(columns.size() * options.rows.size());
-  pool.ForEach(panels.size(), [&](std::size_t i) {
-    const std::size_t column = i % columns.size();
-    const PanelOptions panel{layout.panel_width, layout.panel_height,
-                             options.rows[i / columns.size()], options.heat_limit};
-    panels[i] = RenderPanel(*columns[column].figure, layout.views[column], panel);
-  });
-  return panels;
-}
 
 }  // namespace
+
+absl::StatusOr<Page> LayOutPage(const std::vector<PictureColumn>& columns,
+                                const PictureOptions& options) {
+  return PageMaker(columns, options).Make();
+}
 
 absl::StatusOr<std::string> DrawPicture(const std::vector<PictureColumn>& columns,
                                         const PictureOptions& options, PictureFormat format,
                                         const ThreadPool& pool) {
-  const Layout layout = LayOut(columns, options);
-  std::vector<Pixels> panels = RenderPanels(columns, options, layout, pool);
-  std::string bytes;
-  const Surface surface = MakeSurface(options, format, bytes);
-  {
-    const Context cr(cairo_create(surface.get()), &cairo_destroy);
-    Compose(cr.get(), columns, options, layout, panels);
-    if (cairo_status(cr.get()) != CAIRO_STATUS_SUCCESS) {
-      return absl::InternalError(cairo_status_to_string(cairo_status(cr.get())));
-    }
-  }
-  if (format == PictureFormat::kPng) {
-    cairo_surface_write_to_png_stream(surface.get(), AppendBytes, &bytes);
-  } else {
-    cairo_surface_finish(surface.get());
-  }
-  if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) {
-    return absl::InternalError(cairo_status_to_string(cairo_surface_status(surface.get())));
-  }
-  return bytes;
+  CAPFIT_ASSIGN_OR_RETURN(const Page page, LayOutPage(columns, options));
+  std::vector<Pixels> pixels(page.panels.size());
+  pool.ForEach(pixels.size(), [&](std::size_t i) {
+    const PagePanel& panel = page.panels[i];
+    pixels[i] = RenderPanel(*columns[panel.column].figure, panel.view,
+                            {static_cast<int>(panel.box.width), static_cast<int>(panel.box.height),
+                             panel.style, options.heat_limit});
+  });
+  return PaintPage(page, std::move(pixels), format);
 }
 
 }  // namespace capfit::client

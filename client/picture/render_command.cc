@@ -12,14 +12,18 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "client/exit_code.h"
+#include "client/picture/belongs.h"
+#include "client/picture/centers_file.h"
 #include "client/picture/figure.h"
 #include "client/picture/file_bytes.h"
+#include "client/picture/flat_polygon.h"
 #include "client/picture/gaps_file.h"
 #include "client/picture/picture.h"
 #include "client/picture/result_body.h"
 #include "client/picture/result_set.h"
+#include "client/picture/result_words.h"
 #include "core/base/status.h"
-#include "core/mesh/read_mesh.h"
 #include "core/metrics/measure.h"
 
 namespace capfit::client {
@@ -37,9 +41,10 @@ struct RenderArguments {
   bool heat = false;
   std::string gaps;
   double heat_limit_mm = 30.0;
-  double mm_per_unit = 1000.0;
+  bool polygons = false;
+  std::optional<double> mm_per_unit;  // default: what the gaps, the result or the body tell
   int width = 1500;
-  int height = 1100;
+  std::optional<int> height;
   std::string frames;
   std::string centers;
   std::vector<std::size_t> show = {0};
@@ -59,7 +64,7 @@ const std::map<std::string, NamedView>& Views() {
 
 absl::Status CheckArguments(const RenderArguments& arguments) {
   const std::string ending = FileEnding(arguments.output);
-  if (ending != ".png" && ending != ".svg") {
+  if (ending != ".png" && ending != ".svg" && arguments.output != "-") {
     return InvalidField(ErrorReason::kMalformedFile, "output",
                         absl::StrCat("is ", arguments.output, ", must end in .png or .svg"));
   }
@@ -69,21 +74,44 @@ absl::Status CheckArguments(const RenderArguments& arguments) {
                         absl::StrCat("is ", value, ", must be in [", low, ", ", high, "]"));
   };
   CAPFIT_RETURN_IF_ERROR(check("width", arguments.width, 200, 6000));
-  CAPFIT_RETURN_IF_ERROR(check("height", arguments.height, 300, 6000));
+  CAPFIT_RETURN_IF_ERROR(check("height", arguments.height.value_or(300), 300, 6000));
   CAPFIT_RETURN_IF_ERROR(check("heat_limit_mm", arguments.heat_limit_mm, 0.01, 1e4));
-  CAPFIT_RETURN_IF_ERROR(check("mm_per_unit", arguments.mm_per_unit, 1e-6, 1e6));
+  CAPFIT_RETURN_IF_ERROR(check("mm_per_unit", arguments.mm_per_unit.value_or(1.0), 1e-6, 1e6));
   if (!arguments.gaps.empty() && !arguments.frames.empty()) {
     return InvalidField(ErrorReason::kMalformedFile, "gaps",
                         "are those of the body at rest: not with --frames");
   }
-  if (arguments.result.empty() && (arguments.heat || !arguments.frames.empty())) {
+  if (arguments.result.empty() &&
+      (arguments.heat || arguments.polygons || !arguments.frames.empty())) {
     return InvalidField(ErrorReason::kMalformedFile, "result",
-                        "is missing: --heat and --frames need the primitives");
+                        "is missing: --heat, --polygons and --frames need it");
   }
   if (arguments.frames.empty() != arguments.centers.empty()) {
     return InvalidField(ErrorReason::kMalformedFile,
                         arguments.frames.empty() ? "frames" : "centers",
                         "is missing: an animation needs both frames and centers");
+  }
+  if (arguments.polygons &&
+      (arguments.heat || !arguments.gaps.empty() || !arguments.frames.empty())) {
+    return InvalidField(ErrorReason::kMalformedFile, "polygons",
+                        "are drawn on the body at rest: not with --heat, --gaps or --frames");
+  }
+  return absl::OkStatus();
+}
+
+// What the polygons are drawn from is there.
+absl::Status CheckPolygons(const ResultSet& result) {
+  if (result.polygons.empty()) {
+    return InvalidField(ErrorReason::kMalformedFile, "feature_polygons",
+                        "are not in the result: only `capfit approximate --polygons` with "
+                        "--quality paper writes them");
+  }
+  for (std::size_t i = 0; i < result.polygons.size(); ++i) {
+    const std::size_t points = result.polygons[i].outline.size();
+    if (points >= 3) continue;
+    return InvalidField(ErrorReason::kMalformedFile,
+                        absl::StrCat("feature_polygons[", i, "].outline"),
+                        absl::StrCat("has ", points, " points, must have at least 3"));
   }
   return absl::OkStatus();
 }
@@ -133,6 +161,9 @@ absl::StatusOr<std::vector<Vector3d>> FramePoints(const std::string& bytes, std:
   return positions;
 }
 
+// 22 degrees from above, cross sections are seen as such and the body still as a body.
+constexpr double kPolygonPitchRad = 0.384;
+
 // What is drawn, and under which words.
 struct Scene {
   std::vector<std::unique_ptr<Figure>> figures;
@@ -142,6 +173,7 @@ struct Scene {
 struct Inputs {
   mesh::PolygonSoup soup;
   ResultSet result;
+  std::optional<body::Body> body;
   Eigen::Matrix3d turn;
 };
 
@@ -154,13 +186,16 @@ Scene StillScene(const RenderArguments& arguments, const Inputs& in,
     const NamedView& view = Views().at(name);
     scene.columns.push_back(
         {scene.figures.back().get(), view.yaw_deg * std::numbers::pi / 180.0, view.caption});
+    if (!arguments.polygons) continue;
+    scene.columns.back().pitch_rad = kPolygonPitchRad;
+    scene.columns.back().caption += ", from above";
   }
   return scene;
 }
 
 absl::StatusOr<Scene> AnimatedScene(const RenderArguments& arguments, const Inputs& in) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string frames, ReadFileBytes(arguments.frames));
-  CAPFIT_ASSIGN_OR_RETURN(const std::string centers, ReadFileBytes(arguments.centers));
+  CAPFIT_ASSIGN_OR_RETURN(const std::string centers, ReadCenters(arguments.centers));
   Scene scene;
   for (const std::size_t frame : arguments.show) {
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<Vector3d> positions,
@@ -177,48 +212,36 @@ absl::StatusOr<Scene> AnimatedScene(const RenderArguments& arguments, const Inpu
   return scene;
 }
 
-// The gaps of the file, which also knows the unit.
-absl::Status UseGapsFile(RenderArguments& arguments, Figure& figure) {
+// The gaps of the file, which knows the unit best.
+absl::Status UseGapsFile(RenderArguments& arguments, const Inputs& in, Figure& figure) {
   CAPFIT_ASSIGN_OR_RETURN(const VertexGaps file, ReadVertexGaps(arguments.gaps));
-  if (file.gaps.size() != figure.vertices.size()) {
-    return InvalidField(
-        ErrorReason::kMalformedFile, "gaps",
-        absl::StrCat("has ", file.gaps.size(), " vertices, the body has ", figure.vertices.size()));
-  }
+  CAPFIT_RETURN_IF_ERROR(CheckGapsBelong(file, in.result, in.soup));
   figure.gaps.assign(file.gaps.begin(), file.gaps.end());
   arguments.mm_per_unit = 1000.0 * file.metres_per_unit;
   return absl::OkStatus();
 }
 
-// Measured on the body, as a fit does it: parts that the result does not stand for have no gap. A
-// mesh that is no body is left to the painter, which takes all vertices alike.
-void MeasureGaps(const Inputs& in, const ThreadPool& pool, Figure& figure) {
-  const absl::StatusOr<body::Body> body = UnderstandBody(in.soup, body::BodyOptions(), pool);
-  if (!body.ok()) return;
-  const geometry::Similarity& frame = body->body_from_caller;
+// Measured on the body, as a fit does it: parts that the result does not stand for have no gap.
+void MeasureGaps(const Inputs& in, const body::Body& body, const ThreadPool& pool, Figure& figure) {
+  const geometry::Similarity& frame = body.body_from_caller;
   const std::vector<double> gaps_m =
-      metrics::SignedGaps(*body, InBodyFrame(in.result, frame), PartsOfResult(in.result), pool);
-  for (const std::int32_t vertex : body->mesh.vertex_of_source()) {
+      metrics::SignedGaps(body, InBodyFrame(in.result, frame), PartsOfResult(in.result), pool);
+  for (const std::int32_t vertex : body.mesh.vertex_of_source()) {
     figure.gaps.push_back(vertex < 0 ? std::numeric_limits<double>::quiet_NaN()
                                      : gaps_m[static_cast<std::size_t>(vertex)] / frame.scale);
   }
 }
 
-// "32 spheres + 32 capsules   E_r 0.512   E_M 1.21 %": what the result tells.
-std::string Subtitle(const ResultSet& result) {
-  std::string text =
-      absl::StrCat(result.spheres.size(), " spheres + ", result.capsules.size(), " capsules");
-  const auto add = [&](const char* name, const char* format) {
-    const auto found = result.metrics.find(name);
-    if (found == result.metrics.end()) return;
-    char value[64];
-    std::snprintf(value, sizeof(value), format, found->second);
-    absl::StrAppend(&text, "     ", value);
-  };
-  add("primitive_count", "n_p %.0f");
-  add("volume_error", "E_r %.3f");
-  add("mean_distance_percent", "E_M %.2f %%");
-  return text;
+// Which of the caller's vertices lie on parts that the result stands for.
+std::vector<bool> FittedVertices(const ResultSet& result, const body::Body& body) {
+  const PartFlags parts = FittedParts(result);
+  std::vector<bool> is_fitted;
+  for (const std::int32_t vertex : body.mesh.vertex_of_source()) {
+    is_fitted.push_back(vertex < 0 ||
+                        parts[static_cast<std::size_t>(
+                            body::PartOf(body.vertex_segments[static_cast<std::size_t>(vertex)]))]);
+  }
+  return is_fitted;
 }
 
 std::string FileName(const std::string& path) {
@@ -234,64 +257,96 @@ PictureUp ToUp(const std::string& word) {
 
 absl::StatusOr<Inputs> ReadInputs(const RenderArguments& arguments) {
   Inputs in;
-  CAPFIT_ASSIGN_OR_RETURN(const std::string body, ReadFileBytes(arguments.body));
-  CAPFIT_ASSIGN_OR_RETURN(in.soup, mesh::ReadMesh(std::as_bytes(std::span(body)),
-                                                  mesh::FormatFromFileName(arguments.body)));
+  CAPFIT_ASSIGN_OR_RETURN(in.soup, ReadBodyFile(arguments.body));
   CAPFIT_RETURN_IF_ERROR(CheckSoup(in.soup));
   if (!arguments.result.empty()) {
     CAPFIT_ASSIGN_OR_RETURN(const std::string result, ReadFileBytes(arguments.result));
     CAPFIT_ASSIGN_OR_RETURN(in.result, ParseResultSet(result));
+    CAPFIT_RETURN_IF_ERROR(CheckBelongs(in.result, in.soup));
   }
+  // A mesh that is no body is drawn all the same, with less said about it.
+  absl::StatusOr<body::Body> understood =
+      UnderstandBody(in.soup, body::BodyOptions(), ThreadPool());
+  if (understood.ok()) in.body = *std::move(understood);
   in.turn = TurnUpright(in.soup.positions, in.result, ToUp(arguments.up));
   return in;
 }
 
-PictureOptions ToPictureOptions(const RenderArguments& arguments, const ResultSet& result) {
+// What the picture says of the result.
+void DescribeResult(const RenderArguments& arguments, const Inputs& in, PictureOptions& options) {
+  options.subtitle = Caption(in.result);
+  options.legend = arguments.polygons ? PolygonLegend(in.result) : PartLegend(in.result);
+  if (!in.body) return;
+  options.note = MissingParts(in.result, PartsOnBody(*in.body));
+  const bool shows_missing =
+      !arguments.polygons && options.note.find("not fitted") != std::string::npos;
+  if (shows_missing) options.legend.push_back({"not fitted", kNotFitted});
+}
+
+PictureOptions ToPictureOptions(const RenderArguments& arguments, const Inputs& in) {
   PictureOptions options;
   options.width = arguments.width;
   options.height = arguments.height;
   if (arguments.heat || !arguments.gaps.empty()) options.rows.front() = PanelStyle::kHeat;
-  options.title = arguments.title.empty() ? FileName(arguments.body) : arguments.title;
-  if (arguments.result.empty()) {
-    options.rows = {PanelStyle::kBody};
-  } else {
-    options.subtitle = Subtitle(result);
+  if (arguments.result.empty()) options.rows = {PanelStyle::kBody};
+  if (arguments.polygons) {
+    options.rows = {PanelStyle::kGhost};
+    options.polygons = Flatten(in.result.polygons, in.turn);
   }
-  options.heat_limit = arguments.heat_limit_mm / arguments.mm_per_unit;
+  options.title = arguments.title.empty() ? FileName(arguments.body) : arguments.title;
+  if (!arguments.result.empty()) DescribeResult(arguments, in, options);
   options.mm_per_unit = arguments.mm_per_unit;
+  options.heat_limit = arguments.heat_limit_mm / arguments.mm_per_unit.value_or(1000.0);
   return options;
+}
+
+// The mesh's unit where no flag tells it.
+std::optional<double> MillimetresPerUnit(const Inputs& in) {
+  if (in.result.metres_per_unit) return 1000.0 * *in.result.metres_per_unit;
+  if (in.body) return 1000.0 * in.body->body_from_caller.scale;
+  return std::nullopt;
+}
+
+absl::StatusOr<Scene> MakeScene(RenderArguments& arguments, const Inputs& in) {
+  if (!arguments.frames.empty()) return AnimatedScene(arguments, in);
+  std::vector<Vector3d> centers;
+  for (const geometry::Sphere& sphere : in.result.spheres) centers.push_back(sphere.center_m);
+  Scene scene = StillScene(arguments, in, centers);
+  Figure& figure = *scene.figures.back();
+  if (!arguments.gaps.empty()) {
+    CAPFIT_RETURN_IF_ERROR(UseGapsFile(arguments, in, figure));
+  } else if (arguments.heat && in.body) {
+    MeasureGaps(in, *in.body, ThreadPool(), figure);
+  }
+  if (arguments.polygons) {
+    CAPFIT_RETURN_IF_ERROR(CheckPolygons(in.result));
+    figure.solids.clear();
+    figure.curves = CurvesOf(Flatten(in.result.polygons, in.turn));
+  }
+  return scene;
 }
 
 absl::Status RunRender(RenderArguments arguments) {
   CAPFIT_RETURN_IF_ERROR(CheckArguments(arguments));
   CAPFIT_ASSIGN_OR_RETURN(const Inputs in, ReadInputs(arguments));
-  Scene scene;
-  if (arguments.frames.empty()) {
-    std::vector<Vector3d> centers;
-    for (const geometry::Sphere& sphere : in.result.spheres) centers.push_back(sphere.center_m);
-    scene = StillScene(arguments, in, centers);
-    Figure& figure = *scene.figures.back();
-    if (!arguments.gaps.empty()) {
-      CAPFIT_RETURN_IF_ERROR(UseGapsFile(arguments, figure));
-    } else if (arguments.heat) {
-      MeasureGaps(in, ThreadPool(), figure);
-    }
-  } else {
-    CAPFIT_ASSIGN_OR_RETURN(scene, AnimatedScene(arguments, in));
+  if (!arguments.mm_per_unit) arguments.mm_per_unit = MillimetresPerUnit(in);
+  CAPFIT_ASSIGN_OR_RETURN(const Scene scene, MakeScene(arguments, in));
+  if (in.body && !arguments.result.empty()) {
+    const std::vector<bool> is_fitted = FittedVertices(in.result, *in.body);
+    for (const std::unique_ptr<Figure>& figure : scene.figures) figure->is_fitted = is_fitted;
   }
   const PictureFormat format =
       FileEnding(arguments.output) == ".svg" ? PictureFormat::kSvg : PictureFormat::kPng;
   CAPFIT_ASSIGN_OR_RETURN(
       const std::string bytes,
-      DrawPicture(scene.columns, ToPictureOptions(arguments, in.result), format, ThreadPool()));
+      DrawPicture(scene.columns, ToPictureOptions(arguments, in), format, ThreadPool()));
   return WriteFileBytes(arguments.output, bytes);
 }
 
 void AddAnimationOptions(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--frames", arguments.frames,
                      "Deformed vertices: float32, frames x vertices x 3");
-  command.add_option("--centers", arguments.centers,
-                     "Sphere centres: float32, frames x spheres x 3");
+  command.add_option("--centers", arguments.centers, "Sphere centres, as `animate` writes them");
   command.add_option("--show", arguments.show, "Frames to show, e.g. 0,20,60")
       ->delimiter(',')
       ->expected(1, 8);
@@ -306,7 +361,7 @@ void AddRenderCommand(CLI::App& app, int& exit_code) {
   command->add_option("body", arguments->body, "Mesh file")->required();
   command->add_option("result", arguments->result,
                       "RESULT.json of this body; without it the body is drawn alone");
-  command->add_option("-o,--output", arguments->output, "Picture to write, .png or .svg")
+  command->add_option("-o,--output", arguments->output, "Picture to write, .png or .svg; - is PNG")
       ->required();
   command->add_option("--up", arguments->up, "Axis of the mesh that points up")
       ->check(CLI::IsMember({"auto", "x", "y", "z"}))
@@ -320,17 +375,22 @@ void AddRenderCommand(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--title", arguments->title, "Title; the body's file name without it");
   command->add_option("--width", arguments->width, "Pixels")->capture_default_str();
-  command->add_option("--height", arguments->height, "Pixels")->capture_default_str();
+  command->add_option("--height", arguments->height,
+                      "Pixels [1100; with --polygons as many as they take]");
   command->add_flag("--heat,--heat-map", arguments->heat,
                     "Colour the body by its gap to the primitives");
   command->add_option("--gaps", arguments->gaps,
                       "RESULT.gaps.json whose gaps are shown, instead of measuring them");
+  command->add_flag("--polygons", arguments->polygons,
+                    "Draw the feature polygons with their circles: on the body, which is pale as "
+                    "glass, and below it flat, side by side, with their outside areas. The result "
+                    "must have them (`approximate --polygons`)");
   command->add_option("--heat-limit-mm", arguments->heat_limit_mm, "Gap of the strongest colour")
       ->capture_default_str();
-  command->add_option("--mm-per-unit", arguments->mm_per_unit, "Length of the mesh's unit in mm")
-      ->capture_default_str();
+  command->add_option("--mm-per-unit", arguments->mm_per_unit,
+                      "Length of the mesh's unit in mm [what RESULT or the body tells]");
   AddAnimationOptions(*command, *arguments);
-  command->callback([arguments, &exit_code] { exit_code = ReportStatus(RunRender(*arguments)); });
+  command->callback([arguments, &exit_code] { exit_code = Report(RunRender(*arguments)); });
 }
 
 }  // namespace capfit::client

@@ -1,10 +1,13 @@
 #include "client/picture/result_body.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 
+#include "client/picture/file_bytes.h"
 #include "core/base/status.h"
 #include "core/mesh/prepare_mesh.h"
+#include "core/mesh/read_mesh.h"
 
 namespace capfit::client {
 namespace {
@@ -18,6 +21,11 @@ body::Part PartFromWord(const std::string& word) {
 }
 
 }  // namespace
+
+absl::StatusOr<mesh::PolygonSoup> ReadBodyFile(const std::string& path) {
+  CAPFIT_ASSIGN_OR_RETURN(const std::string bytes, ReadFileBytes(path));
+  return mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(path));
+}
 
 absl::StatusOr<body::Body> UnderstandBody(const mesh::PolygonSoup& soup,
                                           const body::BodyOptions& options,

@@ -2,6 +2,8 @@
 #ifndef CAPFIT_CLIENT_PICTURE_RESULT_BODY_H_
 #define CAPFIT_CLIENT_PICTURE_RESULT_BODY_H_
 
+#include <string>
+
 #include "absl/status/statusor.h"
 #include "client/picture/result_set.h"
 #include "core/base/thread_pool.h"
@@ -10,6 +12,9 @@
 #include "core/mesh/polygon_soup.h"
 
 namespace capfit::client {
+
+// The mesh of a file, or of standard input, whose format the bytes tell.
+[[nodiscard]] absl::StatusOr<mesh::PolygonSoup> ReadBodyFile(const std::string& path);
 
 // The mesh checked, mended and understood, as a fit does it.
 [[nodiscard]] absl::StatusOr<body::Body> UnderstandBody(const mesh::PolygonSoup& soup,

@@ -103,6 +103,8 @@ void ReadMetrics(const json& root, ResultSet& set) {
   if (!root.contains("metrics") || !root["metrics"].is_object()) return;
   for (const auto& [name, value] : root["metrics"].items()) {
     if (value.is_number()) set.metrics[name] = value.get<double>();
+    if (name != "parts" || !value.is_object()) continue;
+    for (const auto& [part, unused] : value.items()) set.fitted_parts.push_back(part);
   }
 }
 
@@ -148,10 +150,34 @@ absl::Status ReadBody(const json& root, ResultSet& set) {
   return absl::OkStatus();
 }
 
+// The turn alone: the unit is told by metres_per_unit.
+absl::Status ReadTurn(const json& root, ResultSet& set) {
+  if (!root.contains("body_from_caller")) return absl::OkStatus();
+  const json frame = root["body_from_caller"];
+  CAPFIT_ASSIGN_OR_RETURN(const std::vector<double> n,
+                          Numbers(frame.is_object() ? frame.value("rotation", json()) : json(), 9,
+                                  "body_from_caller.rotation"));
+  const Eigen::Matrix3d turn =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(n.data());
+  if (!turn.isUnitary(1e-6) || turn.determinant() < 0.0) {
+    return Wrong("body_from_caller.rotation", "must be a rotation");
+  }
+  set.body_from_caller = turn;
+  return absl::OkStatus();
+}
+
+std::string Word(const json& object, const char* name) {
+  const json word = object.value(name, json());
+  return word.is_string() ? word.get<std::string>() : "";
+}
+
 // options.parts: what the result is meant to cover, though the body may not have all of it.
 void ReadOptions(const json& root, ResultSet& set) {
   const json options = root.value("options", json());
-  if (!options.is_object() || !options.contains("parts") || !options["parts"].is_array()) return;
+  if (!options.is_object()) return;
+  set.quality = Word(options, "quality");
+  set.engine = Word(options, "engine");
+  if (!options.contains("parts") || !options["parts"].is_array()) return;
   const auto has = [&](const char* word) {
     return std::find(options["parts"].begin(), options["parts"].end(), word) !=
            options["parts"].end();
@@ -176,6 +202,7 @@ absl::Status ReadOwn(const json& root, ResultSet& set) {
   }
   set.metres_per_unit = scale.get<double>();
   ReadOptions(root, set);
+  CAPFIT_RETURN_IF_ERROR(ReadTurn(root, set));
   return ReadBody(root, set);
 }
 

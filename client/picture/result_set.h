@@ -43,10 +43,14 @@ struct ResultSet {
   std::vector<ResultPolygon> polygons;    // where they were asked for
 
   // Of capfit's own results only.
-  std::string unit;                          // "centimetre"; "" where not told
-  std::optional<double> metres_per_unit;     // how long the mesh's unit is
-  std::optional<ResultBodyFacts> body;       // what was fitted
-  std::optional<body::PartSelection> parts;  // what was asked for
+  std::string unit;                                 // "centimetre"; "" where not told
+  std::optional<double> metres_per_unit;            // how long the mesh's unit is
+  std::optional<ResultBodyFacts> body;              // what was fitted
+  std::optional<body::PartSelection> parts;         // what was asked for
+  std::vector<std::string> fitted_parts;            // what was there and was fitted: "left_arm"
+  std::string quality;                              // "paper"; "" where not told
+  std::string engine;                               // whose limits held; "" for none
+  std::optional<Eigen::Matrix3d> body_from_caller;  // the turn from the mesh's axes to the body's
 };
 
 // Landmarks may be plain lists [x, y, z] too. Errors: INVALID_ARGUMENT naming the member

@@ -10,19 +10,22 @@ namespace capfit::client {
 // and faces +Z.
 class View {
  public:
-  // `yaw_rad`: 0 sees the body from the front, pi / 2 from its left side, pi from behind. `center`
-  // comes to lie on (center_px, center_py).
+  // `yaw_rad`: 0 sees the body from the front, pi / 2 from its left side, pi from behind.
+  // `pitch_rad`: 0 sees it level, more from above; (-pi / 2, pi / 2). `center` comes to lie on
+  // (center_px, center_py).
   View(double yaw_rad, const Eigen::Vector3d& center, double center_px, double center_py,
-       double pixels_per_unit);
+       double pixels_per_unit, double pitch_rad = 0.0);
 
   // Pixel coordinates and depth; a greater depth is nearer to the eye.
   [[nodiscard]] Eigen::Vector3d Project(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d d = p - center_;
-    return {center_px_ + scale_ * d.dot(right_), center_py_ - scale_ * d.y(), d.dot(toward_eye_)};
+    return {center_px_ + scale_ * d.dot(right_), center_py_ - scale_ * d.dot(up_),
+            d.dot(toward_eye_)};
   }
   // The point at depth 0 that is seen at (px, py).
   [[nodiscard]] Eigen::Vector3d PointAt(double px, double py) const;
   [[nodiscard]] const Eigen::Vector3d& right() const { return right_; }
+  [[nodiscard]] const Eigen::Vector3d& up() const { return up_; }
   [[nodiscard]] const Eigen::Vector3d& toward_eye() const { return toward_eye_; }
   [[nodiscard]] double pixels_per_unit() const { return scale_; }
   // The same view with `factor` times the pixels along each side.
@@ -35,12 +38,13 @@ class View {
   }
   // Turns a direction into (right, up, towards the eye).
   [[nodiscard]] Eigen::Vector3d Turn(const Eigen::Vector3d& direction) const {
-    return {direction.dot(right_), direction.y(), direction.dot(toward_eye_)};
+    return {direction.dot(right_), direction.dot(up_), direction.dot(toward_eye_)};
   }
 
  private:
   Eigen::Vector3d center_;
   Eigen::Vector3d right_;
+  Eigen::Vector3d up_;
   Eigen::Vector3d toward_eye_;
   double center_px_;
   double center_py_;

@@ -57,8 +57,9 @@ bool IsDigits(const std::string& text) {
 absl::StatusOr<std::string> WithPort(const std::string& address, int lowest_port) {
   if (HasScheme(address)) return address;
   const Pieces pieces = Split(address);
-  const bool has_blank = std::any_of(address.begin(), address.end(),
-                                     [](unsigned char letter) { return std::isspace(letter) != 0; });
+  const bool has_blank = std::any_of(address.begin(), address.end(), [](unsigned char letter) {
+    return std::isspace(letter) != 0;
+  });
   if (pieces.host.empty() || has_blank) {
     return Wrong(address, "is no address, must be HOST, HOST:PORT or [IPV6]:PORT");
   }

@@ -33,6 +33,12 @@ constexpr double kFacingTrust = 0.35;
 // Length of an arm along the surface, from where it leaves the trunk: 0.21 of the height without
 // hand, 0.26 to 0.33 with.
 constexpr double kArmShare = 0.26;
+// A told axis this near to the body's own (5 degrees) is taken as it is. Beyond that the body
+// leans, and its own axis serves better: at 13 degrees landmarks were up to 15 cm off along the
+// told one.
+constexpr double kTakenCosine = 0.99619;
+// Beyond this (45 degrees) nobody only leans; as near to the opposite the body is upside down.
+constexpr double kToldCosine = 0.70711;
 
 std::optional<Eigen::Vector3d> UpDirection(UpAxis up) {
   switch (up) {
@@ -74,6 +80,14 @@ double StatureWithoutLegs(const Extremities& extremities) {
   return count > 0 ? sum / count / kArmShare : 0.0;
 }
 
+double VolumeOf(const WorkingCopy& copy) {
+  double six_fold = 0.0;
+  for (const mesh::Triangle& t : copy.triangles) {
+    six_fold += copy.points[t[0]].dot(copy.points[t[1]].cross(copy.points[t[2]]));
+  }
+  return std::abs(six_fold) / 6.0;
+}
+
 // The way to the body's frame (upright, in metres, standing at y = 0) from the caller's and from
 // the working copy's. The latter is the same for every copy of a body, bit by bit.
 struct WaysToBody {
@@ -96,6 +110,10 @@ absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const Work
   const double stature =
       std::max(has_legs ? 0.0 : StatureWithoutLegs(extremities), high - low) * copy.unit;
   CAPFIT_ASSIGN_OR_RETURN(const LengthUnit unit, ChooseUnit(options.unit, stature));
+  if (options.unit != Unit::kAuto) {
+    const double volume = VolumeOf(copy) * copy.unit * copy.unit * copy.unit;
+    if (auto warning = JudgeToldUnit(unit, stature, volume)) warnings.push_back(*warning);
+  }
   if (unit.unit != Unit::kMetre && options.unit == Unit::kAuto) {
     warnings.push_back(
         {"UNIT_ASSUMED",
@@ -148,19 +166,59 @@ void AssignSides(const Extremities& extremities, const IntrinsicFrame& frame, Sh
   shape.legs[1 - first_foot] = extremities.limb(Tip::kFootB);
 }
 
+// The caller's axis, with its sign, that is nearest to a direction of the working copy: "-z".
+std::string NearestAxis(const WorkingCopy& copy, const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d in_mesh = copy.axes.transpose() * direction;
+  Eigen::Index axis = 0;
+  in_mesh.cwiseAbs().maxCoeff(&axis);
+  return std::string(in_mesh[axis] < 0.0 ? "-" : "") + "xyz"[axis];
+}
+
+// The frame that the surface shows, or, where the told axis is near to its own, that with the told
+// axis. A body that stands along another axis may lie in truth: its own frame serves there
+// too.
+absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const WorkingCopy& copy,
+                                             const Extremities& extremities,
+                                             std::vector<Warning>& warnings) {
+  const Eigen::Vector3d up = Snap(copy.axes * told, kFineGrid).normalized();
+  IntrinsicFrame own =
+      FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, std::nullopt);
+  const double cosine = own.up.dot(up);
+  const std::string axis = NearestAxis(copy, up);
+  const std::string own_axis = NearestAxis(copy, own.up);
+  if (cosine < -kToldCosine) {
+    return InvalidField(ErrorReason::kContradictsBody, "mesh.up_axis",
+                        absl::StrCat("is ", axis,
+                                     ", which points from the head to the feet of this body: it "
+                                     "stands along ",
+                                     own_axis),
+                        {{"value", axis}, {"limit", own_axis}});
+  }
+  if (cosine < kToldCosine) {
+    warnings.push_back(
+        {"UP_AXIS_CONTRADICTS_BODY",
+         absl::StrCat("the up axis was told to be ", axis, ", the body stands along ", own_axis,
+                      " and was fitted so; right for a body that lies down"),
+         0});
+  }
+  if (cosine < kTakenCosine) return own;
+  return FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, up);
+}
+
 absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const WorkingCopy& copy,
-                                         const Extremities& extremities) {
+                                         const Extremities& extremities,
+                                         std::vector<Warning>& warnings) {
   if (extremities.found() < kMinExtremities) {
     return Refused(ErrorReason::kNotABody,
                    absl::StrCat("not a human body: found ", extremities.found(),
                                 " of 5 extremities (head, hands, feet)"));
   }
-  std::optional<Eigen::Vector3d> up = UpDirection(options.up);
-  if (up) up = Snap(copy.axes * *up, kFineGrid).normalized();
-  IntrinsicFrame frame = FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, up);
-  if (up && frame.up_agreement < 0.0) {
-    return InvalidField(ErrorReason::kContradictsBody, "mesh.up_axis",
-                        "points from the head to the feet of this body");
+  const std::optional<Eigen::Vector3d> told = UpDirection(options.up);
+  IntrinsicFrame frame;
+  if (told) {
+    CAPFIT_ASSIGN_OR_RETURN(frame, FrameWithTold(*told, copy, extremities, warnings));
+  } else {
+    frame = FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, std::nullopt);
   }
   TurnToToldSides(options, copy, frame);
   return frame;
@@ -263,8 +321,9 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   const WorkingCopy copy = MakeWorkingCopy(mesh);
   const SurfaceGraph graph(copy.points, copy.triangles);
   const Extremities extremities = FindExtremities(copy.points, copy.vertex_areas, graph);
-  CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame, FindFrame(options, copy, extremities));
   std::vector<Warning> warnings;
+  CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame,
+                          FindFrame(options, copy, extremities, warnings));
   CAPFIT_ASSIGN_OR_RETURN(const WaysToBody ways,
                           FindWaysToBody(options, copy, frame, extremities, warnings));
   if (frame.facing_trust < kFacingTrust) {

@@ -20,8 +20,13 @@ enum class Unit { kAuto, kMetre, kCentimetre, kMillimetre, kInch };
 enum class UpAxis { kAuto, kX, kY, kZ };
 
 struct BodyOptions {
-  Unit unit = Unit::kAuto;    // kAuto: found from the height
-  UpAxis up = UpAxis::kAuto;  // kAuto: found from the body
+  // kAuto: found from the height. One that makes no human body of it is refused, an odd one is
+  // taken (warning UNIT_CONTRADICTS_BODY).
+  Unit unit = Unit::kAuto;
+  // kAuto: found from the body. Taken within 5 degrees of the body's own; a body that leans by
+  // more stands along its own. From 45 degrees on that is a warning UP_AXIS_CONTRADICTS_BODY; one
+  // that is upside down is refused.
+  UpAxis up = UpAxis::kAuto;
   // Landmarks that the caller knows better, in the caller's frame. They replace the found ones. One
   // that lies off the body or far from where the body shows it is refused: INVALID_ARGUMENT with
   // the field "landmarks.NAME".
@@ -38,7 +43,8 @@ struct BodyOptions {
 // Finds frame, landmarks, segments and medial curves of the body. Any usual pose; head, hands and
 // feet, an arm or both, and the legs may be missing (a warning PART_MISSING each), as long as three
 // of head, arms and legs are there. Errors: FAILED_PRECONDITION with reason NOT_A_BODY and the
-// evidence ("found 0 of 5 extremities"), PART_MISSING. O(n log n).
+// evidence ("found 0 of 5 extremities"), PART_MISSING;
+// INVALID_ARGUMENT with reason CONTRADICTS_BODY for a unit, axis or landmark told. O(n log n).
 [[nodiscard]] absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& options,
                                             const ThreadPool& pool, const FitObserver& observer);
 

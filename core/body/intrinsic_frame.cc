@@ -448,7 +448,6 @@ IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
     const auto at_rest = UpAtRest(points, extremities, frame.up, frame.left.cross(frame.up));
     if (at_rest) frame.up = *at_rest;
   }
-  frame.up_agreement = frame.up.dot(trunk);
   frame.forward = frame.left.cross(frame.up);
   frame.first_hand_is_left = IsLeft(rings, Tip::kHandA, Tip::kHandB, frame);
   frame.first_foot_is_left = IsLeft(rings, Tip::kFootA, Tip::kFootB, frame);

@@ -25,7 +25,6 @@ struct IntrinsicFrame {
   Eigen::Vector3d forward = Eigen::Vector3d::UnitZ();
   double plane_offset = 0.0;       // the symmetry plane: left . p = plane_offset
   double facing_trust = 0.0;       // [0, 1]; how clear front and back are
-  double up_agreement = 1.0;       // cosine between `up` and the way from the legs to the head
   bool first_hand_is_left = true;  // kHandA of the extremities
   bool first_foot_is_left = true;  // kFootA
 };

@@ -295,7 +295,7 @@ class GlbReader {
                        "it has indices, which must be unsigned");
     }
     if (indices.count() > 3 * limits_.max_faces) {
-      return FileTooLarge(AtElement(name), indices.count() / 3 + 1, "faces", limits_.max_faces);
+      return FileTooLarge(AtElement(name), (indices.count() + 2) / 3, "faces", limits_.max_faces);
     }
     corners.resize(indices.count());
     for (std::size_t i = 0; i < indices.count(); ++i) {

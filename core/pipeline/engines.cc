@@ -81,7 +81,7 @@ FitOptions WithEngineLimits(const FitOptions& options) {
     Lower(limited.max_primitives.value_or(kDefaultMaxPrimitives) / kPrimitivesOfOwnCapsule,
           limited.max_capsules);
   }
-  if (limited.max_spheres.has_value()) Lower(*limited.max_spheres / 2, limited.max_capsules);
+  Lower(limited.max_spheres.value_or(kMaxSpheresRange.high) / 2, limited.max_capsules);
   limited.max_primitives.reset();
   limited.max_spheres.reset();
   return limited;
@@ -90,15 +90,18 @@ FitOptions WithEngineLimits(const FitOptions& options) {
 int ExcessCapsules(const FitOptions& options, const capsule::PrimitiveSet& set) {
   const Engine* const engine = FindEngine(options.engine);
   if (engine == nullptr || engine->profile != CapsuleProfile::kUniformRadius) return 0;
+  std::optional<int> max_spheres = options.max_spheres;
+  Lower(kMaxSpheresRange.high, max_spheres);
   std::optional<int> max_shapes;
   Lower(engine->max_shapes, max_shapes);
   std::optional<int> max_primitives = options.max_primitives;
-  const bool has_budget = options.max_spheres.has_value() || options.max_capsules.has_value() ||
-                          options.polygon_error.has_value() || max_shapes.has_value();
+  const bool has_budget = max_primitives.has_value() || options.max_spheres.has_value() ||
+                          options.max_capsules.has_value() || options.polygon_error.has_value() ||
+                          max_shapes.has_value();
   if (!has_budget) Lower(kDefaultMaxPrimitives, max_primitives);
   return std::max({Excess(capsule::ShapeCount(set), max_shapes, 1),
                    Excess(set.primitive_count(), max_primitives, kPrimitivesOfOwnCapsule),
-                   Excess(static_cast<int>(set.spheres.size()), options.max_spheres, 2)});
+                   Excess(static_cast<int>(set.spheres.size()), max_spheres, 2)});
 }
 
 }  // namespace capfit::pipeline

@@ -30,10 +30,11 @@ struct Engine {
 
 // The options with the limits of their engine among the budget: the lower of both holds. A set
 // whose capsules share no spheres takes three primitives for each, so its budget is turned into one
-// of capsules. Without an engine, the options as they are.
+// of capsules, and its 500 spheres make 250 capsules. Without an engine, the options as they are.
 [[nodiscard]] FitOptions WithEngineLimits(const FitOptions& options);
 
-// How many capsules must go until `set`, in the engine's own form, keeps all limits of `options`.
+// How many capsules must go until `set`, in the engine's own form, keeps all limits of `options`,
+// and has no more than 500 spheres.
 [[nodiscard]] int ExcessCapsules(const FitOptions& options, const capsule::PrimitiveSet& set);
 
 }  // namespace capfit::pipeline

@@ -12,6 +12,7 @@
 #include "core/pipeline/engines.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
+#include "core/pipeline/sphere_names.h"
 #include "core/pipeline/stage_clock.h"
 #include "core/pipeline/to_caller_frame.h"
 #include "core/refine/refine.h"
@@ -80,7 +81,7 @@ class BodyFit {
     for (;;) {
       result_.warnings.resize(warnings);
       alternatives_.clear();
-      CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, options_.parts, TotalBudget(options_)));
+      CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, asked_, options_));
       if (NeedsPolygons()) CAPFIT_RETURN_IF_ERROR(Approximate());
       if (options_.quality == Quality::kTight) CAPFIT_RETURN_IF_ERROR(Refine());
       CAPFIT_RETURN_IF_ERROR(CheckFound());
@@ -105,12 +106,14 @@ class BodyFit {
            options_.polygon_error.has_value() || ComparesWithPaper();
   }
 
-  // With few primitives the published method is at times the better one, and it is quick: then the
-  // smaller of the two sets is taken.
+  // With few primitives, or without a part that the tight fit's layouts are made for, the published
+  // method is at times the better one, and it is quick: then the smaller of the two sets is taken.
   bool ComparesWithPaper() const {
     if (options_.quality != Quality::kTight || options_.fit != FitMode::kEnclose) return false;
     const circle::Budget budget = TotalBudget(options_);
-    return Profile() == capsule::CapsuleProfile::kUniformRadius ||
+    const body::PartSelection& parts = options_.parts;
+    return !parts.torso || !parts.arms || !parts.legs ||
+           Profile() == capsule::CapsuleProfile::kUniformRadius ||
            budget.max_primitives < kFewPrimitives || budget.max_spheres < kFewPrimitives / 2 ||
            budget.max_capsules < kFewPrimitives / 2;
   }
@@ -220,6 +223,7 @@ class BodyFit {
 
   absl::Status Bind() {
     result_.primitives = ToCallerFrame(set_, caller_from_body_);
+    result_.sphere_names = SphereNames(*body_, set_);
     if (!options_.want_polygons || options_.quality == Quality::kTight) {
       // An index of a polygon that is not in the result would say nothing.
       for (capsule::SphereOrigin& origin : result_.primitives.origins) origin.polygon = -1;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/pipeline/engines.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -29,6 +31,8 @@ constexpr std::array<Layout, 9> kLadder = {{{2, 2, 2},
                                             {9, 5, 6},
                                             {11, 6, 8}}};
 constexpr Layout kPaperLayout = {6, 3, 4};
+
+constexpr int kMostCapsulesPerSphere = 2;
 
 struct ChainsPresent {
   int torsos = 0;
@@ -79,12 +83,31 @@ int CountBalls(const body::Body& body, const body::PartSelection& parts) {
   return balls;
 }
 
-absl::Status CheckLimit(const std::string& field, int limit, int least) {
-  if (limit >= least) return absl::OkStatus();
+// A limit that the caller gave, or none. `engine`: whose capsules make it so many; empty: any.
+absl::Status CheckLimit(const std::string& field, const std::optional<int>& limit, int least,
+                        const std::string& engine) {
+  if (!limit.has_value() || *limit >= least) return absl::OkStatus();
+  const std::string whose =
+      engine.empty() ? "" : absl::StrCat(", as capsules of ", engine, " share no spheres");
   return InvalidField(ErrorReason::kBudgetTooSmall, field,
-                      absl::StrCat("is ", limit, ", must be at least ", least,
-                                   " for the parts asked for on this body"),
-                      {{"value", absl::StrCat(limit)}, {"limit", absl::StrCat(">= ", least)}});
+                      absl::StrCat("is ", *limit, ", must be at least ", least,
+                                   " for the parts asked for on this body", whose),
+                      {{"value", absl::StrCat(*limit)}, {"limit", absl::StrCat(">= ", least)}});
+}
+
+// What the engine allows is too little; what the caller gave is not.
+absl::Status EngineTooSmall(const Engine& engine, const circle::PrimitiveCount& least) {
+  const bool has_shapes = engine.max_shapes > 0;
+  const std::string allowed = has_shapes ? absl::StrCat(engine.max_shapes, " shapes")
+                                         : absl::StrCat(engine.max_spheres, " spheres and ",
+                                                        engine.max_capsules, " capsules");
+  const std::string needed =
+      has_shapes ? absl::StrCat(least.capsules, " capsules and further balls")
+                 : absl::StrCat(least.spheres, " spheres and ", least.capsules, " capsules");
+  return InvalidField(ErrorReason::kBudgetTooSmall, "options.engine",
+                      absl::StrCat(std::string(engine.name), " allows ", allowed,
+                                   ", the parts asked for on this body take at least ", needed),
+                      {{"value", allowed}, {"limit", absl::StrCat(">= ", needed)}});
 }
 
 int Reduced(int limit, int by) {
@@ -102,9 +125,22 @@ circle::Budget TotalBudget(const FitOptions& options) {
   if (options.max_capsules.has_value() && !options.max_spheres.has_value()) {
     budget.max_spheres = *options.max_capsules + body::kPartCount;
   }
+  // Spheres alone: with more capsules than that sets got no better, but looking took many times as
+  // long.
+  if (options.max_spheres.has_value() && !options.max_capsules.has_value()) {
+    budget.max_capsules = kMostCapsulesPerSphere * *options.max_spheres;
+  }
+  if (options.polygon_error.has_value()) budget.max_primitives = kMaxPrimitivesRange.high;
   const bool is_limited = options.max_primitives.has_value() || options.max_spheres.has_value() ||
                           options.max_capsules.has_value() || options.polygon_error.has_value();
   if (!is_limited) budget.max_primitives = kDefaultMaxPrimitives;
+  // What no set exceeds, whatever was asked for; left open where it cannot be reached.
+  if (std::min(budget.max_primitives, budget.max_spheres) > kMaxSpheresRange.high) {
+    budget.max_spheres = kMaxSpheresRange.high;
+  }
+  if (std::min(budget.max_primitives, budget.max_capsules) > kMaxCapsulesRange.high) {
+    budget.max_capsules = kMaxCapsulesRange.high;
+  }
   return budget;
 }
 
@@ -122,16 +158,26 @@ Overhead OverheadOf(const body::Body& body, const body::PartSelection& parts,
   return overhead;
 }
 
-absl::Status CheckBudget(const body::Body& body, const body::PartSelection& parts,
-                         const circle::Budget& total) {
-  circle::PrimitiveCount least = Cost(kLadder.front(), CountChains(body, parts), 1);
-  least.spheres += CountBalls(body, parts);
+absl::Status CheckBudget(const body::Body& body, const FitOptions& asked,
+                         const FitOptions& limited) {
+  const int balls = CountBalls(body, asked.parts);
+  circle::PrimitiveCount least = Cost(kLadder.front(), CountChains(body, asked.parts), 1);
+  least.spheres += balls;
+  if (Fits(least, TotalBudget(limited))) return absl::OkStatus();
+  const Engine* const engine = FindEngine(asked.engine);
+  std::string sharing;
+  if (engine != nullptr && engine->profile == capsule::CapsuleProfile::kUniformRadius) {
+    least.spheres = 2 * least.capsules + balls;
+    sharing = asked.engine;
+  }
   CAPFIT_RETURN_IF_ERROR(
-      CheckLimit("options.budget.max_primitives", total.max_primitives, least.total()));
+      CheckLimit("options.budget.max_primitives", asked.max_primitives, least.total(), sharing));
   CAPFIT_RETURN_IF_ERROR(CheckLimit("options.budget.spheres_and_capsules.max_spheres",
-                                    total.max_spheres, least.spheres));
-  return CheckLimit("options.budget.spheres_and_capsules.max_capsules", total.max_capsules,
-                    least.capsules);
+                                    asked.max_spheres, least.spheres, sharing));
+  CAPFIT_RETURN_IF_ERROR(CheckLimit("options.budget.spheres_and_capsules.max_capsules",
+                                    asked.max_capsules, least.capsules, ""));
+  if (engine != nullptr) return EngineTooSmall(*engine, least);
+  return Refused(ErrorReason::kInternal, "the smallest set is beyond a budget that nobody gave");
 }
 
 circle::Budget ChainBudget(const circle::Budget& total, const Overhead& overhead) {

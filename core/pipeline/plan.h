@@ -10,7 +10,8 @@
 
 namespace capfit::pipeline {
 
-// The caller's budget for the whole set; unlimited where the budget is an error threshold.
+// The caller's budget for the whole set; never more than 500 spheres and 1000 capsules. Spheres
+// alone: twice as many capsules. An error threshold: the largest that could be asked for.
 [[nodiscard]] circle::Budget TotalBudget(const FitOptions& options);
 
 // Balls that head, hands and feet will take, and capsules that link limbs to the trunk (none where
@@ -23,9 +24,10 @@ struct Overhead {
                                   const circle::Budget& total);
 
 // INVALID_ARGUMENT naming the limit that is too low for the parts found: a chain takes two spheres
-// and a capsule at least, a head, hand or foot one sphere.
-[[nodiscard]] absl::Status CheckBudget(const body::Body& body, const body::PartSelection& parts,
-                                       const circle::Budget& total);
+// and a capsule at least, a head, hand or foot one sphere. It is the caller's own limit in `asked`,
+// or the engine's where that is what is too low; `limited`: WithEngineLimits(asked), or less.
+[[nodiscard]] absl::Status CheckBudget(const body::Body& body, const FitOptions& asked,
+                                       const FitOptions& limited);
 
 // `total` without the overhead: what the feature polygons of the chains may use.
 [[nodiscard]] circle::Budget ChainBudget(const circle::Budget& total, const Overhead& overhead);

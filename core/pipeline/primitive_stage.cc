@@ -83,10 +83,12 @@ circle::Budget Raised(circle::Budget budget, int more) {
 PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
                                 std::span<const section::FeaturePolygon> polygons,
                                 const circle::ErrorCurves& curves) {
-  if (options.polygon_error.has_value()) {
-    return BuildByThreshold(body, options, polygons, curves);
-  }
   const circle::Budget total = TotalBudget(options);
+  if (options.polygon_error.has_value()) {
+    PrimitiveStage stage = BuildByThreshold(body, options, polygons, curves);
+    if (Fits(CountsOf(stage.set), total)) return stage;
+    // More than any set may have: then the largest.
+  }
   const Overhead overhead = OverheadOf(body, options.parts, total);
   const circle::Budget chains = ChainBudget(total, overhead);
   PrimitiveStage best;
@@ -95,7 +97,8 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
   for (int round = 0; round < kMaxRounds; ++round) {
     const std::vector<int> counts = circle::AllocateUnderBudget(
         polygons, Raised(chains, bonus), curves.max_circles(), curves.AsErrorOf());
-    if (counts == tried) break;
+    if (round > 0 && counts == tried)
+      break;  // the first of none is none, where there are only balls
     tried = counts;
     PrimitiveStage stage = Build(body, options, polygons, counts, overhead.links > 0, curves);
     const Counts spent = CountsOf(stage.set);

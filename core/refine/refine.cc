@@ -122,6 +122,7 @@ CapsuleGraph FindSet(const Objective& objective, const Spending& spending, const
   last.until = until;
   Grow(objective, spending, last, pool, meter, graph);
   if (graph.primitive_count() != used) objective.Settle(Effort::kTighten, graph);
+  meter.Expect(until, 1);
   SpendByCutting(objective, spending, meter, graph);
   return graph;
 }
@@ -217,6 +218,16 @@ body::Part PartAt(const body::Body& body, const Vec3& point_m) {
   return body::PartOf(body.vertex_segments[nearest]);
 }
 
+// The two of a pair belong to the two parts of a pair, and what lies in the middle to the trunk.
+void MirrorParts(const body::PartSelection& parts, capsule::PrimitiveSet& set) {
+  for (std::size_t v = 0; v < set.origins.size(); ++v) {
+    body::Part& part = set.origins[v].part;
+    const std::size_t image = U(set.origins[v].mirror);
+    if (image > v) set.origins[image].part = body::MirrorPart(part);
+    if (image == v && body::MirrorPart(part) != part && parts.torso) part = body::Part::kTorso;
+  }
+}
+
 }  // namespace
 
 std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
@@ -230,12 +241,14 @@ std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
   } else {
     graphs.push_back(FindBestFit(body, options, pool, meter));
   }
+  meter.Expect(1.0, 1);
   std::vector<capsule::PrimitiveSet> sets;
   for (const CapsuleGraph& graph : graphs) {
     capsule::PrimitiveSet set = SetOf(graph);
     pool.ForEach(graph.nodes.size(), [&](std::size_t v) {
       set.origins[v].part = PartAt(body, graph.nodes[v].center_m);
     });
+    if (graph.symmetric) MirrorParts(options.parts, set);
     sets.push_back(std::move(set));
   }
   return sets;

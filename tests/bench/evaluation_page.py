@@ -240,6 +240,7 @@ The evaluation of *Variational Mannequin Approximation Using Spheres and Capsule
 IV-B: its figures 9 and 10 and its table 1, for capfit and for a Sphere-Meshes baseline (told
 below). This page, its plots and its pictures are written by one command:
 
+<!-- docs-test: skip because it takes half an hour -->
 ```sh
 tests/bench/evaluation.sh            # CAPFIT_BODIES names the folder of bodies; --quick for a taste
 ```

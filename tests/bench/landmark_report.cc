@@ -163,14 +163,17 @@ void WritePoses(const Group& group, std::ostream& out) {
   for (const Row& row : group.rows) {
     if (poses.empty() || poses.back() != row.pose) poses.push_back(row.pose);
   }
-  std::vector<std::string> beyond;
+  std::string beyond;  // a row of a table for each pose
   for (const std::string& pose : poses) {
+    int count = 0;
+    std::string names;
     Row worst = {pose, pose, "", {}, {}, 1.0};
     for (const Row& row : group.rows) {
       if (row.pose != pose) continue;
       if (!row.IsWithinLimits()) {
-        beyond.push_back(row.pose + " " + row.name +
-                         (row.failure.empty() ? "" : " (refused: " + row.failure + ")"));
+        ++count;
+        names += (names.empty() ? "" : ", ") + row.name +
+                 (row.failure.empty() ? "" : " (refused: " + row.failure + ")");
       }
       if (!row.failure.empty()) continue;
       worst.labelled_right = std::min(worst.labelled_right, row.labelled_right);
@@ -179,14 +182,16 @@ void WritePoses(const Group& group, std::ostream& out) {
         worst.is_known[c] = worst.is_known[c] || row.is_known[c];
       }
     }
+    if (count > 0) beyond += "| " + pose + " | " + std::to_string(count) + " | " + names + " |\n";
     WriteRow(worst, out);
   }
   out << "\nMedian of wrists, elbows, knees, ankles, crotch and neck "
       << Rounded(Median(group.main_errors_mm), 1) << " mm; " << group.WithinLimits() << " of "
       << group.rows.size() << " within all limits.";
-  if (!beyond.empty()) out << " Beyond one of them:";
-  for (const std::string& name : beyond) out << "\n- " << name;
-  out << "\n\n";
+  if (!beyond.empty()) {
+    out << " Beyond one of them:\n\n| pose | of 11 bodies | which |\n|---|---:|---|\n" << beyond;
+  }
+  out << "\n";
 }
 
 // Ranks from 0; equals share the mean of theirs.

@@ -35,7 +35,8 @@ TEST(ApproximateFlags, NoneGiveTheDefaults) {
 
 TEST(ApproximateFlags, AreTaken) {
   const auto flags = Parse(
-      "--max-spheres 32 --max-capsules 31 --parts head,arms body.obj --fit best --quality tight "
+      "--max-spheres 32 --max-capsules 31 --parts head,arms body.obj --fit Best-Fit --quality "
+      "TIGHT "
       "--skinning dense --sex male --unit cm --up z --seed 18446744073709551615 "
       "--engine jolt --tolerance-mm 2.5 --require-parts head,legs --heat-map");
   ASSERT_TRUE(flags);

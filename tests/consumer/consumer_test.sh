@@ -55,7 +55,7 @@ configure_and_build "$scratch/samples" "$scratch/all"
 mkdir "$scratch/later"
 cat >"$scratch/later/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.25)
-project(later LANGUAGES C CXX)
+project(later LANGUAGES CXX)
 find_package(capfit 0.999 REQUIRED)
 CMAKE
 ! "$cmake" -S "$scratch/later" -B "$scratch/later/build" -DCMAKE_PREFIX_PATH="$prefix" \

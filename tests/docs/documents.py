@@ -100,11 +100,16 @@ class Document:
             yield numbers[text.count("\n", 0, span.start())], span[1].replace("\n", " ")
 
     def anchors(self):
-        """What GitHub makes of the headings."""
+        """What GitHub makes of the headings: of those that come out alike, later ones get a number."""
+        seen = {}
         for _, line in self.prose:
-            if line.startswith("#"):
-                words = re.sub(r"[^\w\- ]", "", line.lstrip("#").strip().lower().replace("`", ""))
-                yield words.replace(" ", "-")
+            if not line.startswith("#"):
+                continue
+            words = re.sub(r"[^\w\- ]", "", line.lstrip("#").strip().lower().replace("`", ""))
+            anchor = words.replace(" ", "-")
+            count = seen.get(anchor, 0)
+            seen[anchor] = count + 1
+            yield f"{anchor}-{count}" if count else anchor
 
 
 def read(root, path):

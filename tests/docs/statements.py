@@ -5,6 +5,8 @@ import re
 import shlex
 import subprocess
 
+import documents
+
 TOP_LEVEL = ("proto/", "server/", "client/", "core/", "deploy/", "tests/", "docs/", ".ci/")
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
 COMMANDS = ("approximate", "render", "evaluate", "animate", "mannequin", "info")
@@ -22,16 +24,13 @@ def broken_links(root, document):
         if re.match(r"[a-z]+:", target):
             continue
         path, _, anchor = target.partition("#")
-        file = (root / document.path).parent / path if path else root / document.path
-        if not file.exists():
+        file = (root / document.path).parent / path
+        if path and not file.exists():
             yield f"{document.path}:{line}: link to {target}, which does not exist"
-        elif anchor and file.suffix == ".md" and anchor not in _anchors(file):
-            yield f"{document.path}:{line}: {path or 'this page'} has no heading '#{anchor}'"
-
-
-def _anchors(file):
-    from documents import Document
-    return set(Document(file, file.read_text()).anchors())
+        elif anchor and (not path or file.suffix == ".md"):
+            linked = documents.Document(file, file.read_text()) if path else document
+            if anchor not in linked.anchors():
+                yield f"{document.path}:{line}: {path or 'this page'} has no heading '#{anchor}'"
 
 
 def missing_paths(root, document):
@@ -42,7 +41,8 @@ def missing_paths(root, document):
             if not path.startswith(TOP_LEVEL):
                 continue
             pattern = re.sub(r"\{[^}]*\}|(?<![a-z])[A-Z]{4,}(?![a-z])", "*", path)
-            found = (root / path).exists() or any(root.glob(pattern.rstrip("/")))
+            # (Programs and modules may be named without their sources' ending.)
+            found = any(root.glob(pattern.rstrip("/"))) or any(root.glob(pattern.rstrip("/") + ".*"))
             if not found:
                 yield f"{document.path}:{line}: names {path}, which does not exist"
 
@@ -89,10 +89,9 @@ def _unknown_of_command(place, text, flags):
         rest = words[programs[0] + 1:]
         server = words[programs[0]].endswith("capfit-server")
         command = "server" if server else (rest[0] if rest and rest[0] in COMMANDS else "")
-        if rest and not server and command == "" and re.fullmatch(r"[a-z]+", rest[0]) and len(words) > 1:
-            if any(word.startswith("--") for word in rest) and not rest[0] == "for":
-                yield f"{place}: capfit has no command '{rest[0]}'"
-                continue
+        if command == "" and rest and re.fullmatch("[a-z]+", rest[0]) and FLAG.search(part):
+            yield f"{place}: capfit has no command '{rest[0]}'"
+            continue
         known = flags.all if rest[:1] == ["COMMAND"] else flags.of[command]
         for word in rest:
             flag = FLAG.match(word)

@@ -38,7 +38,7 @@ wait "$server"
 # grpcurl is no package of Debian: its calls are made by buf curl.
 GRPCURL_SHIM = """#!/usr/bin/env bash
 set -euo pipefail
-data=() words=()
+data=(-d "{{}}") words=()
 while [ $# -gt 0 ]; do
   case "$1" in
     -plaintext|-emit-defaults) shift ;;
@@ -126,6 +126,10 @@ class Workshop:
         (programs / "python3").symlink_to("/usr/bin/python3")
         if self.has_buf:
             (programs / "buf").symlink_to(self.buf)
+        # Scripts that blocks call may not reach for these either.
+        for name in ("apt-get", "sudo", "docker", "cmake", "ctest", "npm", "pip", "pip3"):
+            (programs / name).write_text(f"#!/bin/sh\necho 'tests/docs: no {name} here' >&2; exit 1\n")
+            (programs / name).chmod(0o755)
         for name, text in (("capfit-server", SERVER_SHIM), ("grpcurl", GRPCURL_SHIM)):
             (programs / name).write_text(text.format(server=self.server, buf=self.buf, root=self.root))
             (programs / name).chmod(0o755)

@@ -107,8 +107,8 @@ TEST(ServerProcess, WrongArraysAreNamed) {
   not_finite.positions[5].y() = std::numeric_limits<double>::quiet_NaN();
   status = client.ApproximateMesh(not_finite, {}).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
-  EXPECT_THAT(std::string(status.message()), HasSubstr("positions[5]"));
-  EXPECT_TRUE(FieldOf(status).has_value());
+  EXPECT_THAT(std::string(status.message()), HasSubstr("mesh.arrays.positions_double[16]"));
+  EXPECT_EQ(FieldOf(status), "mesh.arrays.positions_double[16]");
 }
 
 TEST(ServerProcess, MisuseOfTheStreamIsNamed) {
@@ -125,7 +125,7 @@ TEST(ServerProcess, MisuseOfTheStreamIsNamed) {
   for (const Case& c : {Case{{}, "header is missing"}, Case{{header}, "the upload is empty"},
                         Case{{chunk}, "chunk came before the header"},
                         Case{{header, header}, "header came a second time"},
-                        Case{{header, chunk, chunk}, "1400000 bytes, limit 1048576"}}) {
+                        Case{{header, chunk, chunk}, "1400000 bytes, must have at most 1048576"}}) {
     grpc::ClientContext context;
     const auto stream = stub->ApproximateBody(&context);
     for (const Request& request : c.requests) stream->Write(request);

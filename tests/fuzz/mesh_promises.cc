@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/status.h"
+
 namespace capfit::fuzz {
 namespace {
 
@@ -74,6 +76,21 @@ std::string BrokenPromiseOfPrepare(const mesh::PreparedMesh& prepared,
                     std::equal(mesh.vertices().begin(), mesh.vertices().end(),
                                again->mesh.vertices().begin(), again->mesh.vertices().end());
   return same ? std::string() : "a prepared mesh is changed";
+}
+
+std::string BrokenPromiseOfRefusal(const absl::Status& refusal, bool is_file) {
+  const auto reason = ReasonOf(refusal);
+  if (!reason) return "a refusal has no reason: " + refusal.ToString();
+  if (ErrorReasons()[static_cast<std::size_t>(*reason)].code != refusal.code()) {
+    return "a refusal's code is not that of its reason: " + refusal.ToString();
+  }
+  if (refusal.message().empty()) return "a refusal has no message";
+  if (refusal.code() != absl::StatusCode::kInvalidArgument) return {};
+  const std::string field = FieldOf(refusal).value_or("");
+  if (field.empty() || (is_file && field != "mesh.file")) {
+    return "a refusal names the field '" + field + "': " + refusal.ToString();
+  }
+  return {};
 }
 
 }  // namespace capfit::fuzz

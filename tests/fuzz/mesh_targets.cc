@@ -12,9 +12,11 @@ namespace {
 
 constexpr int kFormats = 6;
 
-std::string TryPrepare(const mesh::PolygonSoup& soup, const mesh::MeshLimits& limits) {
+std::string TryPrepare(const mesh::PolygonSoup& soup, const mesh::MeshLimits& limits,
+                       bool is_file) {
   const auto prepared = mesh::PrepareMesh(soup, limits);
-  return prepared.ok() ? BrokenPromiseOfPrepare(*prepared, soup.positions.size()) : std::string();
+  return prepared.ok() ? BrokenPromiseOfPrepare(*prepared, soup.positions.size())
+                       : BrokenPromiseOfRefusal(prepared.status(), is_file);
 }
 
 }  // namespace
@@ -28,6 +30,7 @@ mesh::PolygonSoup SoupFrom(std::span<const std::byte> bytes) {
   const double scale = (switches & 8) != 0 ? 1e-6 : 1.0;  // below the tolerance of welding
   const unsigned vertices = 3 + source.Next() % 62u;
   mesh::PolygonSoup soup;
+  soup.is_from_file = (switches & 16) == 0;  // then faces of less than three corners are mended
   for (unsigned i = 0; i < vertices; ++i) {
     Eigen::Vector3d& position = soup.positions.emplace_back();
     for (int axis = 0; axis < 3; ++axis) {
@@ -52,11 +55,11 @@ std::string TryReadMesh(std::span<const std::byte> bytes) {
   limits.max_faces = 100'000;
   const auto format = static_cast<mesh::MeshFormat>(static_cast<unsigned>(bytes[0]) % kFormats);
   const auto soup = mesh::ReadMesh(bytes.subspan(1), format, limits);
-  return soup.ok() ? TryPrepare(*soup, limits) : std::string();
+  return soup.ok() ? TryPrepare(*soup, limits, true) : BrokenPromiseOfRefusal(soup.status(), true);
 }
 
 std::string TryPrepareMesh(std::span<const std::byte> bytes) {
-  return TryPrepare(SoupFrom(bytes), {});
+  return TryPrepare(SoupFrom(bytes), {}, false);
 }
 
 }  // namespace capfit::fuzz

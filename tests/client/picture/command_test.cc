@@ -93,8 +93,8 @@ TEST_F(CommandTest, RefusesWhatItCannotDo) {
   EXPECT_GE(Run({"mannequin"}), 100);
   const std::string errors = testing::internal::GetCapturedStderr();
   EXPECT_THAT(errors, HasSubstr("must end in .obj or .ply"));
-  EXPECT_THAT(errors, HasSubstr("height_m is 3, must be in [0.8, 2.3]"));
-  EXPECT_THAT(errors, HasSubstr("parts must name arms"));
+  EXPECT_THAT(errors, HasSubstr("--height-m is 3, must be in [0.8, 2.3]"));
+  EXPECT_THAT(errors, HasSubstr("--parts must name arms"));
   EXPECT_THAT(errors, HasSubstr("cannot write"));
 }
 
@@ -111,6 +111,38 @@ TEST_F(CommandTest, RendersStillsHeatAndTheBodyAlone) {
   EXPECT_EQ(render({"render", Path("b.obj"), Path("r.json"), "-o", Path("h.svg"), "--heat"}), 0);
   EXPECT_THAT(*ReadFileBytes(Path("h.svg")), HasSubstr("</svg>"));
   EXPECT_EQ(render({"render", Path("b.obj"), "-o", Path("a.png"), "--views", "front,back"}), 0);
+}
+
+TEST_F(CommandTest, PolygonsAreDrawnWhereTheResultHasThem) {
+  ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "2000"}), 0);
+  ASSERT_TRUE(WriteFileBytes(Path("p.json"), R"({"spheres": [[0, 0.9, 0, 0.2]],
+      "feature_polygons": [{"name": "hip", "part": "torso", "outside_area_ratio": 0.1,
+        "outline": [[-0.1, 0.9, -0.1], [0.1, 0.9, -0.1], [0.1, 0.9, 0.1], [-0.1, 0.9, 0.1]],
+        "circles": [[0, 0.9, 0, 0.1]]}]})")
+                  .ok());
+  const auto render = [&](const std::string& result, const std::string& output,
+                          std::vector<std::string> more) {
+    std::vector<std::string> words = {"render",     Path("b.obj"), Path(result), "-o",
+                                      Path(output), "--width",     "400",        "--polygons"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Run(words);
+  };
+  EXPECT_EQ(render("p.json", "p.png", {}), 0);
+  EXPECT_THAT(*ReadFileBytes(Path("p.png")), StartsWith("\x89PNG"));
+  EXPECT_EQ(render("p.json", "p.svg", {"--views", "front"}), 0);
+  EXPECT_THAT(*ReadFileBytes(Path("p.svg")), HasSubstr("stroke-dasharray"));
+  WriteResult();
+  ASSERT_TRUE(WriteFileBytes(Path("flat.json"), R"({"spheres": [[0, 0.9, 0, 0.2]],
+      "feature_polygons": [{"outline": [[0, 0.9, 0], [1, 0.9, 0]], "circles": []}]})")
+                  .ok());
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(render("r.json", "p.png", {}), 2);
+  EXPECT_EQ(render("flat.json", "p.png", {}), 2);
+  EXPECT_EQ(render("p.json", "p.png", {"--heat"}), 2);
+  const std::string errors = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(errors, HasSubstr("only `capfit approximate --polygons`"));
+  EXPECT_THAT(errors, HasSubstr("feature_polygons[0].outline has 2 points"));
+  EXPECT_THAT(errors, HasSubstr("not with --heat"));
 }
 
 TEST_F(CommandTest, HeatMapShowsTheGapsOfTheFile) {
@@ -133,7 +165,7 @@ TEST_F(CommandTest, HeatMapShowsTheGapsOfTheFile) {
   EXPECT_EQ(Run({"render", Path("b.obj"), Path("r.json"), "-o", Path("h.png"), "--gaps",
                  Path("r.gaps.json")}),
             2);
-  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("gaps has 7 vertices"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("--gaps has 7 vertices"));
 }
 
 TEST_F(CommandTest, RendersFramesOfAnAnimation) {
@@ -153,7 +185,7 @@ TEST_F(CommandTest, RendersFramesOfAnAnimation) {
   EXPECT_EQ(render("0", "c.bin"), 2);
   EXPECT_EQ(render("0", "none.bin"), 1);
   const std::string errors = testing::internal::GetCapturedStderr();
-  EXPECT_THAT(errors, HasSubstr("show has frame 2, must be below 2"));
+  EXPECT_THAT(errors, HasSubstr("--show has frame 2, must be below 2"));
   EXPECT_THAT(errors, HasSubstr("must be a multiple of"));
 }
 
@@ -169,7 +201,7 @@ TEST_F(CommandTest, RenderRefusesBadInput) {
   EXPECT_EQ(Run({"render", Path("none.obj"), Path("r.json"), "-o", Path("p.png")}), 1);
   const std::string errors = testing::internal::GetCapturedStderr();
   EXPECT_THAT(errors, HasSubstr("spheres[0]"));
-  EXPECT_THAT(errors, HasSubstr("width is 9, must be in [200, 6000]"));
+  EXPECT_THAT(errors, HasSubstr("--width is 9, must be in [200, 6000]"));
 }
 
 }  // namespace

@@ -61,6 +61,20 @@ TEST(RasterTest, SphereCoversExactlyItsDisc) {
   EXPECT_NEAR(CoveredSamples(raster), kHalfTurn * 50 * 50, 30);
 }
 
+TEST(ViewTest, AxesStaySquareFromAbove) {
+  for (const double yaw_rad : {0.0, 0.7, 1.5, 3.0, 4.5}) {
+    for (const double pitch_rad : {-0.9, 0.0, 0.4, 1.2}) {
+      const View view(yaw_rad, {0.1, 1, 0}, 10, 20, 50, pitch_rad);
+      EXPECT_NEAR(view.right().cross(view.up()).dot(view.toward_eye()), 1.0, 1e-12);
+      EXPECT_NEAR(view.toward_eye().y(), std::sin(pitch_rad), 1e-12);
+      EXPECT_EQ(view.right().y(), 0.0);
+      const Vector3d seen = view.Project({0.3, 0.7, -0.2});
+      const Vector3d back = view.PointAt(seen.x(), seen.y()) + seen.z() * view.toward_eye();
+      EXPECT_LT((back - Vector3d(0.3, 0.7, -0.2)).norm(), 1e-12);
+    }
+  }
+}
+
 TEST(RasterTest, SphereIsAsNearAsItsSurface) {
   const View view(0.0, Vector3d::Zero(), 100.5, 100.5, 100);
   const Sphere sphere{{0, 0, 0.3}, 0.2};

@@ -1,6 +1,7 @@
 // The body's own frame, its symmetry, the caller's wishes, and inputs that are awkward or no body.
 #include "core/body/find_body.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_format.h"
 #include "core/base/random.h"
 #include "core/base/status.h"
 #include "core/mannequin/random_mannequin.h"
@@ -164,7 +166,7 @@ TEST(FindBody, NamesTheUnitThatItAssumed) {
 
 TEST(FindBody, TakesTheUnitAndTheAxisThatItIsTold) {
   const mesh::BodyMesh lying =
-      SmallMannequin().Transformed(Moved(1.57079633, {1, 0, 0}, 1, {0, 0, 0}));  // up is +Z
+      SmallMannequin().Transformed(Moved(1.57079633, {1, 0, 0}, 1 / 0.0254, {0, 0, 0}));  // +Z
   BodyOptions options;
   options.up = UpAxis::kZ;
   options.unit = Unit::kInch;
@@ -175,6 +177,112 @@ TEST(FindBody, TakesTheUnitAndTheAxisThatItIsTold) {
   EXPECT_LT(
       (body->body_from_caller.Turn(Eigen::Vector3d::UnitZ()) - Eigen::Vector3d::UnitY()).norm(),
       1e-12);
+}
+
+TEST(FindBody, RefusesAUnitInWhichThereIsNoSuchBody) {
+  BodyOptions options;
+  options.unit = Unit::kCentimetre;
+  const absl::Status tiny = Find(SmallMannequin(), options).status();
+  EXPECT_EQ(tiny.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(ReasonOf(tiny), ErrorReason::kContradictsBody);
+  EXPECT_EQ(FieldOf(tiny), "mesh.unit");
+  const double height_m = Find(SmallMannequin())->height_m;
+  EXPECT_NE(tiny.message().find(absl::StrFormat("makes the body %.3g m tall; in metres it would "
+                                                "be %.3g m",
+                                                0.01 * height_m, height_m)),
+            absl::string_view::npos)
+      << tiny;
+  EXPECT_THAT(FactsOf(tiny), testing::Contains(testing::Pair("limit", "[0.25, 3] m")));
+  options.unit = Unit::kMetre;
+  const mesh::BodyMesh large = SmallMannequin().Transformed(Moved(0, {0, 1, 0}, 100, {0, 0, 0}));
+  EXPECT_EQ(FieldOf(Find(large, options).status()), "mesh.unit");
+}
+
+TEST(FindBody, WarnsOfAUnitThatIsHardlyMeant) {
+  const mesh::BodyMesh inches =
+      SmallMannequin().Transformed(Moved(0, {0, 1, 0}, 1 / 0.0254, {0, 0, 0}));
+  BodyOptions options;
+  options.unit = Unit::kCentimetre;  // 63 cm tall and as slim as an adult
+  const auto body = Find(inches, options);
+  ASSERT_TRUE(body.ok()) << body.status();
+  ASSERT_EQ(body->warnings.size(), 1u);
+  EXPECT_EQ(body->warnings[0].code, "UNIT_CONTRADICTS_BODY");
+  EXPECT_NE(body->warnings[0].message.find("in inches it would be"), std::string::npos);
+  EXPECT_EQ(body->body_from_caller.scale, 0.01);
+}
+
+// A told axis across the body gives the same as none, with a warning that names both.
+TEST(FindBody, FitsAsTheBodyStandsWhereTheToldAxisLiesAcrossIt) {
+  CAPFIT_REQUIRE_BODIES();
+  for (const char* const name : {"female_average_rest.obj", "male_muscular_tpose.obj",
+                                 "female_average_sides.obj", "male_heavy_rest.obj"}) {
+    const mesh::BodyMesh mesh = LoadBody(name);  // stands along +Y
+    const auto untold = Find(mesh);
+    ASSERT_TRUE(untold.ok()) << untold.status();
+    for (const UpAxis axis : {UpAxis::kX, UpAxis::kZ}) {
+      BodyOptions options;
+      options.up = axis;
+      const auto told = Find(mesh, options);
+      ASSERT_TRUE(told.ok()) << told.status();
+      const Warning& warning = told->warnings.front();
+      EXPECT_EQ(warning.code, "UP_AXIS_CONTRADICTS_BODY") << name;
+      EXPECT_NE(warning.message.find(axis == UpAxis::kX ? "to be x," : "to be z,"),
+                std::string::npos);
+      EXPECT_NE(warning.message.find("stands along y"), std::string::npos);
+      EXPECT_EQ(told->body_from_caller.rotation, untold->body_from_caller.rotation);
+      EXPECT_EQ(told->height_m, untold->height_m);
+      for (int i = 0; i < kLandmarkCount; ++i) {
+        const LandmarkId id = static_cast<LandmarkId>(i);
+        EXPECT_EQ(told->landmark(id)->position_m, untold->landmark(id)->position_m);
+      }
+    }
+    BodyOptions options;
+    options.up = UpAxis::kY;
+    const auto right = Find(mesh, options);
+    ASSERT_TRUE(right.ok()) << right.status();
+    EXPECT_EQ(right->warnings.size(), untold->warnings.size());
+    for (int i = 0; i < kLandmarkCount; ++i) {
+      const LandmarkId id = static_cast<LandmarkId>(i);
+      EXPECT_LT((right->landmark(id)->position_m - untold->landmark(id)->position_m).norm(), 0.03)
+          << name << " " << LandmarkName(id);
+    }
+  }
+}
+
+// A body that leans against its told axis is found as well as without.
+TEST(FindBody, LeaningBodiesAreFoundWithTheirToldAxis) {
+  for (const double degrees : {-40.0, -13.0, 13.0, 40.0, 50.0}) {
+    for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1)}) {
+      const mesh::BodyMesh mesh =
+          SmallMannequin().Transformed(Moved(degrees * 0.0174532925, axis, 1, {0, 0, 0}));
+      const auto untold = Find(mesh);
+      BodyOptions options;
+      options.up = UpAxis::kY;
+      const auto told = Find(mesh, options);
+      ASSERT_TRUE(untold.ok() && told.ok()) << told.status();
+      const auto place = [](const Body& body, LandmarkId id) {
+        return Eigen::Vector3d(
+            body.body_from_caller.Inverse().Apply(body.landmark(id)->position_m));
+      };
+      for (int i = 0; i < kLandmarkCount; ++i) {
+        const LandmarkId id = static_cast<LandmarkId>(i);
+        ASSERT_TRUE(told->landmark(id)) << LandmarkName(id) << " " << degrees;
+        EXPECT_LT((place(*told, id) - place(*untold, id)).norm(), 0.05)
+            << LandmarkName(id) << " " << degrees << " about " << axis.transpose();
+      }
+    }
+  }
+}
+
+TEST(FindBody, RefusesAnUpAxisThatIsUpsideDown) {
+  BodyOptions options;
+  options.up = UpAxis::kY;
+  const mesh::BodyMesh turned = SmallMannequin().Transformed(Moved(3.0, {0, 0, 1}, 1, {0, 0, 0}));
+  const absl::Status status = Find(turned, options).status();
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kContradictsBody);
+  EXPECT_EQ(FieldOf(status), "mesh.up_axis");
+  EXPECT_THAT(FactsOf(status),
+              testing::ElementsAre(testing::Pair("value", "y"), testing::Pair("limit", "-y")));
 }
 
 TEST(FindBody, MirroredMeshesGiveMirroredBodies) {
@@ -268,7 +376,7 @@ TEST(FindBody, CallersLandmarksReplaceAndSteer) {
 
 struct Refusal {
   std::string file;
-  std::string reason;
+  ErrorReason reason;
   std::string evidence;
   friend void PrintTo(const Refusal& r, std::ostream* os) { *os << r.file; }
 };
@@ -285,9 +393,9 @@ TEST_P(Refused, WithReasonAndEvidence) {
 
 INSTANTIATE_TEST_SUITE_P(
     NoBody, Refused,
-    testing::Values(Refusal{"cube", "NOT_A_BODY", "found 0 of 5 extremities"},
-                    Refusal{"sphere", "NOT_A_BODY", "found 0 of 5 extremities"},
-                    Refusal{"torus", "NOT_A_BODY", "found 0 of 5 extremities"}),
+    testing::Values(Refusal{"cube", ErrorReason::kNotABody, "found 0 of 5 extremities"},
+                    Refusal{"sphere", ErrorReason::kNotABody, "found 0 of 5 extremities"},
+                    Refusal{"torus", ErrorReason::kNotABody, "found 0 of 5 extremities"}),
     [](const auto& tested) { return tested.param.file; });
 
 struct Acceptance {
@@ -355,7 +463,7 @@ TEST(FindBody, RefusesBodiesWithoutTheRequiredParts) {
   options.required.arms = true;
   EXPECT_TRUE(Find(LoadBody("broken/good_5k.obj"), options).ok());
   const auto one_armed = Find(LoadBody("broken/no_left_arm.obj"), options);
-  EXPECT_EQ(ReasonOf(one_armed.status()), "PART_MISSING");
+  EXPECT_EQ(ReasonOf(one_armed.status()), ErrorReason::kPartMissing);
   EXPECT_NE(one_armed.status().ToString().find("left_arm"), std::string::npos);
   EXPECT_EQ(one_armed.status().ToString().find("right_arm"), std::string::npos);
   const mesh::BodyMesh cut = LoadBody("female_average_rest_no_hands_feet_head.obj");

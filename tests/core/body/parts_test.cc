@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/random.h"
@@ -171,9 +173,45 @@ TEST(BodyUnit, IsTheOneThatMakesAHuman) {
   EXPECT_EQ(unit(159.0), Unit::kCentimetre);
   EXPECT_EQ(unit(110.0), Unit::kCentimetre);
   EXPECT_EQ(unit(1590.0), Unit::kMillimetre);
-  EXPECT_EQ(ChooseUnit(Unit::kInch, 1.59)->unit, Unit::kInch);  // told
-  EXPECT_EQ(ReasonOf(ChooseUnit(Unit::kAuto, 12.0).status()), "UNIT_UNKNOWN");
-  EXPECT_EQ(ReasonOf(ChooseUnit(Unit::kAuto, 0.01).status()), "UNIT_UNKNOWN");
+  EXPECT_EQ(ChooseUnit(Unit::kInch, 20.0)->unit, Unit::kInch);  // told
+  EXPECT_EQ(ChooseUnit(Unit::kMetre, 0.26)->unit, Unit::kMetre);
+  EXPECT_EQ(ChooseUnit(Unit::kMetre, 2.99)->unit, Unit::kMetre);
+  EXPECT_EQ(ReasonOf(ChooseUnit(Unit::kAuto, 12.0).status()), ErrorReason::kUnitUnknown);
+  EXPECT_EQ(ReasonOf(ChooseUnit(Unit::kAuto, 0.01).status()), ErrorReason::kUnitUnknown);
+}
+
+TEST(BodyUnit, ToldWithoutABodyOfThatSizeIsRefused) {
+  for (const auto& [unit, height] :
+       {std::pair(Unit::kMetre, 159.0), std::pair(Unit::kMetre, 3.01),
+        std::pair(Unit::kMetre, 0.24), std::pair(Unit::kCentimetre, 1.59),
+        std::pair(Unit::kMillimetre, 159.0), std::pair(Unit::kInch, 159.0)}) {
+    const absl::Status status = ChooseUnit(unit, height).status();
+    EXPECT_EQ(ReasonOf(status), ErrorReason::kContradictsBody) << height;
+    EXPECT_EQ(FieldOf(status), "mesh.unit");
+  }
+  EXPECT_EQ(std::string(ChooseUnit(Unit::kMetre, 159.0).status().message()),
+            "mesh.unit is metres, which makes the body 159 m tall; in centimetres it would be "
+            "1.59 m");
+}
+
+TEST(BodyUnit, ToldIsDoubtedWhereAnotherIsFarMoreUsualOrNobodyIsSoStout) {
+  const auto doubt = [](Unit unit, double height, double volume) {
+    return JudgeToldUnit(*ChooseUnit(unit, height), height, volume);
+  };
+  EXPECT_FALSE(doubt(Unit::kMetre, 1.59, 0.06));     // a woman
+  EXPECT_FALSE(doubt(Unit::kMetre, 1.1, 0.018));     // a child
+  EXPECT_FALSE(doubt(Unit::kCentimetre, 50, 3400));  // newborn
+  EXPECT_FALSE(doubt(Unit::kMetre, 1.6, 0.2));       // among the heaviest
+  EXPECT_FALSE(doubt(Unit::kMetre, 2.3, 0.12));
+  EXPECT_TRUE(doubt(Unit::kCentimetre, 63, 3700));  // inches: an adult's shape
+  EXPECT_TRUE(doubt(Unit::kInch, 112, 18'000));     // centimetres: 2.84 m
+  EXPECT_TRUE(doubt(Unit::kMetre, 1.6, 0.02));
+  EXPECT_TRUE(doubt(Unit::kMetre, 1.6, 0.3));
+  const auto warning = doubt(Unit::kCentimetre, 63, 3700);
+  EXPECT_EQ(warning->code, "UNIT_CONTRADICTS_BODY");
+  EXPECT_EQ(warning->message,
+            "told to be in centimetres, which makes the body 0.63 m tall with 3.7 litres; in "
+            "inches it would be 1.6 m");
 }
 
 }  // namespace

@@ -38,13 +38,13 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Defaults", [](FitOptions&) {}, kOk, ""},
         Case{"LowestPrimitives", [](FitOptions& o) { o.max_primitives = 15; }, kOk, ""},
         Case{"TooFewPrimitives", [](FitOptions& o) { o.max_primitives = 14; }, kInvalid,
-             "max_primitives is 14, must be 15 to 1000"},
+             "max_primitives is 14, must be in [15, 1000]"},
         Case{"TooManyPrimitives", [](FitOptions& o) { o.max_primitives = 1001; }, kInvalid,
-             "max_primitives is 1001, must be 15 to 1000"},
+             "max_primitives is 1001, must be in [15, 1000]"},
         Case{"TooFewSpheres", [](FitOptions& o) { o.max_spheres = 9; }, kInvalid,
-             "max_spheres is 9, must be 10 to 500"},
+             "max_spheres is 9, must be in [10, 500]"},
         Case{"TooFewCapsules", [](FitOptions& o) { o.max_capsules = 4; }, kInvalid,
-             "max_capsules is 4, must be 5 to 1000"},
+             "max_capsules is 4, must be in [5, 1000]"},
         Case{"BothCapsIsOneWay",
              [](FitOptions& o) {
                o.max_spheres = 32;
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
              },
              kInvalid, "budget is given in more than one way"},
         Case{"ErrorTooSmall", [](FitOptions& o) { o.polygon_error = 0.0; }, kInvalid,
-             "polygon_error is 0, must be 0.001 to 2"},
+             "polygon_error is 0, must be in [0.001, 2]"},
         Case{"ErrorNotANumber",
              [](FitOptions& o) { o.polygon_error = std::numeric_limits<double>::quiet_NaN(); },
              kInvalid, "polygon_error is nan"},
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
              kInvalid, "grows_only is for quality paper"},
         Case{"Tolerance", [](FitOptions& o) { o.tolerance_m = 0.1; }, kOk, ""},
         Case{"ToleranceTooLarge", [](FitOptions& o) { o.tolerance_m = 0.2; }, kInvalid,
-             "tolerance_m is 0.2, must be 0 to 0.1"},
+             "tolerance_m is 0.2, must be in [0, 0.1]"},
         Case{"ToleranceNotANumber",
              [](FitOptions& o) { o.tolerance_m = std::numeric_limits<double>::quiet_NaN(); },
              kInvalid, "tolerance_m is nan"},
@@ -103,7 +103,20 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(FitOptions, RefusalsNameTheirField) {
   FitOptions options;
   options.max_primitives = 1;
-  EXPECT_EQ(FieldOf(ValidateOptions(options)), "max_primitives");
+  EXPECT_EQ(FieldOf(ValidateOptions(options)), "options.budget.max_primitives");
+  EXPECT_EQ(ReasonOf(ValidateOptions(options)), ErrorReason::kOutOfRange);
+  options.polygon_error = 0.1;
+  EXPECT_EQ(ReasonOf(ValidateOptions(options)), ErrorReason::kConflict);
+  FitOptions unknown;
+  unknown.engine = "quake";
+  EXPECT_EQ(ReasonOf(ValidateOptions(unknown)), ErrorReason::kUnknownValue);
+  FitOptions nothing;
+  nothing.parts = {false, false, false, false, false, false};
+  EXPECT_EQ(ReasonOf(ValidateOptions(nothing)), ErrorReason::kMissing);
+  FitOptions infinite;
+  infinite.landmarks[body::LandmarkId::kNeck] = {0, std::numeric_limits<double>::infinity(), 0};
+  EXPECT_EQ(ReasonOf(ValidateOptions(infinite)), ErrorReason::kNotFinite);
+  EXPECT_EQ(FieldOf(ValidateOptions(infinite)), "options.landmarks.neck");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <limits>
 #include <sstream>
 
+#include "core/base/status.h"
+
 namespace capfit::skinning {
 namespace {
 
@@ -79,12 +81,14 @@ TEST(WeightsFileTest, RefusesTruncatedAndOversizedData) {
 TEST(WeightsFileTest, HugeCountsInTheHeaderDoNotAllocate) {
   const auto read = Read("1234", 60'000, 60'000);
   EXPECT_THAT(read.status().ToString(), HasSubstr("hold 4 bytes"));
+  EXPECT_EQ(ReasonOf(read.status()), ErrorReason::kCountMismatch);
 }
 
 TEST(WeightsFileTest, RefusesNumbersThatAreNotFinite) {
   DenseWeights weights = Sample();
   weights.weights[5] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(Read(Bytes(weights)).status().ToString(), HasSubstr("weights[1][2]"));
+  EXPECT_EQ(ReasonOf(Read(Bytes(weights)).status()), ErrorReason::kNotFinite);
 }
 
 TEST(WeightsFileTest, ReportsAStreamThatFails) {
@@ -107,11 +111,27 @@ TEST(WeightsHeaderTest, NamesWhatIsWrong) {
   EXPECT_THAT(error(Header("\"spheres\": 2", "\"spheres\": \"2\"")), HasSubstr("whole number"));
   EXPECT_THAT(error(Header("\"vertices\": 3", "\"vertices\": 1e3")), HasSubstr("whole number"));
   EXPECT_THAT(error(Header("\"vertices\": 3", "\"vertices\": 4294967296")),
-              HasSubstr("at most 2147483647"));
+              HasSubstr("must be in [0, 2147483647]"));
   EXPECT_THAT(error(Header("\"spheres\": 2,\n  \"vertices\": 3",
                            "\"spheres\": 2000000000,\n  \"vertices\": 2000000000")),
               HasSubstr("more than"));
   EXPECT_THAT(error(Header("\"data\"", "\"dada\"")), HasSubstr("data is missing"));
+}
+
+TEST(WeightsHeaderTest, TellsReasons) {
+  const auto reason = [](const std::string& text) {
+    const auto found = ReasonOf(ParseWeightsHeader(text).status());
+    return std::string(found ? ErrorReasonName(*found) : "none");
+  };
+  EXPECT_EQ(reason("not json"), "MALFORMED_FILE");
+  EXPECT_EQ(reason(Header("\"data\"", "\"dada\"")), "MISSING");
+  EXPECT_EQ(reason(Header("\"version\": 1", "\"version\": 2")), "UNSUPPORTED_FILE");
+  EXPECT_EQ(reason(Header("float32", "float64")), "UNSUPPORTED_FILE");
+  EXPECT_EQ(reason(Header("\"spheres\": 2", "\"spheres\": -2")), "MALFORMED_FILE");
+  EXPECT_EQ(reason(Header("\"vertices\": 3", "\"vertices\": 4294967296")), "OUT_OF_RANGE");
+  EXPECT_EQ(reason(Header("\"spheres\": 2,\n  \"vertices\": 3",
+                          "\"spheres\": 2000000000,\n  \"vertices\": 2000000000")),
+            "TOO_LARGE");
 }
 
 }  // namespace

@@ -1,0 +1,54 @@
+#include "client/picture/centers_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "client/picture/file_bytes.h"
+#include "core/base/status.h"
+
+namespace capfit::client {
+namespace {
+
+class CentersFileTest : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  [[nodiscard]] std::string Path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] absl::Status Refused(const std::string& text) const {
+    EXPECT_TRUE(WriteFileBytes(Path("c.json"), text).ok());
+    return ReadCenters(Path("c.json")).status();
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / "centers_file_test";
+};
+
+TEST_F(CentersFileTest, BothFormsReadTheSame) {
+  const std::vector<std::vector<Eigen::Vector3d>> frames = {{{1, 2, 3}, {0.1, -1e-9, 4}},
+                                                            {{5, 6, 7}, {8, 9, 1.0 / 3.0}}};
+  for (const char* const name : {"c.f32", "c.JSON"}) {
+    ASSERT_TRUE(WriteFileBytes(Path(name), FormatCenters(frames, name)).ok());
+    const auto bytes = ReadCenters(Path(name));
+    ASSERT_TRUE(bytes.ok()) << bytes.status();
+    EXPECT_EQ(*bytes, FormatCenters(frames, "-")) << name;
+  }
+  EXPECT_EQ(FormatCenters(frames, "-").size(), 2U * 2U * 12U);
+  EXPECT_EQ(FormatCenters(frames, "-").substr(0, 4), std::string("\0\0\x80\x3f", 4));
+}
+
+TEST_F(CentersFileTest, MistakesAreNamed) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"{", "centers"},
+      {R"({"centers": []})", "centers"},
+      {R"({"frames": [7]})", "centers[0]"},
+      {R"({"frames": [[[1, 2, 3]], []]})", "centers[1]"},
+      {R"({"frames": [[[1, 2, 3], [1, 2]]]})", "centers[0][1]"},
+      {R"({"frames": [[[1, 2, null]]]})", "centers[0][0]"},
+  };
+  for (const auto& [text, field] : cases) EXPECT_EQ(FieldOf(Refused(text)), field) << text;
+  EXPECT_EQ(ReadCenters(Path("none.json")).status().code(), absl::StatusCode::kNotFound);
+}
+
+}  // namespace
+}  // namespace capfit::client
