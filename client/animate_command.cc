@@ -32,7 +32,7 @@ using Centers = std::vector<Eigen::Vector3d>;
 // That the weights are the body's and, where they were named by their result, the result's.
 absl::Status CheckWeights(const AnimateArguments& arguments,
                           const skinning::DenseWeights& weights) {
-  CAPFIT_ASSIGN_OR_RETURN(const mesh::PolygonSoup soup, ReadBodyFile(arguments.body));
+  CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, ReadBodyFile(arguments.body));
   CAPFIT_RETURN_IF_ERROR(CheckVertexCount("WEIGHTS", weights.vertex_count, soup));
   if (IsWeightsHeader(arguments.weights)) return absl::OkStatus();
   CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(arguments.weights));

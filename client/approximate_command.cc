@@ -17,7 +17,7 @@
 #include "client/server_flags.h"
 #include "client/weights_output.h"
 #include "core/base/status.h"
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 
 namespace capfit::client {
 namespace {
@@ -36,17 +36,17 @@ struct ApproximateArguments {
 };
 
 absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
-                                            mesh::MeshFormat format,
+                                            formats::MeshFormat format,
                                             const pipeline::FitOptions& options,
                                             const ApproximateArguments& arguments,
                                             ProgressLine& progress) {
   CAPFIT_RETURN_IF_ERROR(pipeline::ValidateOptions(options));
-  CAPFIT_ASSIGN_OR_RETURN(const mesh::PolygonSoup soup, mesh::ReadMesh(bytes, format));
+  CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, formats::ReadMesh(bytes, format));
   return pipeline::Fit(soup, options, ThreadPool(arguments.threads), progress);
 }
 
 absl::StatusOr<pipeline::FitResult> FitThere(std::span<const std::byte> bytes,
-                                             mesh::MeshFormat format,
+                                             formats::MeshFormat format,
                                              const pipeline::FitOptions& options,
                                              const ApproximateArguments& arguments,
                                              ProgressLine& progress) {
@@ -60,7 +60,7 @@ absl::StatusOr<pipeline::FitResult> FitThere(std::span<const std::byte> bytes,
 absl::StatusOr<pipeline::FitResult> FitBody(const ApproximateArguments& arguments) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string file, ReadFileBytes(arguments.body));
   CAPFIT_ASSIGN_OR_RETURN(const pipeline::FitOptions options, OptionsOf(arguments.fit));
-  const mesh::MeshFormat format = mesh::FormatFromFileName(arguments.body);
+  const formats::MeshFormat format = formats::FormatFromFileName(arguments.body);
   const std::span<const std::byte> bytes = std::as_bytes(std::span(file));
   ProgressLine progress(arguments.progress || (StderrIsTerminal() && !arguments.quiet));
   return arguments.is_local ? FitHere(bytes, format, options, arguments, progress)

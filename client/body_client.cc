@@ -65,7 +65,7 @@ bool SendNumbers(Stream& stream, const std::vector<std::uint32_t>& numbers, cons
                     });
 }
 
-bool SendArrays(Stream& stream, const mesh::PolygonSoup& soup) {
+bool SendArrays(Stream& stream, const formats::PolygonSoup& soup) {
   using Arrays = v1::MeshArrays;
   using Numbers = google::protobuf::RepeatedField<std::uint32_t>* (Arrays::*)();
   const Numbers triangles = &Arrays::mutable_triangle_indices;
@@ -174,7 +174,7 @@ BodyClient::BodyClient(const std::shared_ptr<grpc::Channel>& channel)
     : stub_(v1::BodyApproximationService::NewStub(channel)) {}
 
 absl::StatusOr<pipeline::FitResult> BodyClient::ApproximateFile(std::span<const std::byte> bytes,
-                                                                mesh::MeshFormat format,
+                                                                formats::MeshFormat format,
                                                                 const pipeline::FitOptions& options,
                                                                 const CallOptions& call) const {
   v1::ApproximateBodyHeader header;
@@ -184,7 +184,7 @@ absl::StatusOr<pipeline::FitResult> BodyClient::ApproximateFile(std::span<const 
                      [bytes](Stream& stream) { return SendFile(stream, bytes); });
 }
 
-absl::StatusOr<pipeline::FitResult> BodyClient::ApproximateMesh(const mesh::PolygonSoup& soup,
+absl::StatusOr<pipeline::FitResult> BodyClient::ApproximateMesh(const formats::PolygonSoup& soup,
                                                                 const pipeline::FitOptions& options,
                                                                 const CallOptions& call) const {
   v1::ApproximateBodyHeader header;

@@ -15,7 +15,7 @@
 
 #include "absl/status/statusor.h"
 #include "capfit/v1/service.grpc.pb.h"
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 
 namespace capfit::client {
@@ -44,12 +44,12 @@ class BodyClient {
 
   // Uploads a mesh file as it is, in chunks of 256 KiB. kUnknown: the server looks at the bytes.
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> ApproximateFile(
-      std::span<const std::byte> bytes, mesh::MeshFormat format,
+      std::span<const std::byte> bytes, formats::MeshFormat format,
       const pipeline::FitOptions& options, const CallOptions& call = {}) const;
 
   // Uploads arrays, in double precision and chunks of 256 KiB. Joints are not sent.
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> ApproximateMesh(
-      const mesh::PolygonSoup& soup, const pipeline::FitOptions& options,
+      const formats::PolygonSoup& soup, const pipeline::FitOptions& options,
       const CallOptions& call = {}) const;
 
   [[nodiscard]] absl::StatusOr<v1::GetServerInfoResponse> GetServerInfo(

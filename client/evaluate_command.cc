@@ -16,7 +16,7 @@
 #include "core/base/status.h"
 #include "core/body/body_unit.h"
 #include "core/body/find_body.h"
-#include "core/coverage/cover_vertices.h"
+#include "core/coverage/cover_body.h"
 #include "core/metrics/measure.h"
 
 namespace capfit::client {
@@ -36,7 +36,7 @@ struct EvaluateArguments {
 // The body, which must be that of the result; in the result's unit where nothing else is told.
 absl::StatusOr<body::Body> LoadBody(const EvaluateArguments& arguments, const ResultSet& result,
                                     const ThreadPool& pool) {
-  CAPFIT_ASSIGN_OR_RETURN(const mesh::PolygonSoup soup, ReadBodyFile(arguments.body));
+  CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, ReadBodyFile(arguments.body));
   CAPFIT_RETURN_IF_ERROR(CheckBelongs(result, soup));
   body::BodyOptions frame = arguments.frame;
   if (frame.unit == body::Unit::kAuto && result.metres_per_unit) {
@@ -55,7 +55,7 @@ absl::Status RunEvaluate(const EvaluateArguments& arguments) {
   options.parts = arguments.parts.empty() ? PartsOfResult(result) : PartsOf(arguments.parts);
   metrics::Metrics metrics = metrics::Measure(body, set, options, pool, NullObserver());
   metrics.max_gap_m =
-      coverage::CertifiedGap(coverage::TargetOf(body, options.parts), set, kGapToleranceM, pool);
+      coverage::CertifiedGap(tighten::TargetOf(body, options.parts), set, kGapToleranceM, pool);
   const std::string report = arguments.as_json ? FormatMetrics(metrics) + "\n"
                                                : PartsTable(metrics) + "\n" + MetricsTable(metrics);
   std::fputs(report.c_str(), stdout);

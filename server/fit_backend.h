@@ -13,7 +13,7 @@ namespace capfit::server {
 struct FitBackend {
   std::function<absl::Status(const pipeline::FitOptions&)> validate;
   std::function<absl::StatusOr<pipeline::FitResult>(
-      const mesh::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&, FitObserver&)>
+      const formats::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&, FitObserver&)>
       fit;
 };
 

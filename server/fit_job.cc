@@ -109,7 +109,7 @@ absl::StatusOr<pipeline::FitResult> FitJob::Compute(FitObserver& observer) {
   // A read that ends because the caller is gone looks like the end of the upload; only the context
   // knows already.
   if (IsOver() || context_.IsCancelled()) return GaveUp();
-  CAPFIT_ASSIGN_OR_RETURN(const mesh::PolygonSoup soup, std::move(upload_).Finish());
+  CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, std::move(upload_).Finish());
   absl::StatusOr<pipeline::FitResult> result =
       services_.backend.fit(soup, options_, services_.pool, observer);
   if (absl::IsCancelled(result.status())) return GaveUp();

@@ -7,7 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 #include "proto/wire/enum_conversion.h"
 
 namespace capfit::server {
@@ -291,12 +291,12 @@ absl::Status MeshUpload::InCallersWords(const absl::Status& status) const {
   return WithField(status, positions_field() + field.substr(sizeof(kSingle) - 2));
 }
 
-absl::StatusOr<mesh::PolygonSoup> MeshUpload::Finish() && {
+absl::StatusOr<formats::PolygonSoup> MeshUpload::Finish() && {
   CAPFIT_RETURN_IF_ERROR(CheckComplete());
   if (!header_.mesh().has_file()) return std::move(soup_);
-  const mesh::MeshFormat format =
-      wire::FromWire(header_.mesh().file().format()).value_or(mesh::MeshFormat::kUnknown);
-  return mesh::ReadMesh(std::as_bytes(std::span(file_bytes_)), format, limits_.mesh);
+  const formats::MeshFormat format =
+      wire::FromWire(header_.mesh().file().format()).value_or(formats::MeshFormat::kUnknown);
+  return formats::ReadMesh(std::as_bytes(std::span(file_bytes_)), format, limits_.mesh);
 }
 
 }  // namespace capfit::server

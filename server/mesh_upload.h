@@ -8,13 +8,13 @@
 
 #include "absl/status/statusor.h"
 #include "capfit/v1/service.pb.h"
-#include "core/mesh/polygon_soup.h"
+#include "core/formats/polygon_soup.h"
 #include "core/mesh/prepare_mesh.h"
 
 namespace capfit::server {
 
 struct UploadLimits {
-  mesh::MeshLimits mesh;
+  formats::MeshLimits mesh;
   std::int64_t max_bytes = 128LL * 1024 * 1024;  // of file bytes, or of array elements
 };
 
@@ -48,7 +48,7 @@ class MeshUpload {
   [[nodiscard]] absl::Status InCallersWords(const absl::Status& status) const;
 
   // Reads the file, or hands out the arrays. O(bytes): not for a thread that must not block.
-  [[nodiscard]] absl::StatusOr<mesh::PolygonSoup> Finish() &&;
+  [[nodiscard]] absl::StatusOr<formats::PolygonSoup> Finish() &&;
 
  private:
   [[nodiscard]] absl::Status AddHeader(const v1::ApproximateBodyHeader& header);
@@ -68,7 +68,7 @@ class MeshUpload {
   v1::ApproximateBodyHeader header_;
   std::int64_t received_bytes_ = 0;
   std::string file_bytes_;
-  mesh::PolygonSoup soup_;
+  formats::PolygonSoup soup_;
   std::size_t coordinate_count_ = 0;  // of soup_.positions; not a multiple of 3 within a vertex
   std::uint64_t corner_count_ = 0;    // that soup_.face_sizes add up to
   bool has_float_ = false;

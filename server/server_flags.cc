@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kMebibyte = 1024 * 1024;
 // The pipeline itself takes no more than these, so a flag can only lower them.
-constexpr mesh::MeshLimits kPipelineLimits;
+constexpr formats::MeshLimits kPipelineLimits;
 
 void AddLimits(CLI::App& app, ServerConfig& config, std::int64_t& max_upload_mb) {
   app.add_option("--max-concurrent-fits", config.max_concurrent_fits,

@@ -20,7 +20,7 @@ constexpr double kSmallestDiagonal = 0.12;  // of the mesh's diagonal
 constexpr double kLargestDiagonal = 2.0;    // of the mesh's diagonal
 
 // Of what mending keeps; of a mesh that cannot be mended, of the vertices that faces use.
-AlignedBox3d BoxOf(const mesh::PolygonSoup& soup) {
+AlignedBox3d BoxOf(const formats::PolygonSoup& soup) {
   if (const auto prepared = mesh::PrepareMesh(soup); prepared.ok()) {
     return {prepared->mesh.box_min(), prepared->mesh.box_max()};
   }
@@ -81,7 +81,7 @@ absl::Status CheckForeign(const std::vector<geometry::Sphere>& spheres, const Al
 
 }  // namespace
 
-absl::Status CheckBelongs(const ResultSet& result, const mesh::PolygonSoup& body) {
+absl::Status CheckBelongs(const ResultSet& result, const formats::PolygonSoup& body) {
   const AlignedBox3d box = BoxOf(body);
   if (box.isEmpty()) return absl::OkStatus();  // other checks say what is wrong with it
   if (result.body) return CheckOwn(*result.body, box);
@@ -89,7 +89,7 @@ absl::Status CheckBelongs(const ResultSet& result, const mesh::PolygonSoup& body
 }
 
 absl::Status CheckVertexCount(const std::string& name, std::size_t vertex_count,
-                              const mesh::PolygonSoup& body) {
+                              const formats::PolygonSoup& body) {
   if (vertex_count == body.positions.size()) return absl::OkStatus();
   return InvalidField(
       ErrorReason::kContradictsBody, name,

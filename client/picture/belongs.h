@@ -7,7 +7,7 @@
 
 #include "absl/status/status.h"
 #include "client/picture/result_set.h"
-#include "core/mesh/polygon_soup.h"
+#include "core/formats/polygon_soup.h"
 
 namespace capfit::client {
 
@@ -23,11 +23,11 @@ namespace capfit::client {
 // body is more than any set's excess, and 0.12 less than a set of one hand (0.18), while units
 // differ by factors of 10 and more, but for inches and centimetres (2.54: caught one way round).
 // Empty sets pass.
-[[nodiscard]] absl::Status CheckBelongs(const ResultSet& result, const mesh::PolygonSoup& body);
+[[nodiscard]] absl::Status CheckBelongs(const ResultSet& result, const formats::PolygonSoup& body);
 
 // INVALID_ARGUMENT where what `name` holds is for another number of vertices.
 [[nodiscard]] absl::Status CheckVertexCount(const std::string& name, std::size_t vertex_count,
-                                            const mesh::PolygonSoup& body);
+                                            const formats::PolygonSoup& body);
 
 }  // namespace capfit::client
 

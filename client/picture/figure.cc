@@ -38,7 +38,7 @@ Vector3d LeftOf(const ResultSet& result, PictureUp up) {
   return up == PictureUp::kX ? Vector3d(0.0, -1.0, 0.0) : Vector3d(1.0, 0.0, 0.0);
 }
 
-std::vector<mesh::Triangle> Fans(const mesh::PolygonSoup& soup) {
+std::vector<mesh::Triangle> Fans(const formats::PolygonSoup& soup) {
   std::vector<mesh::Triangle> triangles;
   const std::size_t faces =
       soup.face_sizes.empty() ? soup.face_vertices.size() / 3 : soup.face_sizes.size();
@@ -74,7 +74,7 @@ Matrix3d TurnUpright(const std::vector<Vector3d>& positions, const ResultSet& re
   return turn;
 }
 
-Figure MakeFigure(const mesh::PolygonSoup& soup, const ResultSet& result,
+Figure MakeFigure(const formats::PolygonSoup& soup, const ResultSet& result,
                   const std::vector<Vector3d>& positions, const std::vector<Vector3d>& centers,
                   const Matrix3d& turn) {
   Figure figure;

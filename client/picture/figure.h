@@ -9,9 +9,9 @@
 
 #include "client/picture/color.h"
 #include "client/picture/result_set.h"
+#include "core/formats/polygon_soup.h"
 #include "core/geometry/tapered_capsule.h"
 #include "core/mesh/body_mesh.h"
-#include "core/mesh/polygon_soup.h"
 
 namespace capfit::client {
 
@@ -48,7 +48,7 @@ enum class PictureUp { kAuto, kX, kY, kZ };
                                           const ResultSet& result, PictureUp up);
 
 // `positions` and `centers` stand for those in `soup` and `result` (frames of an animation).
-[[nodiscard]] Figure MakeFigure(const mesh::PolygonSoup& soup, const ResultSet& result,
+[[nodiscard]] Figure MakeFigure(const formats::PolygonSoup& soup, const ResultSet& result,
                                 const std::vector<Eigen::Vector3d>& positions,
                                 const std::vector<Eigen::Vector3d>& centers,
                                 const Eigen::Matrix3d& turn);

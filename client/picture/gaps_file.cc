@@ -112,7 +112,7 @@ absl::StatusOr<VertexGaps> ReadVertexGaps(const std::string& header_path) {
 }
 
 absl::Status CheckGapsBelong(const VertexGaps& gaps, const ResultSet& result,
-                             const mesh::PolygonSoup& body) {
+                             const formats::PolygonSoup& body) {
   CAPFIT_RETURN_IF_ERROR(CheckVertexCount("gaps", gaps.gaps.size(), body));
   const double expected = result.metres_per_unit.value_or(gaps.metres_per_unit);
   if (std::abs(gaps.metres_per_unit - expected) <= 1e-6 * expected) return absl::OkStatus();

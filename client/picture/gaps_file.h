@@ -19,7 +19,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/picture/result_set.h"
-#include "core/mesh/polygon_soup.h"
+#include "core/formats/polygon_soup.h"
 
 namespace capfit::client {
 
@@ -45,7 +45,7 @@ struct VertexGaps {
 // INVALID_ARGUMENT with both figures where the gaps are not those of this body and result: another
 // number of vertices, or another unit than the result's.
 [[nodiscard]] absl::Status CheckGapsBelong(const VertexGaps& gaps, const ResultSet& result,
-                                           const mesh::PolygonSoup& body);
+                                           const formats::PolygonSoup& body);
 
 }  // namespace capfit::client
 

@@ -87,7 +87,7 @@ absl::Status Run(const Arguments& arguments) {
                         absl::StrCat("is ", arguments.output, ", must end in .obj or .ply"));
   }
   CAPFIT_ASSIGN_OR_RETURN(const MannequinOptions options, ToOptions(arguments));
-  CAPFIT_ASSIGN_OR_RETURN(const mesh::PolygonSoup soup, mannequin::MakeMannequin(options));
+  CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, mannequin::MakeMannequin(options));
   return WriteFileBytes(arguments.output, ending == ".obj" ? ObjText(soup) : PlyBytes(soup));
 }
 

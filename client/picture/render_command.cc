@@ -117,7 +117,7 @@ absl::Status CheckPolygons(const ResultSet& result) {
 }
 
 // Faces must stay within the vertices: a picture takes any other soup.
-absl::Status CheckSoup(const mesh::PolygonSoup& soup) {
+absl::Status CheckSoup(const formats::PolygonSoup& soup) {
   if (soup.positions.empty())
     return InvalidField(ErrorReason::kMalformedFile, "body", "has no vertices");
   for (std::size_t i = 0; i < soup.positions.size(); ++i) {
@@ -171,7 +171,7 @@ struct Scene {
 };
 
 struct Inputs {
-  mesh::PolygonSoup soup;
+  formats::PolygonSoup soup;
   ResultSet result;
   std::optional<body::Body> body;
   Eigen::Matrix3d turn;

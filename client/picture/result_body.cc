@@ -6,8 +6,8 @@
 
 #include "client/picture/file_bytes.h"
 #include "core/base/status.h"
+#include "core/formats/read_mesh.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/mesh/read_mesh.h"
 
 namespace capfit::client {
 namespace {
@@ -22,12 +22,12 @@ body::Part PartFromWord(const std::string& word) {
 
 }  // namespace
 
-absl::StatusOr<mesh::PolygonSoup> ReadBodyFile(const std::string& path) {
+absl::StatusOr<formats::PolygonSoup> ReadBodyFile(const std::string& path) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string bytes, ReadFileBytes(path));
-  return mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(path));
+  return formats::ReadMesh(std::as_bytes(std::span(bytes)), formats::FormatFromFileName(path));
 }
 
-absl::StatusOr<body::Body> UnderstandBody(const mesh::PolygonSoup& soup,
+absl::StatusOr<body::Body> UnderstandBody(const formats::PolygonSoup& soup,
                                           const body::BodyOptions& options,
                                           const ThreadPool& pool) {
   CAPFIT_ASSIGN_OR_RETURN(const mesh::PreparedMesh prepared, mesh::PrepareMesh(soup));

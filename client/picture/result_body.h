@@ -9,15 +9,15 @@
 #include "core/base/thread_pool.h"
 #include "core/body/find_body.h"
 #include "core/capsule/primitive_set.h"
-#include "core/mesh/polygon_soup.h"
+#include "core/formats/polygon_soup.h"
 
 namespace capfit::client {
 
 // The mesh of a file, or of standard input, whose format the bytes tell.
-[[nodiscard]] absl::StatusOr<mesh::PolygonSoup> ReadBodyFile(const std::string& path);
+[[nodiscard]] absl::StatusOr<formats::PolygonSoup> ReadBodyFile(const std::string& path);
 
 // The mesh checked, mended and understood, as a fit does it.
-[[nodiscard]] absl::StatusOr<body::Body> UnderstandBody(const mesh::PolygonSoup& soup,
+[[nodiscard]] absl::StatusOr<body::Body> UnderstandBody(const formats::PolygonSoup& soup,
                                                         const body::BodyOptions& options,
                                                         const ThreadPool& pool);
 

@@ -29,7 +29,7 @@ void AppendRaw(const Value& value, std::string& bytes) {
 
 // Calls visit(corners) for each face.
 template <typename Visit>
-void ForEachFace(const mesh::PolygonSoup& soup, const Visit& visit) {
+void ForEachFace(const formats::PolygonSoup& soup, const Visit& visit) {
   const std::size_t faces =
       soup.face_sizes.empty() ? soup.face_vertices.size() / 3 : soup.face_sizes.size();
   std::span<const std::uint32_t> rest = soup.face_vertices;
@@ -42,7 +42,7 @@ void ForEachFace(const mesh::PolygonSoup& soup, const Visit& visit) {
 
 }  // namespace
 
-std::string ObjText(const mesh::PolygonSoup& soup) {
+std::string ObjText(const formats::PolygonSoup& soup) {
   std::string text;
   text.reserve(40 * soup.positions.size() + 8 * soup.face_vertices.size());
   for (const Eigen::Vector3d& p : soup.positions) {
@@ -61,7 +61,7 @@ std::string ObjText(const mesh::PolygonSoup& soup) {
   return text;
 }
 
-std::string PlyBytes(const mesh::PolygonSoup& soup) {
+std::string PlyBytes(const formats::PolygonSoup& soup) {
   std::size_t faces = 0;
   ForEachFace(soup, [&](std::span<const std::uint32_t>) { ++faces; });
   std::string bytes =

@@ -11,8 +11,8 @@
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
+#include "core/formats/polygon_soup.h"
 #include "core/mesh/body_mesh.h"
-#include "core/mesh/polygon_soup.h"
 
 namespace capfit::body {
 
@@ -34,7 +34,7 @@ struct BodyOptions {
   // Joints of a skeleton that came with the mesh, in the caller's frame (see skeleton_names.h).
   // They replace the found ones that the caller does not give, but for those that contradict the
   // surface (all of them where more than two thirds do): warning SKELETON_IGNORED.
-  std::vector<mesh::NamedJoint> skeleton;
+  std::vector<formats::NamedJoint> skeleton;
   // Parts that must be there, none unless asked for: else FAILED_PRECONDITION with reason
   // PART_MISSING. Both sides of a pair are meant.
   PartSelection required = {false, false, false, false, false, false};

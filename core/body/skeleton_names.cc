@@ -100,9 +100,9 @@ constexpr std::array<JointWords, 7> kJointWords = {{{LandmarkId::kLeftShoulder, 
 
 class SkeletonReader {
  public:
-  explicit SkeletonReader(const std::vector<mesh::NamedJoint>& joints) : joints_(joints) {
+  explicit SkeletonReader(const std::vector<formats::NamedJoint>& joints) : joints_(joints) {
     names_.reserve(joints.size());
-    for (const mesh::NamedJoint& joint : joints) names_.push_back(PlainNameOf(joint.name));
+    for (const formats::NamedJoint& joint : joints) names_.push_back(PlainNameOf(joint.name));
   }
 
   std::map<LandmarkId, Eigen::Vector3d> Run() && {
@@ -135,14 +135,14 @@ class SkeletonReader {
     return std::nullopt;
   }
 
-  const std::vector<mesh::NamedJoint>& joints_;
+  const std::vector<formats::NamedJoint>& joints_;
   std::vector<std::optional<PlainName>> names_;
 };
 
 }  // namespace
 
 std::map<LandmarkId, Eigen::Vector3d> LandmarksFromSkeleton(
-    const std::vector<mesh::NamedJoint>& joints) {
+    const std::vector<formats::NamedJoint>& joints) {
   return SkeletonReader(joints).Run();
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/body/anatomy.h"
-#include "core/mesh/polygon_soup.h"
+#include "core/formats/polygon_soup.h"
 
 namespace capfit::body {
 
@@ -20,7 +20,7 @@ namespace capfit::body {
 // meant. Joints that are not there or unknown are left out; of several by one name the first
 // counts. Positions as given.
 [[nodiscard]] std::map<LandmarkId, Eigen::Vector3d> LandmarksFromSkeleton(
-    const std::vector<mesh::NamedJoint>& joints);
+    const std::vector<formats::NamedJoint>& joints);
 
 }  // namespace capfit::body
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/body/anatomy.h"
+#include "core/capsule/budget.h"
 #include "core/geometry/sphere.h"
 #include "core/geometry/tapered_capsule.h"
 
@@ -27,10 +28,10 @@ struct PrimitiveSet {
   std::vector<SphereOrigin> origins;      // same size as spheres
   std::vector<CapsuleEnds> capsules;      // distinct
 
-  // n_p: spheres + cones, shared spheres counted once (paper, IV-B).
-  [[nodiscard]] int primitive_count() const {
-    return static_cast<int>(spheres.size() + capsules.size());
+  [[nodiscard]] PrimitiveCount count() const {
+    return {static_cast<int>(spheres.size()), static_cast<int>(capsules.size())};
   }
+  [[nodiscard]] int primitive_count() const { return count().total(); }  // n_p
   [[nodiscard]] geometry::TaperedCapsule Capsule(std::size_t index) const {
     return {spheres[static_cast<std::size_t>(capsules[index][0])],
             spheres[static_cast<std::size_t>(capsules[index][1])]};

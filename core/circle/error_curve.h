@@ -2,6 +2,7 @@
 #ifndef CAPFIT_CORE_CIRCLE_ERROR_CURVE_H_
 #define CAPFIT_CORE_CIRCLE_ERROR_CURVE_H_
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -9,11 +10,14 @@
 
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
-#include "core/circle/allocation.h"
 #include "core/circle/approximate_polygon.h"
 #include "core/section/feature_polygon.h"
 
 namespace capfit::circle {
+
+// Outside area of polygon `polygon_index` with `circle_count` circles, in square metres; expected
+// not to rise with the count (the caller keeps the best so far).
+using ErrorOf = std::function<double(int polygon_index, int circle_count)>;
 
 // The error curves E_j(c) of all polygons with their circles. Safe to use from several threads; an
 // approximation is computed once, by whoever asks first. Mirrored polygons share one computation:

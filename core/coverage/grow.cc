@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/coverage/set_variables.h"
+#include "core/tighten/set_variables.h"
 
 namespace capfit::coverage {
 namespace {
@@ -29,7 +29,7 @@ void Lower(const std::vector<TaperedCapsule>& shapes, int solid, const Eigen::Ve
 class Grower {
  public:
   explicit Grower(capsule::PrimitiveSet& set)
-      : set_(set), variables_(set), shapes_(ShapesOf(variables_.solids(), set)) {}
+      : set_(set), variables_(set), shapes_(tighten::ShapesOf(variables_.solids(), set)) {}
 
   Nearest Locate(const Eigen::Vector3d& point) const {
     Nearest nearest;
@@ -70,7 +70,7 @@ class Grower {
 
  private:
   TaperedCapsule ShapeOf(int solid) const {
-    const Solid& ends = variables_.solids()[static_cast<std::size_t>(solid)];
+    const tighten::Solid& ends = variables_.solids()[static_cast<std::size_t>(solid)];
     return {set_.spheres[static_cast<std::size_t>(ends.ends[0])],
             set_.spheres[static_cast<std::size_t>(ends.ends[1])]};
   }
@@ -79,7 +79,7 @@ class Grower {
   // sphere contains what it was.
   Eigen::VectorXd DirectionTo(const Eigen::Vector3d& point, int solid) const {
     const geometry::CapsuleDistance at = shapes_[static_cast<std::size_t>(solid)].Locate(point);
-    const Solid& ends = variables_.solids()[static_cast<std::size_t>(solid)];
+    const tighten::Solid& ends = variables_.solids()[static_cast<std::size_t>(solid)];
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(variables_.count());
     std::vector<int> growing;
     if (at.axis_parameter < 1.0) growing.push_back(ends.ends[0]);
@@ -98,7 +98,7 @@ class Grower {
   }
 
   std::vector<int> Refresh() {
-    const std::vector<TaperedCapsule> now = ShapesOf(variables_.solids(), set_);
+    const std::vector<TaperedCapsule> now = tighten::ShapesOf(variables_.solids(), set_);
     std::vector<int> changed;
     for (std::size_t k = 0; k < now.size(); ++k) {
       const bool is_same = now[k].a().center_m == shapes_[k].a().center_m &&
@@ -112,7 +112,7 @@ class Grower {
   }
 
   capsule::PrimitiveSet& set_;
-  SetVariables variables_;
+  tighten::SetVariables variables_;
   std::vector<TaperedCapsule> shapes_;
 };
 

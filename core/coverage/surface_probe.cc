@@ -12,7 +12,7 @@ using geometry::TaperedCapsule;
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 constexpr std::size_t kChunk = 2048;
-// Distances by PointGrid are good to this.
+// Distances by tighten::PointGrid are good to this.
 constexpr double kGridAccuracy = 1e-6;
 
 Eigen::Vector3d MiddleOf(const Corners& corners) {
@@ -81,14 +81,15 @@ class TriangleProbe {
   std::vector<const TaperedCapsule*> near_;
 };
 
-Corners CornersOf(const CoverTarget& target, std::size_t triangle) {
+Corners CornersOf(const tighten::CoverTarget& target, std::size_t triangle) {
   const mesh::Triangle& t = target.triangles[triangle];
   return {target.points_m[t[0]], target.points_m[t[1]], target.points_m[t[2]]};
 }
 
 // All corners within `limit_m` of the same solid: true of nearly every triangle, and quick to see.
-bool IsPlainlyNear(const CoverTarget& target, std::size_t triangle, const UnionDistances& at,
-                   const std::vector<TaperedCapsule>& solids, double limit_m) {
+bool IsPlainlyNear(const tighten::CoverTarget& target, std::size_t triangle,
+                   const tighten::UnionDistances& at, const std::vector<TaperedCapsule>& solids,
+                   double limit_m) {
   const mesh::Triangle& t = target.triangles[triangle];
   if (at.solid[t[0]] == at.solid[t[1]] && at.solid[t[0]] == at.solid[t[2]]) {
     return std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]}) <=
@@ -102,7 +103,7 @@ bool IsPlainlyNear(const CoverTarget& target, std::size_t triangle, const UnionD
   });
 }
 
-bool HasCornerOutside(const mesh::Triangle& t, const UnionDistances& at, double limit_m) {
+bool HasCornerOutside(const mesh::Triangle& t, const tighten::UnionDistances& at, double limit_m) {
   return std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]}) > limit_m;
 }
 
@@ -156,9 +157,10 @@ double GapOf(const TriangleProbe& probe, double tolerance_m) {
 
 }  // namespace
 
-UnionDistances InCallersOrder(const PointGrid& points, const UnionDistances& distances) {
-  UnionDistances sorted{std::vector<double>(points.size()),
-                        std::vector<std::int32_t>(points.size())};
+tighten::UnionDistances InCallersOrder(const tighten::PointGrid& points,
+                                       const tighten::UnionDistances& distances) {
+  tighten::UnionDistances sorted{std::vector<double>(points.size()),
+                                 std::vector<std::int32_t>(points.size())};
   for (std::size_t i = 0; i < points.size(); ++i) {
     sorted.distance_m[points.order()[i]] = distances.distance_m[i];
     sorted.solid[points.order()[i]] = distances.solid[i];
@@ -166,8 +168,8 @@ UnionDistances InCallersOrder(const PointGrid& points, const UnionDistances& dis
   return sorted;
 }
 
-std::vector<Eigen::Vector3d> FindPointsOutside(const CoverTarget& target,
-                                               const UnionDistances& at_vertices,
+std::vector<Eigen::Vector3d> FindPointsOutside(const tighten::CoverTarget& target,
+                                               const tighten::UnionDistances& at_vertices,
                                                const std::vector<TaperedCapsule>& solids,
                                                double asked_m, double max_gap_m,
                                                const ThreadPool& pool) {
@@ -186,13 +188,13 @@ std::vector<Eigen::Vector3d> FindPointsOutside(const CoverTarget& target,
   return all;
 }
 
-double CertifiedGap(const CoverTarget& target, const capsule::PrimitiveSet& set, double tolerance_m,
-                    const ThreadPool& pool) {
+double CertifiedGap(const tighten::CoverTarget& target, const capsule::PrimitiveSet& set,
+                    double tolerance_m, const ThreadPool& pool) {
   const std::vector<TaperedCapsule> solids = capsule::Solids(set);
   if (target.points_m.empty()) return 0.0;
   if (solids.empty()) return std::numeric_limits<double>::infinity();
-  const PointGrid grid(target.points_m);
-  const UnionDistances at_vertices = InCallersOrder(
+  const tighten::PointGrid grid(target.points_m);
+  const tighten::UnionDistances at_vertices = InCallersOrder(
       grid, grid.DistancesTo(solids, -std::numeric_limits<double>::infinity(), pool));
   double gap = 0.0;
   for (std::size_t v = 0; v < target.points_m.size(); ++v) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/base/thread_pool.h"
-#include "core/coverage/cover_vertices.h"
-#include "core/coverage/point_grid.h"
+#include "core/coverage/cover_body.h"
+#include "core/tighten/point_grid.h"
 
 namespace capfit::coverage {
 
@@ -20,13 +20,13 @@ namespace capfit::coverage {
 // middle is near enough for its size; otherwise it is cut into four. `at_vertices` are the
 // distances of the target's points, by the target's index. O(triangles) and a little.
 [[nodiscard]] std::vector<Eigen::Vector3d> FindPointsOutside(
-    const CoverTarget& target, const UnionDistances& at_vertices,
+    const tighten::CoverTarget& target, const tighten::UnionDistances& at_vertices,
     const std::vector<geometry::TaperedCapsule>& solids, double asked_m, double max_gap_m,
     const ThreadPool& pool);
 
 // Distances of the target's points by the target's index.
-[[nodiscard]] UnionDistances InCallersOrder(const PointGrid& points,
-                                            const UnionDistances& distances);
+[[nodiscard]] tighten::UnionDistances InCallersOrder(const tighten::PointGrid& points,
+                                                     const tighten::UnionDistances& distances);
 
 }  // namespace capfit::coverage
 

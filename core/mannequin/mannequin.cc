@@ -96,9 +96,9 @@ BodyShape UsualShape(const MannequinOptions& options) {
   return shape;
 }
 
-mesh::PolygonSoup ToSoup(const QuadMesh& half, double scale_m, bool quads) {
+formats::PolygonSoup ToSoup(const QuadMesh& half, double scale_m, bool quads) {
   const QuadMesh whole = WithMirrorImage(half);
-  mesh::PolygonSoup soup;
+  formats::PolygonSoup soup;
   soup.positions.reserve(whole.vertices.size());
   for (const Vector3d& p : whole.vertices) soup.positions.push_back(scale_m * p);
   for (const Quad& q : whole.quads) {
@@ -121,7 +121,7 @@ mesh::PolygonSoup ToSoup(const QuadMesh& half, double scale_m, bool quads) {
 
 }  // namespace
 
-absl::StatusOr<mesh::PolygonSoup> MakeMannequin(const MannequinOptions& options) {
+absl::StatusOr<formats::PolygonSoup> MakeMannequin(const MannequinOptions& options) {
   CAPFIT_RETURN_IF_ERROR(Validate(options));
   BodyShape shape = UsualShape(options);
   const double height = WholeHeight(shape);

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "absl/status/statusor.h"
-#include "core/mesh/polygon_soup.h"
+#include "core/formats/polygon_soup.h"
 
 namespace capfit::mannequin {
 
@@ -44,7 +44,7 @@ struct MannequinOptions {
 // of itself in x = 0 bit for bit (vertex by vertex and face by face), and its girths are the wanted
 // ones to 1 %. INVALID_ARGUMENT names the option and its range. Same options, same bits. About 0.1
 // s for 20 000 faces and 1 s for 500 000.
-[[nodiscard]] absl::StatusOr<mesh::PolygonSoup> MakeMannequin(const MannequinOptions& options);
+[[nodiscard]] absl::StatusOr<formats::PolygonSoup> MakeMannequin(const MannequinOptions& options);
 
 }  // namespace capfit::mannequin
 

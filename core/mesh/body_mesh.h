@@ -11,7 +11,6 @@
 #include "absl/status/statusor.h"
 #include "core/base/warning.h"
 #include "core/geometry/similarity.h"
-#include "core/mesh/polygon_soup.h"
 
 namespace capfit::mesh {
 

@@ -9,7 +9,7 @@ namespace {
 
 // Looks at triangles and steps round vertices that one mesh may take: bounds what a wheel of flat
 // triangles can cost.
-constexpr std::size_t kMostSteps = 20'000'000;
+constexpr std::size_t kMostMendingSteps = 20'000'000;
 
 constexpr std::uint32_t kDead = 0xFFFFFFFFu;
 
@@ -170,7 +170,7 @@ class FlatTriangleMender {
   Surface& surface_;
   std::vector<std::uint32_t> flat_;
   std::vector<std::uint32_t> open_;  // to be looked at next
-  std::size_t steps_left_ = kMostSteps;
+  std::size_t steps_left_ = kMostMendingSteps;
   MendedTriangles result_;
 };
 

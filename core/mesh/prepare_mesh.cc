@@ -11,13 +11,13 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/base/status.h"
+#include "core/formats/recover_decimals.h"
+#include "core/formats/soup_checks.h"
 #include "core/mesh/close_holes.h"
 #include "core/mesh/edge_mates.h"
 #include "core/mesh/join_triangles.h"
 #include "core/mesh/mend_flat_triangles.h"
 #include "core/mesh/overlap.h"
-#include "core/mesh/recover_decimals.h"
-#include "core/mesh/soup_checks.h"
 #include "core/mesh/split_vertices.h"
 #include "core/mesh/surface.h"
 #include "core/mesh/surface_parts.h"
@@ -70,7 +70,7 @@ std::string PointText(const Eigen::Vector3d& p) {
 class MeshMender {
  public:
   // `positions` stand for the soup's own.
-  MeshMender(const PolygonSoup& soup, const std::vector<Eigen::Vector3d>& positions,
+  MeshMender(const formats::PolygonSoup& soup, const std::vector<Eigen::Vector3d>& positions,
              const FitObserver& observer)
       : positions_(positions), observer_(observer) {
     Triangulate(soup);
@@ -103,7 +103,7 @@ class MeshMender {
     return Refused(ErrorReason::kCancelled, "cancelled while the mesh was mended");
   }
 
-  void Triangulate(const PolygonSoup& soup) {
+  void Triangulate(const formats::PolygonSoup& soup) {
     TriangulatedFaces faces = TriangulateFaces(soup, positions_);
     surface_.triangles = std::move(faces.triangles);
     degenerate_ = faces.degenerate;
@@ -382,10 +382,11 @@ class MeshMender {
 
 }  // namespace
 
-absl::StatusOr<PreparedMesh> PrepareMesh(const PolygonSoup& soup, const MeshLimits& limits,
+absl::StatusOr<PreparedMesh> PrepareMesh(const formats::PolygonSoup& soup,
+                                         const formats::MeshLimits& limits,
                                          const FitObserver& observer) {
-  CAPFIT_RETURN_IF_ERROR(CheckSoup(soup, limits));
-  const std::vector<Eigen::Vector3d> decimals = RecoverDecimalsOfFloats(soup.positions);
+  CAPFIT_RETURN_IF_ERROR(formats::CheckSoup(soup, limits));
+  const std::vector<Eigen::Vector3d> decimals = formats::RecoverDecimalsOfFloats(soup.positions);
   return MeshMender(soup, decimals.empty() ? soup.positions : decimals, observer).Run();
 }
 

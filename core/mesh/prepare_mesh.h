@@ -8,19 +8,11 @@
 #include "absl/status/statusor.h"
 #include "core/base/fit_observer.h"
 #include "core/base/warning.h"
+#include "core/formats/mesh_limits.h"
+#include "core/formats/polygon_soup.h"
 #include "core/mesh/body_mesh.h"
-#include "core/mesh/polygon_soup.h"
 
 namespace capfit::mesh {
-
-// Limits on what is accepted. Sizes beyond them are refused before anything is allocated.
-struct MeshLimits {
-  std::size_t max_vertices = 2'000'000;
-  std::size_t max_faces = 2'000'000;
-  std::size_t max_corners_per_face = 1000;  // the flat end of a cut through a fine mesh
-  // A face of n corners becomes n - 2 triangles; all of them together. (Enough for quads.)
-  [[nodiscard]] std::size_t max_triangles() const { return 2 * max_faces; }
-};
 
 struct PreparedMesh {
   BodyMesh mesh;                  // still in the caller's unit and axes
@@ -59,7 +51,7 @@ struct PreparedMesh {
 // part of half the volume or more), NOT_ORIENTABLE, HOLE_NOT_CLOSED, OPEN_SURFACE (the holes are
 // larger than a third of the surface), NOT_MANIFOLD. CANCELLED where the observer says so.
 [[nodiscard]] absl::StatusOr<PreparedMesh> PrepareMesh(
-    const PolygonSoup& soup, const MeshLimits& limits = {},
+    const formats::PolygonSoup& soup, const formats::MeshLimits& limits = {},
     const FitObserver& observer = NullObserver());
 
 }  // namespace capfit::mesh

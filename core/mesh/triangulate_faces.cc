@@ -15,14 +15,14 @@ namespace {
 // Steps of the search for the least area (n^3 / 6 for a face of n corners, some nanoseconds each)
 // that one mesh may take: a million hexagons, or one face of 600 corners. What is beyond is filled
 // by cutting ears.
-constexpr std::size_t kMostSteps = 40'000'000;
+constexpr std::size_t kMostCuttingSteps = 40'000'000;
 
 // Where one face in this many would fold over, the quads were made by joining triangles.
 constexpr std::size_t kManyFolded = 100;
 
 class FaceTriangulator {
  public:
-  FaceTriangulator(const PolygonSoup& soup, std::span<const Eigen::Vector3d> positions)
+  FaceTriangulator(const formats::PolygonSoup& soup, std::span<const Eigen::Vector3d> positions)
       : soup_(soup), positions_(positions) {
     result_.triangles.reserve(soup.face_vertices.size() / 3);
   }
@@ -107,17 +107,17 @@ class FaceTriangulator {
     }
   }
 
-  const PolygonSoup& soup_;
+  const formats::PolygonSoup& soup_;
   std::span<const Eigen::Vector3d> positions_;
   TriangulatedFaces result_;
   std::vector<Eigen::Vector3d> points_;
-  std::size_t steps_left_ = kMostSteps;
+  std::size_t steps_left_ = kMostCuttingSteps;
   bool unfolds_ = false;  // by the other diagonal
 };
 
 }  // namespace
 
-TriangulatedFaces TriangulateFaces(const PolygonSoup& soup,
+TriangulatedFaces TriangulateFaces(const formats::PolygonSoup& soup,
                                    std::span<const Eigen::Vector3d> positions) {
   return FaceTriangulator(soup, positions).Run();
 }

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/formats/polygon_soup.h"
 #include "core/mesh/body_mesh.h"
-#include "core/mesh/polygon_soup.h"
 
 namespace capfit::mesh {
 
@@ -34,7 +34,7 @@ struct TriangulatedFaces {
 // Larger faces often have inward corners: they get the triangulation of least area
 // (beyond some millions of corners or some hundreds in one face, one by cutting ears). `soup` is
 // checked; `positions` stand for its own. O(corners) for the usual sizes of faces.
-[[nodiscard]] TriangulatedFaces TriangulateFaces(const PolygonSoup& soup,
+[[nodiscard]] TriangulatedFaces TriangulateFaces(const formats::PolygonSoup& soup,
                                                  std::span<const Eigen::Vector3d> positions);
 
 }  // namespace capfit::mesh

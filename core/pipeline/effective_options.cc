@@ -42,7 +42,7 @@ FitOptions EffectiveOptions(const FitOptions& asked, const geometry::Similarity&
   return effective;
 }
 
-BodyFacts FactsOf(const mesh::PolygonSoup& soup, const mesh::BodyMesh& fitted,
+BodyFacts FactsOf(const formats::PolygonSoup& soup, const mesh::BodyMesh& fitted,
                   const body::Body& body) {
   BodyFacts facts;
   facts.vertex_count = static_cast<std::int64_t>(soup.positions.size());

@@ -3,8 +3,8 @@
 #define CAPFIT_CORE_PIPELINE_EFFECTIVE_OPTIONS_H_
 
 #include "core/body/body.h"
+#include "core/formats/polygon_soup.h"
 #include "core/mesh/body_mesh.h"
-#include "core/mesh/polygon_soup.h"
 #include "core/pipeline/fit.h"
 
 namespace capfit::pipeline {
@@ -14,7 +14,7 @@ namespace capfit::pipeline {
                                           const geometry::Similarity& body_from_caller);
 
 // FitResult::body. `fitted`: the prepared mesh, in the caller's unit and axes.
-[[nodiscard]] BodyFacts FactsOf(const mesh::PolygonSoup& soup, const mesh::BodyMesh& fitted,
+[[nodiscard]] BodyFacts FactsOf(const formats::PolygonSoup& soup, const mesh::BodyMesh& fitted,
                                 const body::Body& body);
 
 }  // namespace capfit::pipeline

@@ -6,7 +6,7 @@
 #include "core/base/status.h"
 #include "core/base/version.h"
 #include "core/circle/error_curve.h"
-#include "core/coverage/cover_vertices.h"
+#include "core/coverage/cover_body.h"
 #include "core/mesh/prepare_mesh.h"
 #include "core/pipeline/effective_options.h"
 #include "core/pipeline/engines.h"
@@ -45,7 +45,7 @@ class BodyFit {
         clock_(clock),
         result_(result) {}
 
-  absl::Status Run(const mesh::PolygonSoup& soup, const mesh::BodyMesh& mesh) {
+  absl::Status Run(const formats::PolygonSoup& soup, const mesh::BodyMesh& mesh) {
     CAPFIT_RETURN_IF_ERROR(Understand(soup, mesh));
     CAPFIT_RETURN_IF_ERROR(BuildWithinLimits());
     CAPFIT_RETURN_IF_ERROR(Cover());
@@ -55,7 +55,7 @@ class BodyFit {
   }
 
  private:
-  absl::Status Understand(const mesh::PolygonSoup& soup, const mesh::BodyMesh& mesh) {
+  absl::Status Understand(const formats::PolygonSoup& soup, const mesh::BodyMesh& mesh) {
     clock_.Begin(Stage::kBody);
     body::BodyOptions body_options;
     body_options.unit = options_.unit;
@@ -67,7 +67,7 @@ class BodyFit {
     Append(body_->warnings, result_.warnings);
     result_.body_from_caller = body_->body_from_caller;
     caller_from_body_ = body_->body_from_caller.Inverse();
-    target_ = coverage::TargetOf(*body_, options_.parts);
+    target_ = tighten::TargetOf(*body_, options_.parts);
     result_.effective_options = EffectiveOptions(asked_, body_->body_from_caller);
     result_.body = FactsOf(soup, mesh, *body_);
     result_.landmarks = LandmarkResults(*body_, caller_from_body_);
@@ -110,7 +110,7 @@ class BodyFit {
   // method is at times the better one, and it is quick: then the smaller of the two sets is taken.
   bool ComparesWithPaper() const {
     if (options_.quality != Quality::kTight || options_.fit != FitMode::kEnclose) return false;
-    const circle::Budget budget = TotalBudget(options_);
+    const capsule::Budget budget = TotalBudget(options_);
     const body::PartSelection& parts = options_.parts;
     return !parts.torso || !parts.arms || !parts.legs ||
            Profile() == capsule::CapsuleProfile::kUniformRadius ||
@@ -120,8 +120,8 @@ class BodyFit {
 
   absl::Status Approximate() {
     clock_.Begin(Stage::kSection);
-    const circle::Budget total = TotalBudget(options_);
-    const circle::Budget chains = ChainBudget(total, OverheadOf(*body_, options_.parts, total));
+    const capsule::Budget total = TotalBudget(options_);
+    const capsule::Budget chains = ChainBudget(total, OverheadOf(*body_, options_.parts, total));
     section::FeaturePolygons features =
         section::ExtractFeaturePolygons(*body_, PlanSections(options_, *body_, chains), pool_);
     Append(std::move(features.warnings), result_.warnings);
@@ -150,7 +150,7 @@ class BodyFit {
 
   absl::Status Refine() {
     clock_.Begin(Stage::kRefine);
-    circle::Budget budget = TotalBudget(options_);
+    capsule::Budget budget = TotalBudget(options_);
     if (options_.polygon_error.has_value()) budget.max_primitives = set_.primitive_count();
     if (Profile() == capsule::CapsuleProfile::kUniformRadius) {
       // A tree: spheres without a capsule would be shapes of their own.
@@ -250,7 +250,7 @@ class BodyFit {
   FitResult& result_;
   std::optional<body::Body> body_;  // set by Understand
   geometry::Similarity caller_from_body_;
-  coverage::CoverTarget target_;
+  tighten::CoverTarget target_;
   capsule::PrimitiveSet set_;
   std::vector<Alternative> alternatives_;  // to set_; the smallest of all once they cover is taken
   double max_gap_m_ = 0.0;                 // certified
@@ -258,7 +258,7 @@ class BodyFit {
 
 }  // namespace
 
-absl::StatusOr<FitResult> Fit(const mesh::PolygonSoup& soup, const FitOptions& options,
+absl::StatusOr<FitResult> Fit(const formats::PolygonSoup& soup, const FitOptions& options,
                               const ThreadPool& pool, FitObserver& observer) {
   CAPFIT_RETURN_IF_ERROR(ValidateOptions(options));
   FitResult result;

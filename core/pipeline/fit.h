@@ -134,7 +134,7 @@ struct FitResult {
 // Fits one body. Errors: INVALID_ARGUMENT (mesh or option, field named), FAILED_PRECONDITION (not a
 // body, part missing), UNIMPLEMENTED, CANCELLED (the observer said so). Same soup and options, same
 // bits, for any pool.
-[[nodiscard]] absl::StatusOr<FitResult> Fit(const mesh::PolygonSoup& soup,
+[[nodiscard]] absl::StatusOr<FitResult> Fit(const formats::PolygonSoup& soup,
                                             const FitOptions& options, const ThreadPool& pool,
                                             FitObserver& observer);
 

@@ -52,22 +52,17 @@ ChainsPresent CountChains(const body::Body& body, const body::PartSelection& par
 }
 
 // A chain of `polygons` with `circles` on each and all pairs of neighbours joined.
-circle::PrimitiveCount ChainCost(int polygons, int circles) {
+capsule::PrimitiveCount ChainCost(int polygons, int circles) {
   return {polygons * circles, (polygons - 1) * circles * circles};
 }
 
 // With `torso_circles` on each torso polygon and one on each limb polygon.
-circle::PrimitiveCount Cost(const Layout& layout, const ChainsPresent& chains, int torso_circles) {
-  const circle::PrimitiveCount torso = ChainCost(layout.torso, torso_circles);
-  const circle::PrimitiveCount arm = ChainCost(layout.arm, 1);
-  const circle::PrimitiveCount leg = ChainCost(layout.leg, 1);
+capsule::PrimitiveCount Cost(const Layout& layout, const ChainsPresent& chains, int torso_circles) {
+  const capsule::PrimitiveCount torso = ChainCost(layout.torso, torso_circles);
+  const capsule::PrimitiveCount arm = ChainCost(layout.arm, 1);
+  const capsule::PrimitiveCount leg = ChainCost(layout.leg, 1);
   return {chains.torsos * torso.spheres + chains.arms * arm.spheres + chains.legs * leg.spheres,
           chains.torsos * torso.capsules + chains.arms * arm.capsules + chains.legs * leg.capsules};
-}
-
-bool Fits(const circle::PrimitiveCount& cost, const circle::Budget& budget) {
-  return cost.total() <= budget.max_primitives && cost.spheres <= budget.max_spheres &&
-         cost.capsules <= budget.max_capsules;
 }
 
 int CountBalls(const body::Body& body, const body::PartSelection& parts) {
@@ -96,7 +91,7 @@ absl::Status CheckLimit(const std::string& field, const std::optional<int>& limi
 }
 
 // What the engine allows is too little; what the caller gave is not.
-absl::Status EngineTooSmall(const Engine& engine, const circle::PrimitiveCount& least) {
+absl::Status EngineTooSmall(const Engine& engine, const capsule::PrimitiveCount& least) {
   const bool has_shapes = engine.max_shapes > 0;
   const std::string allowed = has_shapes ? absl::StrCat(engine.max_shapes, " shapes")
                                          : absl::StrCat(engine.max_spheres, " spheres and ",
@@ -110,14 +105,10 @@ absl::Status EngineTooSmall(const Engine& engine, const circle::PrimitiveCount& 
                       {{"value", allowed}, {"limit", absl::StrCat(">= ", needed)}});
 }
 
-int Reduced(int limit, int by) {
-  return limit == std::numeric_limits<int>::max() ? limit : std::max(0, limit - by);
-}
-
 }  // namespace
 
-circle::Budget TotalBudget(const FitOptions& options) {
-  circle::Budget budget;
+capsule::Budget TotalBudget(const FitOptions& options) {
+  capsule::Budget budget;
   if (options.max_primitives.has_value()) budget.max_primitives = *options.max_primitives;
   if (options.max_spheres.has_value()) budget.max_spheres = *options.max_spheres;
   if (options.max_capsules.has_value()) budget.max_capsules = *options.max_capsules;
@@ -145,25 +136,25 @@ circle::Budget TotalBudget(const FitOptions& options) {
 }
 
 Overhead OverheadOf(const body::Body& body, const body::PartSelection& parts,
-                    const circle::Budget& total) {
+                    const capsule::Budget& total) {
   Overhead overhead;
   overhead.balls = CountBalls(body, parts);
   const ChainsPresent chains = CountChains(body, parts);
   if (chains.torsos == 0) return overhead;
   const int links = chains.arms + chains.legs;
-  circle::PrimitiveCount least = Cost(kLadder.front(), chains, 1);
+  capsule::PrimitiveCount least = Cost(kLadder.front(), chains, 1);
   least.spheres += overhead.balls;
   least.capsules += links;
-  if (Fits(least, total)) overhead.links = links;
+  if (total.Allows(least)) overhead.links = links;
   return overhead;
 }
 
 absl::Status CheckBudget(const body::Body& body, const FitOptions& asked,
                          const FitOptions& limited) {
   const int balls = CountBalls(body, asked.parts);
-  circle::PrimitiveCount least = Cost(kLadder.front(), CountChains(body, asked.parts), 1);
+  capsule::PrimitiveCount least = Cost(kLadder.front(), CountChains(body, asked.parts), 1);
   least.spheres += balls;
-  if (Fits(least, TotalBudget(limited))) return absl::OkStatus();
+  if (TotalBudget(limited).Allows(least)) return absl::OkStatus();
   const Engine* const engine = FindEngine(asked.engine);
   std::string sharing;
   if (engine != nullptr && engine->profile == capsule::CapsuleProfile::kUniformRadius) {
@@ -180,17 +171,16 @@ absl::Status CheckBudget(const body::Body& body, const FitOptions& asked,
   return Refused(ErrorReason::kInternal, "the smallest set is beyond a budget that nobody gave");
 }
 
-circle::Budget ChainBudget(const circle::Budget& total, const Overhead& overhead) {
-  return {Reduced(total.max_primitives, overhead.balls + overhead.links),
-          Reduced(total.max_spheres, overhead.balls), Reduced(total.max_capsules, overhead.links)};
+capsule::Budget ChainBudget(const capsule::Budget& total, const Overhead& overhead) {
+  return total.Without({overhead.balls, overhead.links});
 }
 
 section::SectionOptions PlanSections(const FitOptions& options, const body::Body& body,
-                                     const circle::Budget& chain_budget) {
+                                     const capsule::Budget& chain_budget) {
   const ChainsPresent chains = CountChains(body, options.parts);
   Layout chosen = kLadder.front();
   for (const Layout& layout : kLadder) {
-    if (Fits(Cost(layout, chains, 2), chain_budget)) chosen = layout;
+    if (chain_budget.Allows(Cost(layout, chains, 2))) chosen = layout;
   }
   if (options.polygon_error.has_value()) chosen = kPaperLayout;
   section::SectionOptions sections;

@@ -4,7 +4,7 @@
 
 #include "absl/status/status.h"
 #include "core/body/body.h"
-#include "core/circle/allocation.h"
+#include "core/capsule/allocation.h"
 #include "core/pipeline/fit.h"
 #include "core/section/feature_polygon.h"
 
@@ -12,7 +12,7 @@ namespace capfit::pipeline {
 
 // The caller's budget for the whole set; never more than 500 spheres and 1000 capsules. Spheres
 // alone: twice as many capsules. An error threshold: the largest that could be asked for.
-[[nodiscard]] circle::Budget TotalBudget(const FitOptions& options);
+[[nodiscard]] capsule::Budget TotalBudget(const FitOptions& options);
 
 // Balls that head, hands and feet will take, and capsules that link limbs to the trunk (none where
 // the budget has no room for them beside the smallest chains).
@@ -21,7 +21,7 @@ struct Overhead {
   int links = 0;
 };
 [[nodiscard]] Overhead OverheadOf(const body::Body& body, const body::PartSelection& parts,
-                                  const circle::Budget& total);
+                                  const capsule::Budget& total);
 
 // INVALID_ARGUMENT naming the limit that is too low for the parts found: a chain takes two spheres
 // and a capsule at least, a head, hand or foot one sphere. It is the caller's own limit in `asked`,
@@ -30,14 +30,14 @@ struct Overhead {
                                        const FitOptions& limited);
 
 // `total` without the overhead: what the feature polygons of the chains may use.
-[[nodiscard]] circle::Budget ChainBudget(const circle::Budget& total, const Overhead& overhead);
+[[nodiscard]] capsule::Budget ChainBudget(const capsule::Budget& total, const Overhead& overhead);
 
 // The paper's twenty polygons (6 on the torso, 3 on an arm, 4 on a leg) where the budget carries
 // them; more above that, fewer below: the largest layout of a fixed ladder whose
 // cost with two circles on the torso and one on the limbs fits.
 [[nodiscard]] section::SectionOptions PlanSections(const FitOptions& options,
                                                    const body::Body& body,
-                                                   const circle::Budget& chain_budget);
+                                                   const capsule::Budget& chain_budget);
 
 }  // namespace capfit::pipeline
 

@@ -8,7 +8,7 @@
 #include "core/capsule/build_primitives.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/spend_rest.h"
-#include "core/refine/best_fit_settle.h"
+#include "core/refine/best_fit/best_fit_settle.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -19,34 +19,6 @@ constexpr int kMaxRounds = 6;
 constexpr int kMaxSettlings = 3;
 constexpr double kRateFromCirclesM = 0.008;
 constexpr double kRateFromCutsM = 0.003;
-
-struct Counts {
-  int spheres = 0;
-  int capsules = 0;
-};
-
-Counts CountsOf(const capsule::PrimitiveSet& set) {
-  return {static_cast<int>(set.spheres.size()), static_cast<int>(set.capsules.size())};
-}
-
-bool Fits(const Counts& counts, const circle::Budget& budget) {
-  return counts.spheres + counts.capsules <= budget.max_primitives &&
-         counts.spheres <= budget.max_spheres && counts.capsules <= budget.max_capsules;
-}
-
-// How many primitives the set leaves unused. Limits may be "none", the largest int.
-int Unused(const Counts& counts, const circle::Budget& budget) {
-  using Wide = std::int64_t;
-  const Wide primitives = Wide{budget.max_primitives} - counts.spheres - counts.capsules;
-  const Wide each = std::max(Wide{0}, Wide{budget.max_spheres} - counts.spheres) +
-                    std::max(Wide{0}, Wide{budget.max_capsules} - counts.capsules);
-  return static_cast<int>(std::min(primitives, each));
-}
-
-Spare SpareOf(const Counts& spent, const circle::Budget& budget) {
-  return {budget.max_spheres - spent.spheres, budget.max_capsules - spent.capsules,
-          budget.max_primitives - spent.spheres - spent.capsules};
-}
 
 PrimitiveStage Build(const body::Body& body, const FitOptions& options,
                      std::span<const section::FeaturePolygon> polygons,
@@ -65,15 +37,15 @@ PrimitiveStage Build(const body::Body& body, const FitOptions& options,
 PrimitiveStage BuildByThreshold(const body::Body& body, const FitOptions& options,
                                 std::span<const section::FeaturePolygon> polygons,
                                 const circle::ErrorCurves& curves) {
-  const std::vector<int> counts = circle::AllocateByThreshold(
+  const std::vector<int> counts = capsule::AllocateByThreshold(
       polygons, *options.polygon_error, curves.max_circles(), curves.AsErrorOf());
   return Build(body, options, polygons, counts, /*link_limbs=*/true, curves);
 }
 
 // `budget` with `more` primitives on top of each limit that is set.
-circle::Budget Raised(circle::Budget budget, int more) {
+capsule::Budget Raised(capsule::Budget budget, int more) {
   for (int* limit : {&budget.max_primitives, &budget.max_spheres, &budget.max_capsules}) {
-    if (*limit < std::numeric_limits<int>::max() - more) *limit += more;
+    if (*limit < capsule::kNoLimit) *limit += more;
   }
   return budget;
 }
@@ -83,53 +55,46 @@ circle::Budget Raised(circle::Budget budget, int more) {
 PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
                                 std::span<const section::FeaturePolygon> polygons,
                                 const circle::ErrorCurves& curves) {
-  const circle::Budget total = TotalBudget(options);
+  const capsule::Budget total = TotalBudget(options);
   if (options.polygon_error.has_value()) {
     PrimitiveStage stage = BuildByThreshold(body, options, polygons, curves);
-    if (Fits(CountsOf(stage.set), total)) return stage;
+    if (total.Allows(stage.set.count())) return stage;
     // More than any set may have: then the largest.
   }
   const Overhead overhead = OverheadOf(body, options.parts, total);
-  const circle::Budget chains = ChainBudget(total, overhead);
+  const capsule::Budget chains = ChainBudget(total, overhead);
   PrimitiveStage best;
   std::vector<int> tried;
   int bonus = 0;  // what pruning is expected to free again
   for (int round = 0; round < kMaxRounds; ++round) {
-    const std::vector<int> counts = circle::AllocateUnderBudget(
+    const std::vector<int> counts = capsule::AllocateUnderBudget(
         polygons, Raised(chains, bonus), curves.max_circles(), curves.AsErrorOf());
     if (round > 0 && counts == tried)
       break;  // the first of none is none, where there are only balls
     tried = counts;
     PrimitiveStage stage = Build(body, options, polygons, counts, overhead.links > 0, curves);
-    const Counts spent = CountsOf(stage.set);
-    const bool fits = Fits(spent, total);
-    if (round == 0 || (fits && Unused(spent, total) < Unused(CountsOf(best.set), total))) {
-      best = std::move(stage);
-    }
+    const bool fits = total.Allows(stage.set.count());
+    const int unused = total.Unused(stage.set.count());
+    if (round == 0 || (fits && unused < total.Unused(best.set.count()))) best = std::move(stage);
     if (!fits) break;
-    const int unused = Unused(spent, total);
     if (unused <= kUnusedAllowed) break;
     bonus += unused;
   }
-  const Counts spent = CountsOf(best.set);
-  if (Unused(spent, total) > kUnusedAllowed) {
-    SpendRest(SpareOf(spent, total), best.set);
-  }
+  if (total.Unused(best.set.count()) > kUnusedAllowed) SpendRest(total, best.set);
   return best;
 }
 
 capsule::PrimitiveSet SettleBestFit(const body::Body& body, const FitOptions& options,
                                     capsule::PrimitiveSet set) {
-  circle::Budget total = TotalBudget(options);
+  capsule::Budget total = TotalBudget(options);
   if (options.polygon_error.has_value()) total.max_primitives = set.primitive_count();
   const refine::OccupancyGrid grid = refine::BestFitGrid(body, options.parts);
   double rate_m = kRateFromCirclesM;
   for (int round = 0; round < kMaxSettlings; ++round) {
     set = refine::SettleBestFit(grid, rate_m, options.seed, std::move(set));
     capsule::RemoveCoveredCapsules(set);
-    const Counts spent = CountsOf(set);
-    if (Unused(spent, total) <= kUnusedAllowed) break;
-    SpendRest(SpareOf(spent, total), set);
+    if (total.Unused(set.count()) <= kUnusedAllowed) break;
+    SpendRest(total, set);
     rate_m = kRateFromCutsM;
   }
   return set;

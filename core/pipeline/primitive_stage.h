@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/body/body.h"
+#include "core/capsule/allocation.h"
 #include "core/capsule/primitive_set.h"
-#include "core/circle/allocation.h"
 #include "core/circle/approximate_polygon.h"
 #include "core/circle/error_curve.h"
 #include "core/pipeline/fit.h"

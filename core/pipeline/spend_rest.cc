@@ -58,12 +58,12 @@ void CutWithImage(std::size_t index, std::optional<std::size_t> image, Primitive
 
 }  // namespace
 
-void SpendRest(Spare spare, PrimitiveSet& set) {
+void SpendRest(const capsule::Budget& budget, PrimitiveSet& set) {
   constexpr double kShareOfHalf = 0.25;
   std::vector<double> promise;
   for (std::size_t i = 0; i < set.capsules.size(); ++i) promise.push_back(SideArea(set, i));
   for (;;) {
-    const int cuts = std::min({spare.spheres, spare.capsules, spare.primitives / 2});
+    const int cuts = budget.Without(set.count()).Cuts();
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < set.capsules.size(); ++i) {
       const std::optional<std::size_t> image = MirrorOf(set, i);
@@ -79,10 +79,6 @@ void SpendRest(Spare spare, PrimitiveSet& set) {
     promise[*best] = half;
     if (is_pair) promise[*image] = half;
     promise.resize(set.capsules.size(), half);
-    const int cost = is_pair ? 2 : 1;
-    spare.spheres -= cost;
-    spare.capsules -= cost;
-    spare.primitives -= 2 * cost;
   }
 }
 

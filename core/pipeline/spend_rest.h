@@ -6,18 +6,11 @@
 
 namespace capfit::pipeline {
 
-// What may still be spent, at most of each.
-struct Spare {
-  int spheres = 0;
-  int capsules = 0;
-  int primitives = 0;
-};
-
 // Cuts the capsules with most surface in two, by a sphere in their middle that changes nothing yet:
 // coverage then moves it to where it serves. A cut costs one sphere and one capsule, a mirrored
-// pair of cuts twice that. Stops when fewer than a cut's worth is left of either. Either half of a
-// cut capsule counts as a quarter of it.
-void SpendRest(Spare spare, capsule::PrimitiveSet& set);
+// pair of cuts twice that. Stops when no cut fits into `budget`, what the whole set may have.
+// Either half of a cut capsule counts as a quarter of it.
+void SpendRest(const capsule::Budget& budget, capsule::PrimitiveSet& set);
 
 }  // namespace capfit::pipeline
 

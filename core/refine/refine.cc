@@ -8,16 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "core/coverage/cover_vertices.h"
-#include "core/refine/best_fit_objective.h"
-#include "core/refine/enclosing_search.h"
-#include "core/refine/enclosing_task.h"
-#include "core/refine/graph_edit.h"
-#include "core/refine/growth.h"
+#include "core/refine/best_fit/best_fit_objective.h"
+#include "core/refine/best_fit/growth.h"
+#include "core/refine/best_fit/occupancy_grid.h"
+#include "core/refine/enclosing/enclosing_search.h"
+#include "core/refine/enclosing/enclosing_task.h"
+#include "core/refine/graph/graph_edit.h"
 #include "core/refine/internal.h"
-#include "core/refine/layout.h"
-#include "core/refine/occupancy_grid.h"
-#include "core/refine/starting_graphs.h"
+#include "core/refine/layouts/layout.h"
+#include "core/refine/layouts/starting_graphs.h"
 
 namespace capfit::refine {
 namespace {
@@ -27,7 +26,6 @@ using Vec3 = Eigen::Vector3d;
 constexpr double kCellM = 0.008;         // of the occupancy grid
 constexpr double kThinnedCellM = 0.012;  // of the points that growing works on
 constexpr double kFoldCellM = 2e-5;      // mirrored vertices this close count as one
-constexpr int kNoLimit = 1'000'000;
 // What a sphere or chain that hangs on nothing counts beside its primitives in a best fit: in one
 // piece is what users want, but it costs a twentieth to a tenth of the error.
 constexpr double kPieceCost = 0.35;
@@ -48,11 +46,6 @@ constexpr double kSettled = 0.02;
 constexpr double kGrown = 0.5;
 constexpr double kExchanged = 0.75;
 constexpr double kFinished = 0.78;
-
-Spending SpendingOf(const circle::Budget& budget) {
-  return {std::min(budget.max_primitives, kNoLimit), std::min(budget.max_spheres, kNoLimit),
-          std::min(budget.max_capsules, kNoLimit)};
-}
 
 // The vertices of the selected parts; folded to x >= 0, copies dropped, where
 // symmetric.
@@ -82,11 +75,11 @@ std::vector<CoverPoint> SelectedPoints(const body::Body& body, const RefineOptio
 
 // How best fits are grown: their edits show late what they are worth, and exchanges pay while they
 // are quick.
-GrowthOptions PlanGrowth(const Spending& spending) {
+GrowthOptions PlanGrowth(const capsule::Budget& budget) {
   GrowthOptions plan;
   plan.piece_cost = kPieceCost;
   plan.thorough_share = 0.15;
-  const bool few = std::min(spending.max_primitives, spending.max_spheres) <= kFewPrimitives;
+  const bool few = std::min(budget.max_primitives, budget.max_spheres) <= kFewPrimitives;
   plan.exchanges = few ? kExchangesOfFew : kExchangesOfMany;
   return plan;
 }
@@ -97,11 +90,11 @@ void RemoveUseless(CapsuleGraph& graph) {
 }
 
 // Settles the start and brings it up to the budget.
-CapsuleGraph FindSet(const Objective& objective, const Spending& spending, const ThreadPool& pool,
-                     double until, WorkMeter& meter, CapsuleGraph graph) {
+CapsuleGraph FindSet(const Objective& objective, const capsule::Budget& budget,
+                     const ThreadPool& pool, double until, WorkMeter& meter, CapsuleGraph graph) {
   const double begin = meter.until();
   const auto at = [&](double share) { return begin + share * (until - begin); };
-  GrowthOptions plan = PlanGrowth(spending);
+  GrowthOptions plan = PlanGrowth(budget);
   GrowthOptions at_first = plan;
   at_first.exchanges = 0;
   at_first.until = at(kGrown);
@@ -109,9 +102,9 @@ CapsuleGraph FindSet(const Objective& objective, const Spending& spending, const
   meter.Expect(at(kSettled), 1);
   objective.Settle(Effort::kRough, graph);
   RemoveUseless(graph);
-  Spare(objective, spending, at_first, pool, meter, graph);
-  Grow(objective, spending, at_first, pool, meter, graph);
-  Grow(objective, spending, plan, pool, meter, graph);
+  Spare(objective, budget, at_first, pool, meter, graph);
+  Grow(objective, budget, at_first, pool, meter, graph);
+  Grow(objective, budget, plan, pool, meter, graph);
   meter.Expect(at(kFinished), 1);
   objective.Settle(Effort::kFinish, graph);
   RemoveUseless(graph);
@@ -120,24 +113,24 @@ CapsuleGraph FindSet(const Objective& objective, const Spending& spending, const
   GrowthOptions last;
   last.piece_cost = kPieceCost;
   last.until = until;
-  Grow(objective, spending, last, pool, meter, graph);
+  Grow(objective, budget, last, pool, meter, graph);
   if (graph.primitive_count() != used) objective.Settle(Effort::kTighten, graph);
   meter.Expect(until, 1);
-  SpendByCutting(objective, spending, meter, graph);
+  SpendByCutting(objective, budget, meter, graph);
   return graph;
 }
 
 // The best set that one of the starts leads to.
-CapsuleGraph FindBestSet(const Objective& objective, const Spending& spending,
+CapsuleGraph FindBestSet(const Objective& objective, const capsule::Budget& budget,
                          const ThreadPool& pool, WorkMeter& meter,
                          std::vector<CapsuleGraph> starts) {
   CapsuleGraph best;
   double least = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const double until = static_cast<double>(i + 1) / static_cast<double>(starts.size());
-    CapsuleGraph graph = FindSet(objective, spending, pool, until, meter, std::move(starts[i]));
-    // Over the spending only where a cancellation cut the search short.
-    const double value = objective.Value(graph) + Excess(spending, graph);
+    CapsuleGraph graph = FindSet(objective, budget, pool, until, meter, std::move(starts[i]));
+    // Over the budget only where a cancellation cut the search short.
+    const double value = objective.Value(graph) + budget.Excess(graph.count());
     if (value < least) {
       least = value;
       best = std::move(graph);
@@ -148,13 +141,13 @@ CapsuleGraph FindBestSet(const Objective& objective, const Spending& spending,
 
 CapsuleGraph FindBestFit(const body::Body& body, const RefineOptions& options,
                          const ThreadPool& pool, WorkMeter& meter) {
-  const Spending spending = SpendingOf(options.budget);
+  const capsule::Budget& budget = options.budget;
   std::vector<CapsuleGraph> starts =
-      StartingGraphs(Guise::kBestFit, body, options.parts, spending, /*sizes=*/1, kMostSpared);
+      StartingGraphs(Guise::kBestFit, body, options.parts, budget, /*sizes=*/1, kMostSpared);
   OccupancyGrid grid = MakeOccupancyGrid(body, options.parts, kCellM, body.is_symmetric);
   CoverPoints thinned = MakeCoverPoints(ThinOut(SelectedPoints(body, options), kThinnedCellM));
   const BestFitObjective objective(std::move(grid), std::move(thinned), options.seed);
-  return FindBestSet(objective, spending, pool, meter, std::move(starts));
+  return FindBestSet(objective, budget, pool, meter, std::move(starts));
 }
 
 // Settles each of the graphs once more, with points enough to tell their values apart; the best
@@ -186,19 +179,19 @@ std::vector<CapsuleGraph> Finish(const EnclosingTask& task, const std::vector<Ca
   return result;
 }
 
-std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const coverage::CoverTarget& target,
+std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const tighten::CoverTarget& target,
                                         const RefineOptions& options, const ThreadPool& pool,
                                         WorkMeter& meter) {
-  const Spending spending = SpendingOf(options.budget);
-  const int primitives = spending.UsualPrimitives();
+  const capsule::Budget& budget = options.budget;
+  const int primitives = budget.UsualPrimitives();
   const double share = 1.0 / std::sqrt(static_cast<double>(primitives));
   const double spacing = std::clamp(kSpacing * share, kLeastSpacing, kMostSpacing);
   const EnclosingTask task(target, body.is_symmetric, options.tolerance_m, spacing);
   // Up to twice as many: what is spared in a good layout leaves a better one than growth finds.
   const int most_spared = primitives > kFewPrimitives ? 0 : primitives;
   const std::vector<CapsuleGraph> starts =
-      StartingGraphs(Guise::kEnclose, body, options.parts, spending, /*sizes=*/2, most_spared);
-  const std::vector<CapsuleGraph> found = FindEnclosingGraphs(task, spending, starts, pool, meter);
+      StartingGraphs(Guise::kEnclose, body, options.parts, budget, /*sizes=*/2, most_spared);
+  const std::vector<CapsuleGraph> found = FindEnclosingGraphs(task, budget, starts, pool, meter);
   const double fine_spacing = std::clamp(kFineSpacing * share, kLeastSpacing, spacing);
   const EnclosingTask fine(target, body.is_symmetric, options.tolerance_m, fine_spacing);
   std::vector<CapsuleGraph> finished = Finish(fine, found, pool, meter);
@@ -231,7 +224,7 @@ void MirrorParts(const body::PartSelection& parts, capsule::PrimitiveSet& set) {
 }  // namespace
 
 std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
-                                             const coverage::CoverTarget& target,
+                                             const tighten::CoverTarget& target,
                                              const RefineOptions& options, const ThreadPool& pool,
                                              FitObserver& observer) {
   WorkMeter meter(observer);

@@ -9,16 +9,15 @@
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/capsule/primitive_set.h"
-#include "core/circle/allocation.h"
-#include "core/coverage/cover_vertices.h"
+#include "core/tighten/cover_target.h"
 
 namespace capfit::refine {
 
 struct RefineOptions {
-  // True: the selected parts are inside but for a little that coverage::CoverBody takes in, without
+  // True: the selected parts are inside but for a little that coverage takes in, without
   // loosening the set again. False: the smallest E_r.
   bool enclose = true;
-  circle::Budget budget;     // at least 3 spheres' worth
+  capsule::Budget budget;    // at least 3 spheres' worth
   double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, 0.1]
   body::PartSelection parts;
   std::uint64_t seed = 0;  // of the best fit's samples
@@ -31,13 +30,13 @@ struct RefineOptions {
 // third of a primitive) and leaves out no limb; beside the best of unconnected spheres that costs
 // about a twentieth of E_r.
 //
-// `target`: coverage::TargetOf(body, options.parts). Returns one set or, of larger enclosing ones,
+// `target`: tighten::TargetOf(body, options.parts). Returns one set or, of larger enclosing ones,
 // a few, those that seem best first: which of them is tightest only coverage can tell. Same input,
 // same bits, for any pool. On cancellation the set so far comes back. Tells the
 // observer the fraction of the stage. Grows with budget and
 // vertices.
 [[nodiscard]] std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
-                                                           const coverage::CoverTarget& target,
+                                                           const tighten::CoverTarget& target,
                                                            const RefineOptions& options,
                                                            const ThreadPool& pool,
                                                            FitObserver& observer);

@@ -24,8 +24,8 @@ endfunction()
 capfit_find_eigen_alignment(eigen_alignment)
 
 # --- capfit::core: all rooms in one object (why: one_object.sh)
-set(rooms base geometry mesh mannequin body section circle capsule coverage refine metrics skinning
-          pipeline)
+set(rooms base geometry formats mesh mannequin body section circle capsule tighten refine coverage
+          metrics skinning pipeline)
 set(room_files)
 foreach(room IN LISTS rooms)
   list(APPEND room_files "$<TARGET_FILE:capfit_${room}>")
@@ -51,7 +51,7 @@ target_link_libraries(capfit_whole_core INTERFACE
 install(TARGETS capfit_whole_core EXPORT capfitCore COMPONENT library)
 install(EXPORT capfitCore FILE capfitCoreTargets.cmake NAMESPACE capfit::
   DESTINATION "${package_dir}" COMPONENT library)
-# (Three headers of core/mesh name a JSON library that is no part of the interface.)
+# (Three headers of core/formats name a JSON library that is no part of the interface.)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/core" DESTINATION "${header_dir}" COMPONENT library
   FILES_MATCHING PATTERN "*.h" PATTERN "gl[bt]*_*.h" EXCLUDE)
 set(CAPFIT_INSTALLED_COMPONENTS core)

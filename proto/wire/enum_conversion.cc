@@ -27,13 +27,13 @@ constexpr Table<body::UpAxis, v1::UpAxis, 4> kUpAxes = {
      {body::UpAxis::kY, v1::UP_AXIS_Y},
      {body::UpAxis::kZ, v1::UP_AXIS_Z}}};
 
-constexpr Table<mesh::MeshFormat, v1::MeshFileFormat, 6> kFormats = {
-    {{mesh::MeshFormat::kUnknown, v1::MESH_FILE_FORMAT_UNSPECIFIED},
-     {mesh::MeshFormat::kObj, v1::MESH_FILE_FORMAT_OBJ},
-     {mesh::MeshFormat::kPly, v1::MESH_FILE_FORMAT_PLY},
-     {mesh::MeshFormat::kStl, v1::MESH_FILE_FORMAT_STL},
-     {mesh::MeshFormat::kOff, v1::MESH_FILE_FORMAT_OFF},
-     {mesh::MeshFormat::kGlb, v1::MESH_FILE_FORMAT_GLB}}};
+constexpr Table<formats::MeshFormat, v1::MeshFileFormat, 6> kFormats = {
+    {{formats::MeshFormat::kUnknown, v1::MESH_FILE_FORMAT_UNSPECIFIED},
+     {formats::MeshFormat::kObj, v1::MESH_FILE_FORMAT_OBJ},
+     {formats::MeshFormat::kPly, v1::MESH_FILE_FORMAT_PLY},
+     {formats::MeshFormat::kStl, v1::MESH_FILE_FORMAT_STL},
+     {formats::MeshFormat::kOff, v1::MESH_FILE_FORMAT_OFF},
+     {formats::MeshFormat::kGlb, v1::MESH_FILE_FORMAT_GLB}}};
 
 constexpr Table<body::LandmarkMethod, v1::LandmarkMethod, 4> kMethods = {
     {{body::LandmarkMethod::kMeasured, v1::LANDMARK_METHOD_MEASURED},
@@ -109,7 +109,7 @@ std::optional<Core> CoreOf(const Table<Core, Wire, n>& table, Wire value) {
 
 v1::LengthUnit ToWire(body::Unit unit) { return WireOf(kUnits, unit); }
 v1::UpAxis ToWire(body::UpAxis up) { return WireOf(kUpAxes, up); }
-v1::MeshFileFormat ToWire(mesh::MeshFormat format) { return WireOf(kFormats, format); }
+v1::MeshFileFormat ToWire(formats::MeshFormat format) { return WireOf(kFormats, format); }
 v1::LandmarkMethod ToWire(body::LandmarkMethod method) { return WireOf(kMethods, method); }
 v1::BodyPart ToWire(body::Part part) { return WireOf(kParts, part); }
 v1::Stage ToWire(Stage stage) { return WireOf(kStages, stage); }
@@ -121,7 +121,7 @@ v1::CapsuleProfile ToWire(capsule::CapsuleProfile profile) { return WireOf(kProf
 
 std::optional<body::Unit> FromWire(v1::LengthUnit unit) { return CoreOf(kUnits, unit); }
 std::optional<body::UpAxis> FromWire(v1::UpAxis up) { return CoreOf(kUpAxes, up); }
-std::optional<mesh::MeshFormat> FromWire(v1::MeshFileFormat format) {
+std::optional<formats::MeshFormat> FromWire(v1::MeshFileFormat format) {
   return CoreOf(kFormats, format);
 }
 std::optional<body::LandmarkMethod> FromWire(v1::LandmarkMethod method) {

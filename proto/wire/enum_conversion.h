@@ -19,7 +19,7 @@
 #include "core/body/anatomy.h"
 #include "core/body/find_body.h"
 #include "core/capsule/capsule_profile.h"
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 #include "core/section/feature_polygon.h"
 
@@ -27,7 +27,7 @@ namespace capfit::wire {
 
 [[nodiscard]] v1::LengthUnit ToWire(body::Unit unit);
 [[nodiscard]] v1::UpAxis ToWire(body::UpAxis up);
-[[nodiscard]] v1::MeshFileFormat ToWire(mesh::MeshFormat format);
+[[nodiscard]] v1::MeshFileFormat ToWire(formats::MeshFormat format);
 [[nodiscard]] v1::LandmarkMethod ToWire(body::LandmarkMethod method);
 [[nodiscard]] v1::BodyPart ToWire(body::Part part);
 [[nodiscard]] v1::Stage ToWire(Stage stage);
@@ -39,7 +39,7 @@ namespace capfit::wire {
 
 [[nodiscard]] std::optional<body::Unit> FromWire(v1::LengthUnit unit);
 [[nodiscard]] std::optional<body::UpAxis> FromWire(v1::UpAxis up);
-[[nodiscard]] std::optional<mesh::MeshFormat> FromWire(v1::MeshFileFormat format);
+[[nodiscard]] std::optional<formats::MeshFormat> FromWire(v1::MeshFileFormat format);
 [[nodiscard]] std::optional<body::LandmarkMethod> FromWire(v1::LandmarkMethod method);
 [[nodiscard]] std::optional<body::Part> FromWire(v1::BodyPart part);
 [[nodiscard]] std::optional<Stage> FromWire(v1::Stage stage);

@@ -15,27 +15,27 @@
 #include <string>
 
 #include "core/body/find_body.h"
+#include "core/formats/read_mesh.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/mesh/read_mesh.h"
 
 namespace capfit::body {
 namespace {
 
-mesh::PolygonSoup Mannequin(std::int64_t faces) {
+formats::PolygonSoup Mannequin(std::int64_t faces) {
   mannequin::MannequinOptions options;
   options.faces = static_cast<int>(faces);
   options.quads = false;
   return *mannequin::MakeMannequin(options);
 }
 
-mesh::PolygonSoup NamedMesh() {
+formats::PolygonSoup NamedMesh() {
   const char* const named = std::getenv("CAPFIT_BENCHMARK_MESH");
   if (named == nullptr) return Mannequin(64'000);
   const std::string path = named;
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  auto soup = mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(path));
+  auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)), formats::FormatFromFileName(path));
   return soup.ok() ? *std::move(soup) : Mannequin(64'000);
 }
 
@@ -45,7 +45,7 @@ void CountTriangles(std::int64_t triangles, benchmark::State& state) {
 }
 
 void BM_PrepareMesh(benchmark::State& state) {
-  const mesh::PolygonSoup soup = Mannequin(state.range(0));
+  const formats::PolygonSoup soup = Mannequin(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(mesh::PrepareMesh(soup));
   CountTriangles(static_cast<std::int64_t>(soup.face_vertices.size() / 3), state);
 }
@@ -59,7 +59,7 @@ void BM_FindBody(benchmark::State& state) {
 }
 
 void BM_Both(benchmark::State& state) {
-  const mesh::PolygonSoup soup = Mannequin(state.range(0));
+  const formats::PolygonSoup soup = Mannequin(state.range(0));
   const ThreadPool pool(1);
   const NullObserver observer;
   for (auto _ : state) {
@@ -70,7 +70,7 @@ void BM_Both(benchmark::State& state) {
 }
 
 void BM_Call(benchmark::State& state) {
-  const mesh::PolygonSoup soup = state.range(0) > 0 ? Mannequin(state.range(0)) : NamedMesh();
+  const formats::PolygonSoup soup = state.range(0) > 0 ? Mannequin(state.range(0)) : NamedMesh();
   const ThreadPool pool(1);
   const NullObserver observer;
   for (auto _ : state) {

@@ -13,7 +13,7 @@ namespace capfit::bench {
 namespace {
 
 using Eigen::Vector3d;
-using mesh::PolygonSoup;
+using formats::PolygonSoup;
 
 void AddTriangle(std::size_t a, std::size_t b, std::size_t c, PolygonSoup& soup) {
   for (const std::size_t v : {a, b, c}) soup.face_vertices.push_back(static_cast<std::uint32_t>(v));
@@ -107,7 +107,7 @@ PolygonSoup Divided(const PolygonSoup& soup) {
   return fine;
 }
 
-HostileInput Of(PolygonSoup soup) { return {{}, mesh::MeshFormat::kUnknown, std::move(soup)}; }
+HostileInput Of(PolygonSoup soup) { return {{}, formats::MeshFormat::kUnknown, std::move(soup)}; }
 
 HostileInput RandomCorners() {
   Random random(1);

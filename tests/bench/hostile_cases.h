@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/polygon_soup.h"
-#include "core/mesh/read_mesh.h"
+#include "core/formats/polygon_soup.h"
+#include "core/formats/read_mesh.h"
 
 namespace capfit::bench {
 
 // A file (of 128 MB at most, what the server takes) or, where `bytes` is empty, arrays.
 struct HostileInput {
   std::string bytes;
-  mesh::MeshFormat format = mesh::MeshFormat::kUnknown;
-  mesh::PolygonSoup soup;
+  formats::MeshFormat format = formats::MeshFormat::kUnknown;
+  formats::PolygonSoup soup;
 };
 
 struct HostileCase {

@@ -9,7 +9,7 @@
 namespace capfit::bench {
 namespace {
 
-using mesh::MeshFormat;
+using formats::MeshFormat;
 
 constexpr std::size_t kFileBytes = std::size_t{127} << 20;
 

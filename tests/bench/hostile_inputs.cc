@@ -17,8 +17,8 @@
 
 #include "core/base/status.h"
 #include "core/body/find_body.h"
+#include "core/formats/read_mesh.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/mesh/read_mesh.h"
 #include "core/pipeline/fit.h"
 #include "tests/bench/hostile_cases.h"
 
@@ -63,7 +63,7 @@ Measured Measure(HostileInput& input) {
   Measured measured;
   double start = Seconds();
   if (!input.bytes.empty()) {
-    auto soup = mesh::ReadMesh(std::as_bytes(std::span(input.bytes)), input.format);
+    auto soup = formats::ReadMesh(std::as_bytes(std::span(input.bytes)), input.format);
     measured.read_s = Seconds() - start;
     if (!soup.ok()) {
       measured.outcome = OutcomeOf(soup.status());
@@ -72,7 +72,7 @@ Measured Measure(HostileInput& input) {
     input.soup = *std::move(soup);
     start = Seconds();
   }
-  const mesh::PolygonSoup& soup = input.soup;
+  const formats::PolygonSoup& soup = input.soup;
   measured.faces = static_cast<double>(soup.face_sizes.empty() ? soup.face_vertices.size() / 3
                                                                : soup.face_sizes.size());
   const auto prepared = mesh::PrepareMesh(soup);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 #include "tests/core/body/body_files.h"
 #include "tests/support/bodies.h"
 
@@ -18,9 +18,9 @@ std::string ReadText(const std::string& file) {
   return test_support::ReadFile(test_support::BodiesFolder() / file);
 }
 
-mesh::PolygonSoup ReadSoup(const std::string& file) {
+formats::PolygonSoup ReadSoup(const std::string& file) {
   const std::string bytes = ReadText(file);
-  return *mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(file));
+  return *formats::ReadMesh(std::as_bytes(std::span(bytes)), formats::FormatFromFileName(file));
 }
 
 void AddDensities(const PosedBody& rest, const std::function<void(const Sample&)>& measure) {

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/polygon_soup.h"
+#include "core/formats/polygon_soup.h"
 
 namespace capfit::body {
 
 // A body with its truth: joints by name and a segment number for each vertex.
 struct TrueBody {
-  mesh::PolygonSoup soup;
+  formats::PolygonSoup soup;
   std::map<std::string, Eigen::Vector3d> joints;
   std::string labels;
 };

@@ -15,7 +15,7 @@
 #include "client/result_json.h"
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 
 namespace capfit::bench {
@@ -31,8 +31,8 @@ absl::StatusOr<pipeline::FitResult> FitPublished(const Arguments& arguments) {
   std::ifstream file(arguments.body, std::ios::binary);
   if (!file) return absl::NotFoundError("cannot read " + arguments.body);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const auto soup =
-      mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(arguments.body));
+  const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)),
+                                      formats::FormatFromFileName(arguments.body));
   if (!soup.ok()) return soup.status();
   pipeline::FitOptions options;
   options.max_primitives = arguments.max_primitives;

@@ -25,9 +25,9 @@ std::unique_ptr<server::Server> StartServer(FitBackend backend, server::ServerCo
 }
 
 // Keeps the mesh that arrived.
-FitBackend Keeping(mesh::PolygonSoup& target) {
+FitBackend Keeping(formats::PolygonSoup& target) {
   FitBackend backend = server::InstantBackend();
-  backend.fit = [&target](const mesh::PolygonSoup& soup, const pipeline::FitOptions&,
+  backend.fit = [&target](const formats::PolygonSoup& soup, const pipeline::FitOptions&,
                           const ThreadPool&, FitObserver&) -> absl::StatusOr<pipeline::FitResult> {
     target = soup;
     return server::HandMadeResult();
@@ -35,8 +35,8 @@ FitBackend Keeping(mesh::PolygonSoup& target) {
   return backend;
 }
 
-mesh::PolygonSoup ManyVertices(std::size_t count) {
-  mesh::PolygonSoup soup;
+formats::PolygonSoup ManyVertices(std::size_t count) {
+  formats::PolygonSoup soup;
   for (std::size_t i = 0; i < count; ++i) {
     soup.positions.emplace_back(static_cast<double>(i) / 3.0, 0.1, -1.0);
   }
@@ -47,9 +47,9 @@ mesh::PolygonSoup ManyVertices(std::size_t count) {
 }
 
 TEST(BodyClient, ArraysArriveBitForBit) {
-  mesh::PolygonSoup arrived;
+  formats::PolygonSoup arrived;
   const auto server = StartServer(Keeping(arrived));
-  mesh::PolygonSoup sent = ManyVertices(50'000);  // several chunks of each array
+  formats::PolygonSoup sent = ManyVertices(50'000);  // several chunks of each array
   const BodyClient client(server->InProcessChannel());
   ASSERT_TRUE(client.ApproximateMesh(sent, {}).ok());
   EXPECT_EQ(arrived.positions, sent.positions);
@@ -64,14 +64,14 @@ TEST(BodyClient, ArraysArriveBitForBit) {
 }
 
 TEST(BodyClient, AFileArrivesWhole) {
-  mesh::PolygonSoup arrived;
+  formats::PolygonSoup arrived;
   const auto server = StartServer(Keeping(arrived));
   std::string obj;
   for (int i = 0; i < 60'000; ++i) obj += "v " + std::to_string(i) + " 0.5 1\n";  // > 256 KiB
   obj += "f 1 2 3\n";
   const BodyClient client(server->InProcessChannel());
   const auto result =
-      client.ApproximateFile(std::as_bytes(std::span(obj)), mesh::MeshFormat::kObj, {});
+      client.ApproximateFile(std::as_bytes(std::span(obj)), formats::MeshFormat::kObj, {});
   ASSERT_TRUE(result.ok()) << result.status();
   EXPECT_EQ(arrived.positions.size(), 60'000U);
   EXPECT_EQ(result->primitives.spheres.size(), 3U);
@@ -79,7 +79,7 @@ TEST(BodyClient, AFileArrivesWhole) {
 
 TEST(BodyClient, ErrorsComeWithCodeMessageAndField) {
   FitBackend backend = server::InstantBackend();
-  backend.fit = [](const mesh::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&,
+  backend.fit = [](const formats::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&,
                    FitObserver&) -> absl::StatusOr<pipeline::FitResult> {
     return InvalidField(ErrorReason::kOutOfRange, "triangle_indices[17]",
                         "is 90210, must be below 6890");

@@ -46,7 +46,7 @@ class Statements(unittest.TestCase):
             self.assertEqual(len(list(statements.broken_links(ROOT, page(f"[a]({target})\n")))), 1, target)
 
     def test_paths(self):
-        good = page("`core/mesh/read_*.h` `core/mesh/read_NAME.h` `.ci/rooms` `tests/data/fuzz/NAME` `a/b`\n")
+        good = page("`core/formats/read_*.h` `core/formats/read_NAME.h` `.ci/rooms` `tests/data/fuzz/NAME` `a/b`\n")
         self.assertEqual(list(statements.missing_paths(ROOT, good)), [])
         wrong = page("`core/mesh/none.h`\n\n`cat proto/none.proto`\n")
         self.assertEqual(len(list(statements.missing_paths(ROOT, wrong))), 2)

@@ -13,20 +13,20 @@
 namespace capfit::e2e {
 namespace {
 
-mesh::PolygonSoup Mannequin() {
+formats::PolygonSoup Mannequin() {
   mannequin::MannequinOptions options;
   options.faces = 6000;
   return *mannequin::MakeMannequin(options);
 }
 
-mesh::PolygonSoup Moved(mesh::PolygonSoup soup, const Eigen::Affine3d& motion) {
+formats::PolygonSoup Moved(formats::PolygonSoup soup, const Eigen::Affine3d& motion) {
   for (Eigen::Vector3d& position : soup.positions) position = motion * position;
   return soup;
 }
 
 // Fits with each list of flags; the results' paths.
 std::vector<std::string> Fit(const Scratch& scratch, const std::string& name,
-                             const mesh::PolygonSoup& body,
+                             const formats::PolygonSoup& body,
                              const std::vector<std::vector<std::string>>& fits) {
   const std::string path = scratch.Path(name + ".obj");
   WriteText(path, client::ObjText(body));
@@ -65,12 +65,12 @@ TEST(ResultSchema, HoldsForEveryKindOfFit) {
 
 TEST(ResultSchema, HoldsForOtherUnitsAxesAndShapes) {
   const Scratch scratch;
-  const mesh::PolygonSoup body = Mannequin();
+  const formats::PolygonSoup body = Mannequin();
   const Eigen::Affine3d upside_down(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()) *
                                     Eigen::Scaling(1000.0));
   std::vector<std::string> results =
       Fit(scratch, "upside_down", Moved(body, upside_down), {{"--local"}});
-  mesh::PolygonSoup leaning = body;
+  formats::PolygonSoup leaning = body;
   for (Eigen::Vector3d& p : leaning.positions) p.x() += 0.1 * p.y() * p.y();
   for (const std::string& path : Fit(scratch, "leaning", leaning, {{"--local", "--unit", "m"}})) {
     results.push_back(path);

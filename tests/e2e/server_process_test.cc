@@ -28,7 +28,7 @@ std::shared_ptr<grpc::Channel> ChannelTo(const ServerProcess& server) {
   return grpc::CreateChannel(server.address(), grpc::InsecureChannelCredentials());
 }
 
-mesh::PolygonSoup Mannequin(int faces) {
+formats::PolygonSoup Mannequin(int faces) {
   mannequin::MannequinOptions options;
   options.faces = faces;
   auto soup = mannequin::MakeMannequin(options);
@@ -72,7 +72,7 @@ TEST(ServerProcess, SaysNotServingWhileItDrains) {
 
 TEST(ServerProcess, FinishesARunningCallBeforeItEnds) {
   ServerProcess server;
-  const mesh::PolygonSoup soup = Mannequin(20'000);
+  const formats::PolygonSoup soup = Mannequin(20'000);
   client::CallOptions call;
   call.on_progress = [&server, sent = false](Stage, double) mutable {
     if (!std::exchange(sent, true)) server.Signal(SIGTERM);
@@ -94,7 +94,7 @@ TEST(ServerProcess, ArraysGiveABodyInsideItsPrimitives) {
 TEST(ServerProcess, WrongArraysAreNamed) {
   const ServerProcess server;
   const client::BodyClient client(ChannelTo(server));
-  mesh::PolygonSoup out_of_range = Mannequin(4'000);
+  formats::PolygonSoup out_of_range = Mannequin(4'000);
   out_of_range.face_vertices[17] = 90'210;
   absl::Status status = client.ApproximateMesh(out_of_range, {}).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
@@ -103,7 +103,7 @@ TEST(ServerProcess, WrongArraysAreNamed) {
   EXPECT_THAT(std::string(status.message()),
               HasSubstr(std::to_string(out_of_range.positions.size())));
 
-  mesh::PolygonSoup not_finite = Mannequin(4'000);
+  formats::PolygonSoup not_finite = Mannequin(4'000);
   not_finite.positions[5].y() = std::numeric_limits<double>::quiet_NaN();
   status = client.ApproximateMesh(not_finite, {}).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
@@ -149,7 +149,7 @@ bool LogsSoon(const ServerProcess& server, const std::string& status) {
 }
 
 // Uploads a large mannequin and gives up after the first progress message.
-void CancelAfterFirstProgress(const ServerProcess& server, const mesh::PolygonSoup& soup) {
+void CancelAfterFirstProgress(const ServerProcess& server, const formats::PolygonSoup& soup) {
   const auto stub = v1::BodyApproximationService::NewStub(ChannelTo(server));
   grpc::ClientContext context;
   const auto stream = stub->ApproximateBody(&context);

@@ -35,7 +35,7 @@ std::string TryFindBody(std::span<const std::byte> bytes) {
   ByteSource source(bytes);
   const std::uint8_t switches = source.Next();
   const body::BodyOptions options = OptionsFrom(switches, source);
-  const mesh::PolygonSoup soup =
+  const formats::PolygonSoup soup =
       (switches & 32) != 0 ? SoupFrom(source.Take(bytes.size())) : DentedBody(source);
   const auto prepared = mesh::PrepareMesh(soup);
   if (!prepared.ok()) return {};

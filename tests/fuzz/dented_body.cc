@@ -16,14 +16,14 @@ constexpr int kShapes = 8;
 constexpr double kHeight_m = 1.7;
 
 // The cage itself, some hundred quads: fast enough for thousands of bodies in a minute.
-mesh::PolygonSoup CageBody(unsigned shape_number) {
+formats::PolygonSoup CageBody(unsigned shape_number) {
   mannequin::BodyShape shape;
   shape.sex =
       (shape_number & 1) != 0 ? mannequin::MannequinSex::kMale : mannequin::MannequinSex::kFemale;
   shape.arm_angle_rad = (shape_number & 2) != 0 ? 1.5 : 0.6;
   shape.with_head = shape.with_hands = shape.with_feet = (shape_number & 4) == 0;
   const mannequin::QuadMesh cage = mannequin::WithMirrorImage(mannequin::BuildBodyCage(shape).half);
-  mesh::PolygonSoup soup;
+  formats::PolygonSoup soup;
   for (const Eigen::Vector3d& vertex : cage.vertices) soup.positions.push_back(kHeight_m * vertex);
   for (const mannequin::Quad& quad : cage.quads) {
     for (const int corner : {0, 1, 2, 0, 2, 3}) {
@@ -33,9 +33,9 @@ mesh::PolygonSoup CageBody(unsigned shape_number) {
   return soup;
 }
 
-const mesh::PolygonSoup& StartingBody(unsigned shape_number) {
-  static const std::vector<mesh::PolygonSoup>& kBodies = *[] {
-    auto* const bodies = new std::vector<mesh::PolygonSoup>;  // never destroyed: safe at exit
+const formats::PolygonSoup& StartingBody(unsigned shape_number) {
+  static const std::vector<formats::PolygonSoup>& kBodies = *[] {
+    auto* const bodies = new std::vector<formats::PolygonSoup>;  // never destroyed: safe at exit
     for (unsigned i = 0; i < kShapes; ++i) bodies->push_back(CageBody(i));
     return bodies;
   }();
@@ -46,7 +46,7 @@ class Denter {
  public:
   explicit Denter(ByteSource source) : source_(source), soup_(StartingBody(source_.Next())) {}
 
-  mesh::PolygonSoup Run() {
+  formats::PolygonSoup Run() {
     while (!source_.IsEmpty() && !soup_.face_vertices.empty()) Change();
     return std::move(soup_);
   }
@@ -186,11 +186,11 @@ class Denter {
   }
 
   ByteSource source_;
-  mesh::PolygonSoup soup_;
+  formats::PolygonSoup soup_;
 };
 
 }  // namespace
 
-mesh::PolygonSoup DentedBody(ByteSource source) { return Denter(source).Run(); }
+formats::PolygonSoup DentedBody(ByteSource source) { return Denter(source).Run(); }
 
 }  // namespace capfit::fuzz

@@ -58,12 +58,12 @@ std::string BrokenPromiseOfPrepare(const mesh::PreparedMesh& prepared,
                                    std::size_t source_vertices) {
   const BodyMesh& mesh = prepared.mesh;
   if (std::string broken = BrokenPromise(mesh, source_vertices); !broken.empty()) return broken;
-  mesh::PolygonSoup soup;
+  formats::PolygonSoup soup;
   soup.positions.assign(mesh.vertices().begin(), mesh.vertices().end());
   for (const Triangle& t : mesh.triangles()) {
     soup.face_vertices.insert(soup.face_vertices.end(), t.begin(), t.end());
   }
-  mesh::MeshLimits limits;
+  formats::MeshLimits limits;
   limits.max_faces = soup.face_vertices.size();
   const auto again = mesh::PrepareMesh(soup, limits);
   if (!again.ok()) return "a prepared mesh is refused: " + again.status().ToString();

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
+#include "core/formats/read_mesh.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/mesh/read_mesh.h"
 #include "tests/fuzz/byte_source.h"
 #include "tests/fuzz/mesh_promises.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFormats = 6;
 
-std::string TryPrepare(const mesh::PolygonSoup& soup, const mesh::MeshLimits& limits,
+std::string TryPrepare(const formats::PolygonSoup& soup, const formats::MeshLimits& limits,
                        bool is_file) {
   const auto prepared = mesh::PrepareMesh(soup, limits);
   return prepared.ok() ? BrokenPromiseOfPrepare(*prepared, soup.positions.size())
@@ -21,7 +21,7 @@ std::string TryPrepare(const mesh::PolygonSoup& soup, const mesh::MeshLimits& li
 
 }  // namespace
 
-mesh::PolygonSoup SoupFrom(std::span<const std::byte> bytes) {
+formats::PolygonSoup SoupFrom(std::span<const std::byte> bytes) {
   ByteSource source(bytes);
   const std::uint8_t switches = source.Next();
   const bool has_polygons = (switches & 1) != 0;
@@ -29,7 +29,7 @@ mesh::PolygonSoup SoupFrom(std::span<const std::byte> bytes) {
   const double offset = (switches & 4) != 0 ? 1e6 : 0.0;
   const double scale = (switches & 8) != 0 ? 1e-6 : 1.0;  // below the tolerance of welding
   const unsigned vertices = 3 + source.Next() % 62u;
-  mesh::PolygonSoup soup;
+  formats::PolygonSoup soup;
   soup.is_from_file = (switches & 16) == 0;  // then faces of less than three corners are mended
   for (unsigned i = 0; i < vertices; ++i) {
     Eigen::Vector3d& position = soup.positions.emplace_back();
@@ -50,11 +50,11 @@ mesh::PolygonSoup SoupFrom(std::span<const std::byte> bytes) {
 
 std::string TryReadMesh(std::span<const std::byte> bytes) {
   if (bytes.empty()) return {};
-  mesh::MeshLimits limits;
+  formats::MeshLimits limits;
   limits.max_vertices = 100'000;
   limits.max_faces = 100'000;
-  const auto format = static_cast<mesh::MeshFormat>(static_cast<unsigned>(bytes[0]) % kFormats);
-  const auto soup = mesh::ReadMesh(bytes.subspan(1), format, limits);
+  const auto format = static_cast<formats::MeshFormat>(static_cast<unsigned>(bytes[0]) % kFormats);
+  const auto soup = formats::ReadMesh(bytes.subspan(1), format, limits);
   return soup.ok() ? TryPrepare(*soup, limits, true) : BrokenPromiseOfRefusal(soup.status(), true);
 }
 

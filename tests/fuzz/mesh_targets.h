@@ -6,18 +6,18 @@
 #include <span>
 #include <string>
 
-#include "core/mesh/polygon_soup.h"
+#include "core/formats/polygon_soup.h"
 
 namespace capfit::fuzz {
 
-// The first byte names a format (see mesh::MeshFormat), the rest is a file: any bytes give an error
-// or a mesh that keeps its promises. Returns the broken promise, empty if there is none.
+// The first byte names a format (see formats::MeshFormat), the rest is a file: any bytes give an
+// error or a mesh that keeps its promises. Returns the broken promise, empty if there is none.
 [[nodiscard]] std::string TryReadMesh(std::span<const std::byte> bytes);
 
 // A soup of a few vertices on a grid and faces between them, so that the odd connections that files
 // seldom have are common. First byte: switches. Second byte: number of vertices. Then three signed
 // bytes for each vertex, then the faces.
-[[nodiscard]] mesh::PolygonSoup SoupFrom(std::span<const std::byte> bytes);
+[[nodiscard]] formats::PolygonSoup SoupFrom(std::span<const std::byte> bytes);
 
 // Any such soup gives an error or a mesh that keeps its promises.
 [[nodiscard]] std::string TryPrepareMesh(std::span<const std::byte> bytes);

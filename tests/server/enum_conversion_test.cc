@@ -22,7 +22,7 @@ void ExpectRoundTrip(int count) {
 TEST(EnumConversion, EveryCoreValueComesBack) {
   ExpectRoundTrip<body::Unit>(5);
   ExpectRoundTrip<body::UpAxis>(4);
-  ExpectRoundTrip<mesh::MeshFormat>(6);
+  ExpectRoundTrip<formats::MeshFormat>(6);
   ExpectRoundTrip<body::LandmarkMethod>(4);
   ExpectRoundTrip<body::Part>(body::kPartCount);
   ExpectRoundTrip<Stage>(kStageCount);

@@ -87,19 +87,20 @@ pipeline::FitResult HandMadeResult(std::size_t vertex_count) {
 }
 
 FitBackend InstantBackend(std::size_t vertex_count) {
-  return {AcceptAll,
-          [vertex_count](const mesh::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&,
-                         FitObserver& observer) -> absl::StatusOr<pipeline::FitResult> {
-            for (int i = 0; i < kStageCount; ++i) {
-              observer.OnStage(static_cast<Stage>(i), i / static_cast<double>(kStageCount));
-            }
-            return HandMadeResult(vertex_count);
-          }};
+  return {
+      AcceptAll,
+      [vertex_count](const formats::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&,
+                     FitObserver& observer) -> absl::StatusOr<pipeline::FitResult> {
+        for (int i = 0; i < kStageCount; ++i) {
+          observer.OnStage(static_cast<Stage>(i), i / static_cast<double>(kStageCount));
+        }
+        return HandMadeResult(vertex_count);
+      }};
 }
 
 FitBackend WaitingBackend(Gate& gate) {
   return {AcceptAll,
-          [&gate](const mesh::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&,
+          [&gate](const formats::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&,
                   FitObserver& observer) -> absl::StatusOr<pipeline::FitResult> {
             observer.OnStage(Stage::kCircle, 0.5);
             ++gate.waiting;

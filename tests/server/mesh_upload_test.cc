@@ -60,8 +60,8 @@ Request Doubles(const std::vector<double>& positions) {
   return request;
 }
 
-absl::StatusOr<mesh::PolygonSoup> Upload(const std::vector<Request>& requests,
-                                         const UploadLimits& limits = {}) {
+absl::StatusOr<formats::PolygonSoup> Upload(const std::vector<Request>& requests,
+                                            const UploadLimits& limits = {}) {
   MeshUpload upload(limits);
   for (const Request& request : requests) CAPFIT_RETURN_IF_ERROR(upload.Add(request));
   return std::move(upload).Finish();

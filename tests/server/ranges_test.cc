@@ -302,7 +302,7 @@ void CheckRanges(const google::protobuf::Message& message,
 }
 
 TEST_F(RangesTest, RealAnswersKeepTheRangesOfTheResult) {
-  const absl::StatusOr<mesh::PolygonSoup> body = mannequin::MakeMannequin({});
+  const absl::StatusOr<formats::PolygonSoup> body = mannequin::MakeMannequin({});
   ASSERT_TRUE(body.ok());
   Request request;
   v1::MeshArrays& arrays = *request.mutable_mesh()->mutable_arrays();

@@ -316,7 +316,7 @@ TEST(Service, ACallerThatGoesAwayWhileUploadingFreesItsPlace) {
 TEST(Service, ErrorsAndExceptionsOfTheFitCostOneCallOnly) {
   FitBackend backend = InstantBackend();
   int call_number = 0;
-  backend.fit = [&](const mesh::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&,
+  backend.fit = [&](const formats::PolygonSoup&, const pipeline::FitOptions&, const ThreadPool&,
                     FitObserver&) -> absl::StatusOr<pipeline::FitResult> {
     if (call_number++ == 0) throw std::bad_alloc();
     if (call_number == 2) throw std::runtime_error("boom");

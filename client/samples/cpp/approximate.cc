@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   options.max_capsules = 32;
   const auto client = capfit::client::BodyClient::Connect(argv[1]);
   const auto result = client.ApproximateFile(std::as_bytes(std::span(file)),
-                                             capfit::mesh::MeshFormat::kUnknown, options);
+                                             capfit::formats::MeshFormat::kUnknown, options);
   if (!result.ok()) return std::fprintf(stderr, "%s\n", result.status().ToString().c_str()), 1;
 
   // 17 digits: reading them gives the same bits again.

@@ -6,14 +6,14 @@
 #include <span>
 #include <string>
 
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return std::fprintf(stderr, "usage: fit_here BODY\n"), 1;
   std::ifstream in(argv[1], std::ios::binary);
   const std::string file(std::istreambuf_iterator<char>(in), {});
-  const auto mesh = capfit::mesh::ReadMesh(std::as_bytes(std::span(file)));
+  const auto mesh = capfit::formats::ReadMesh(std::as_bytes(std::span(file)));
   if (!mesh.ok()) return std::fprintf(stderr, "%s\n", mesh.status().ToString().c_str()), 1;
 
   capfit::pipeline::FitOptions options;

@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
+#include "core/formats/read_mesh.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/mesh/read_mesh.h"
 #include "tests/bench/sphere_mesh/fit_sphere_mesh.h"
 
 namespace capfit::bench {
@@ -38,7 +38,7 @@ absl::StatusOr<mesh::PreparedMesh> ReadBody(const std::string& file_name) {
   if (!file) return absl::NotFoundError("cannot read " + file_name);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   const auto soup =
-      mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(file_name));
+      formats::ReadMesh(std::as_bytes(std::span(bytes)), formats::FormatFromFileName(file_name));
   if (!soup.ok()) return soup.status();
   return mesh::PrepareMesh(*soup);
 }

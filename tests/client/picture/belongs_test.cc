@@ -17,13 +17,13 @@ using Eigen::Affine3d;
 using Eigen::Vector3d;
 using testing::HasSubstr;
 
-mesh::PolygonSoup Mannequin(int faces) {
+formats::PolygonSoup Mannequin(int faces) {
   mannequin::MannequinOptions options;
   options.faces = faces;
   return *mannequin::MakeMannequin(options);
 }
 
-mesh::PolygonSoup Moved(mesh::PolygonSoup soup, const Affine3d& motion) {
+formats::PolygonSoup Moved(formats::PolygonSoup soup, const Affine3d& motion) {
   for (Vector3d& position : soup.positions) position = motion * position;
   return soup;
 }
@@ -46,7 +46,7 @@ class BelongsTest : public testing::Test {
     return CheckBelongs(foreign_, Moved(body_, motion));
   }
 
-  const mesh::PolygonSoup body_ = Mannequin(6000);
+  const formats::PolygonSoup body_ = Mannequin(6000);
   ResultSet own_;
   ResultSet foreign_;
 };
@@ -58,7 +58,7 @@ TEST_F(BelongsTest, TheBodyItselfAndItsDecimatedCopyPass) {
 }
 
 TEST_F(BelongsTest, WhatMendingLeavesOutDoesNotCount) {
-  mesh::PolygonSoup with_speck = body_;
+  formats::PolygonSoup with_speck = body_;
   const auto first = static_cast<std::uint32_t>(with_speck.positions.size());
   for (const Vector3d& corner :
        {Vector3d(9, 9, 9), Vector3d(9.1, 9, 9), Vector3d(9, 9.1, 9), Vector3d(9, 9, 9.1)}) {

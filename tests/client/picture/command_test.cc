@@ -13,7 +13,7 @@
 #include "client/picture/gaps_file.h"
 #include "client/picture/mannequin_command.h"
 #include "client/picture/render_command.h"
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 
 namespace capfit::client {
 namespace {
@@ -46,11 +46,12 @@ class CommandTest : public testing::Test {
     }
     return exit_code;
   }
-  static mesh::PolygonSoup ReadSoup(const std::string& path) {
+  static formats::PolygonSoup ReadSoup(const std::string& path) {
     const std::string bytes = *ReadFileBytes(path);
-    auto soup = mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(path));
+    auto soup =
+        formats::ReadMesh(std::as_bytes(std::span(bytes)), formats::FormatFromFileName(path));
     EXPECT_TRUE(soup.ok()) << soup.status();
-    return soup.ok() ? *soup : mesh::PolygonSoup();
+    return soup.ok() ? *soup : formats::PolygonSoup();
   }
   void WriteResult() const {
     ASSERT_TRUE(WriteFileBytes(Path("r.json"), R"({"spheres": [[0, 0.9, 0, 0.2], [0, 1.3, 0, 0.2]],
@@ -64,8 +65,8 @@ class CommandTest : public testing::Test {
 TEST_F(CommandTest, ObjAndPlyHoldTheSameMannequin) {
   ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "3000", "--sex", "male"}), 0);
   ASSERT_EQ(Run({"mannequin", "-o", Path("b.PLY"), "--faces", "3000", "--sex", "male"}), 0);
-  const mesh::PolygonSoup obj = ReadSoup(Path("b.obj"));
-  const mesh::PolygonSoup ply = ReadSoup(Path("b.PLY"));
+  const formats::PolygonSoup obj = ReadSoup(Path("b.obj"));
+  const formats::PolygonSoup ply = ReadSoup(Path("b.PLY"));
   ASSERT_EQ(obj.positions.size(), ply.positions.size());
   EXPECT_EQ(obj.face_vertices, ply.face_vertices);
   EXPECT_EQ(obj.face_sizes, ply.face_sizes);
@@ -78,7 +79,7 @@ TEST_F(CommandTest, PartsAndTrianglesAreHonoured) {
   ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "4000", "--triangles", "--parts",
                  "torso,arms,legs"}),
             0);
-  const mesh::PolygonSoup soup = ReadSoup(Path("b.obj"));
+  const formats::PolygonSoup soup = ReadSoup(Path("b.obj"));
   EXPECT_EQ(soup.face_vertices.size() % 3, 0u);
   for (const Eigen::Vector3d& p : soup.positions) EXPECT_LT(p.y(), 1.6);
 }

@@ -34,7 +34,7 @@ Figure OneSphere(const Vector3d& center, double radius) {
 
 // A small body with one capsule along its trunk.
 struct Scene {
-  mesh::PolygonSoup soup;
+  formats::PolygonSoup soup;
   ResultSet result;
   Figure figure;
 };
@@ -186,7 +186,7 @@ Person MakePerson(double height_m, mannequin::MannequinPose pose, double unit_pe
   options.faces = 2'000;
   options.height_m = height_m;
   options.pose = pose;
-  mesh::PolygonSoup soup = *mannequin::MakeMannequin(options);
+  formats::PolygonSoup soup = *mannequin::MakeMannequin(options);
   for (Vector3d& p : soup.positions) p *= unit_per_m;
   ResultSet result;
   Person person;

@@ -7,8 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/formats/read_mesh.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/mesh/read_mesh.h"
 #include "tests/support/bodies.h"
 
 namespace capfit::body {
@@ -43,8 +43,9 @@ std::vector<PosedBody> PosedBodies() {
 
 mesh::BodyMesh LoadBody(const std::string& file) {
   const std::string bytes = test_support::ReadFile(test_support::BodiesFolder() / file);
-  const auto soup = mesh::ReadMesh({reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()},
-                                   mesh::FormatFromFileName(file));
+  const auto soup =
+      formats::ReadMesh({reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()},
+                        formats::FormatFromFileName(file));
   EXPECT_TRUE(soup.ok()) << file << ": " << soup.status();
   auto prepared = mesh::PrepareMesh(*soup);
   EXPECT_TRUE(prepared.ok()) << file << ": " << prepared.status();

@@ -12,10 +12,10 @@
 #include "absl/strings/str_format.h"
 #include "core/base/random.h"
 #include "core/base/status.h"
-#include "core/mannequin/random_mannequin.h"
 #include "core/mesh/prepare_mesh.h"
 #include "tests/core/body/body_files.h"
 #include "tests/support/bodies.h"
+#include "tests/support/random_mannequin.h"
 
 namespace capfit::body {
 namespace {
@@ -72,14 +72,14 @@ void ExpectSameBody(const Body& a, const Body& b) {
 }
 
 // The same surface with vertices and faces in another order, faces begun at another corner.
-mesh::PolygonSoup Shuffled(const mesh::PolygonSoup& soup, std::uint64_t seed) {
+formats::PolygonSoup Shuffled(const formats::PolygonSoup& soup, std::uint64_t seed) {
   Random random(seed);
   std::vector<std::uint32_t> place(soup.positions.size());
   for (std::uint32_t v = 0; v < place.size(); ++v) place[v] = v;
   for (std::size_t v = place.size(); v > 1; --v) {
     std::swap(place[v - 1], place[random.NextBelow(v)]);
   }
-  mesh::PolygonSoup shuffled = soup;
+  formats::PolygonSoup shuffled = soup;
   for (std::size_t v = 0; v < place.size(); ++v) shuffled.positions[place[v]] = soup.positions[v];
   const std::size_t faces = soup.face_vertices.size() / 3;
   for (std::size_t f = 0; f < faces; ++f) {
@@ -98,13 +98,13 @@ TEST(FindBody, TheOrderOfTheFileLeavesNoTrace) {
   const auto soup = mannequin::MakeMannequin(options);
   ASSERT_TRUE(soup.ok());
   const ThreadPool pool(1);
-  const auto find = [&](const mesh::PolygonSoup& some) {
+  const auto find = [&](const formats::PolygonSoup& some) {
     const auto prepared = mesh::PrepareMesh(some);
     return *FindBody(prepared->mesh, {}, pool, NullObserver());
   };
   const Body expected = find(*soup);
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const mesh::PolygonSoup other = Shuffled(*soup, seed);
+    const formats::PolygonSoup other = Shuffled(*soup, seed);
     const Body body = find(other);
     EXPECT_TRUE(std::equal(body.mesh.vertices().begin(), body.mesh.vertices().end(),
                            expected.mesh.vertices().begin(), expected.mesh.vertices().end()));

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/base/random.h"
-#include "core/mannequin/random_mannequin.h"
+#include "tests/support/random_mannequin.h"
 
 namespace capfit::body {
 namespace {
@@ -35,14 +35,14 @@ Vector3d Anyhow(Random& random, double reach) {
   return {x, y, random.NextIn(-reach, reach)};
 }
 
-void AddNoise(Random& random, double sigma_m, mesh::PolygonSoup& soup) {
+void AddNoise(Random& random, double sigma_m, formats::PolygonSoup& soup) {
   for (Vector3d& p : soup.positions) {
     for (int k = 0; k < 3; ++k) p[k] += sigma_m * Normal(random);
   }
 }
 
-void DropFaces(Random& random, double share, mesh::PolygonSoup& soup) {
-  mesh::PolygonSoup kept;
+void DropFaces(Random& random, double share, formats::PolygonSoup& soup) {
+  formats::PolygonSoup kept;
   std::size_t at = 0;
   const std::size_t faces =
       soup.face_sizes.empty() ? soup.face_vertices.size() / 3 : soup.face_sizes.size();
@@ -68,7 +68,7 @@ double ArmAngle(const mannequin::MannequinOptions& options) {
 // The mannequin's surface as triangles; its quads are flat enough to be split anyhow.
 class TrialSurface {
  public:
-  explicit TrialSurface(const mesh::PolygonSoup& soup) {
+  explicit TrialSurface(const formats::PolygonSoup& soup) {
     std::size_t at = 0;
     const std::size_t faces =
         soup.face_sizes.empty() ? soup.face_vertices.size() / 3 : soup.face_sizes.size();

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "core/body/find_body.h"
+#include "core/formats/polygon_soup.h"
 #include "core/geometry/similarity.h"
 #include "core/mannequin/mannequin.h"
-#include "core/mesh/polygon_soup.h"
 
 namespace capfit::body {
 
 struct MannequinTrial {
   mannequin::MannequinOptions options;
-  mesh::PolygonSoup whole;     // as made: metres, Y up, facing +Z
-  mesh::PolygonSoup battered;  // what is to be understood
+  formats::PolygonSoup whole;     // as made: metres, Y up, facing +Z
+  formats::PolygonSoup battered;  // what is to be understood
   geometry::Similarity battered_from_whole;
   bool is_mirrored = false;  // left and right exchanged before it was turned
   double noise_m = 0.0;

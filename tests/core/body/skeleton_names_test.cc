@@ -28,7 +28,7 @@ struct Rig {
 class SkeletonNames : public testing::TestWithParam<Rig> {};
 
 TEST_P(SkeletonNames, LeadToTheJoints) {
-  std::vector<mesh::NamedJoint> joints;
+  std::vector<formats::NamedJoint> joints;
   double x = 1.0;
   for (const std::string& name : GetParam().others) joints.push_back({name, {-x++, 0, 0}});
   for (std::size_t i = 0; i < kJoints.size(); ++i) {

@@ -5,10 +5,15 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "tests/core/coverage/tube_body.h"
+#include "tests/core/tighten/tube_body.h"
 
 namespace capfit::coverage {
 namespace {
+
+using tighten::DistanceToUnion;
+using tighten::IsExactlyMirrored;
+using tighten::MakeTubeBody;
+using tighten::TubeBody;
 
 const NullObserver kSilent;
 

@@ -108,7 +108,7 @@ class MannequinTest : public testing::TestWithParam<Case> {
   [[nodiscard]] std::size_t FaceCount() const {
     return soup_.face_sizes.empty() ? soup_.face_vertices.size() / 3 : soup_.face_sizes.size();
   }
-  mesh::PolygonSoup soup_;
+  formats::PolygonSoup soup_;
 };
 
 TEST_P(MannequinTest, IsOneClosedOutwardSurface) {
@@ -200,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(Table, MannequinTest, testing::ValuesIn(Cases()),
                          [](const auto& tested) { return tested.param.name; });
 
 // Farthest point of the surface to the left, as the hand's tip.
-Vector3d LeftTip(const mesh::PolygonSoup& soup) {
+Vector3d LeftTip(const formats::PolygonSoup& soup) {
   return *std::max_element(soup.positions.begin(), soup.positions.end(),
                            [](const auto& a, const auto& b) { return a.x() < b.x(); });
 }

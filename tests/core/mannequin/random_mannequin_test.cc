@@ -1,4 +1,4 @@
-#include "core/mannequin/random_mannequin.h"
+#include "tests/support/random_mannequin.h"
 
 #include <gtest/gtest.h>
 

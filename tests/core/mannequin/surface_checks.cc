@@ -89,7 +89,7 @@ std::size_t Root(std::vector<std::size_t>& parent, std::size_t i) {
 
 }  // namespace
 
-std::vector<Corners> Faces(const mesh::PolygonSoup& soup) {
+std::vector<Corners> Faces(const formats::PolygonSoup& soup) {
   std::vector<Corners> faces;
   std::size_t at = 0;
   while (at < soup.face_vertices.size()) {
@@ -101,7 +101,7 @@ std::vector<Corners> Faces(const mesh::PolygonSoup& soup) {
   return faces;
 }
 
-std::vector<Triangle> Triangles(const mesh::PolygonSoup& soup) {
+std::vector<Triangle> Triangles(const formats::PolygonSoup& soup) {
   std::vector<Triangle> triangles;
   for (const Corners& face : Faces(soup)) {
     for (std::size_t k = 2; k < face.size(); ++k) {
@@ -111,7 +111,7 @@ std::vector<Triangle> Triangles(const mesh::PolygonSoup& soup) {
   return triangles;
 }
 
-SurfaceFacts Examine(const mesh::PolygonSoup& soup) {
+SurfaceFacts Examine(const formats::PolygonSoup& soup) {
   SurfaceFacts facts;
   std::map<MeshEdge, int> runs;
   std::vector<bool> is_used(soup.positions.size(), false);
@@ -136,7 +136,7 @@ SurfaceFacts Examine(const mesh::PolygonSoup& soup) {
   return facts;
 }
 
-int CountSelfIntersections(const mesh::PolygonSoup& soup) {
+int CountSelfIntersections(const formats::PolygonSoup& soup) {
   constexpr double kCellSize = 0.02;
   const std::vector<Triangle> triangles = Triangles(soup);
   std::map<Cell, std::vector<std::size_t>> cells;
@@ -160,7 +160,7 @@ int CountSelfIntersections(const mesh::PolygonSoup& soup) {
   return static_cast<int>(pairs.size());
 }
 
-double TapeAt(const mesh::PolygonSoup& soup, double y) {
+double TapeAt(const formats::PolygonSoup& soup, double y) {
   std::map<MeshEdge, std::size_t> ids;
   std::vector<Vector2d> points;
   std::vector<std::size_t> parent;

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 #include "tests/support/bodies.h"
 
 namespace capfit::mesh {
@@ -22,8 +22,8 @@ void ExpectSameSurface(const std::filesystem::path& path) {
   OpenMeshSurface theirs;
   ASSERT_TRUE(OpenMesh::IO::read_mesh(theirs, path.string()));
   const std::string bytes = test_support::ReadFile(path);
-  const auto ours =
-      ReadMesh(std::as_bytes(std::span(bytes)), FormatFromFileName(path.filename().string()));
+  const auto ours = formats::ReadMesh(std::as_bytes(std::span(bytes)),
+                                      formats::FormatFromFileName(path.filename().string()));
   ASSERT_TRUE(ours.ok()) << ours.status();
   ASSERT_EQ(ours->positions.size(), theirs.n_vertices());
   for (std::size_t i = 0; i < ours->positions.size(); ++i) {

@@ -12,8 +12,8 @@
 #include "core/base/random.h"
 #include "core/base/status.h"
 #include "tests/core/mesh/soups.h"
-#include "tests/core/mesh/told.h"
 #include "tests/fuzz/mesh_promises.h"
+#include "tests/support/told.h"
 
 namespace capfit::mesh {
 namespace {
@@ -22,7 +22,7 @@ using testing::Each;
 using testing::HasSubstr;
 
 // The prepared mesh; the test fails where there is none or it breaks a promise.
-PreparedMesh Prepared(const PolygonSoup& soup) {
+PreparedMesh Prepared(const formats::PolygonSoup& soup) {
   absl::StatusOr<PreparedMesh> prepared = PrepareMesh(soup);
   EXPECT_TRUE(prepared.ok()) << prepared.status();
   if (!prepared.ok()) return PreparedMesh{BodyMesh({}, {}, {}), {}};
@@ -31,14 +31,14 @@ PreparedMesh Prepared(const PolygonSoup& soup) {
 }
 
 // "REASON message" of a refusal.
-std::string RefusalOf(const PolygonSoup& soup) {
+std::string RefusalOf(const formats::PolygonSoup& soup) {
   const absl::StatusOr<PreparedMesh> prepared = PrepareMesh(soup);
   if (prepared.ok()) return "accepted with " + CodesOf(*prepared);
   return Told(prepared.status());
 }
 
 TEST(PrepareMeshTest, PassesSoundMeshThroughUnchanged) {
-  const PolygonSoup ball = Ball(12, 7);
+  const formats::PolygonSoup ball = Ball(12, 7);
   const PreparedMesh prepared = Prepared(ball);
   EXPECT_EQ(CodesOf(prepared), "");
   ASSERT_EQ(prepared.mesh.vertices().size(), ball.positions.size());
@@ -63,7 +63,7 @@ bool HasEdge(const PreparedMesh& prepared, std::size_t a, std::size_t b) {
 }
 
 TEST(PrepareMeshTest, CutsQuadsFromTheirFirstCorner) {
-  const PolygonSoup cube = Cube();
+  const formats::PolygonSoup cube = Cube();
   const PreparedMesh prepared = Prepared(cube);
   EXPECT_EQ(CodesOf(prepared), "");
   for (std::size_t first = 0; first < cube.face_vertices.size(); first += 4) {
@@ -78,7 +78,7 @@ TEST(PrepareMeshTest, CutsQuadsFromTheirFirstCorner) {
 TEST(PrepareMeshTest, CutsQuadsWithAnInwardCornerFromThere) {
   const std::array<Eigen::Vector2d, 4> arrow = {{{-2, -2}, {0, -1}, {2, -2}, {0, 2}}};
   for (std::uint32_t turn = 0; turn < 4; ++turn) {
-    PolygonSoup prism;
+    formats::PolygonSoup prism;
     for (const double z : {0.0, 1.0}) {
       for (const Eigen::Vector2d& p : arrow) prism.positions.emplace_back(p.x(), p.y(), z);
     }
@@ -100,7 +100,7 @@ TEST(PrepareMeshTest, CutsQuadsWithAnInwardCornerFromThere) {
 
 // A prism over an arrow head: its fans would fold over the inward corner.
 TEST(PrepareMeshTest, CutsLargeFacesWithInwardCornersWithoutFolds) {
-  PolygonSoup prism;
+  formats::PolygonSoup prism;
   const double outline[5][2] = {{0, 0}, {2, 2}, {0, 4}, {0.2, 2.2}, {0.2, 1.8}};
   for (int side = 0; side < 2; ++side) {
     for (const auto& point : outline) prism.positions.emplace_back(point[0], point[1], side);
@@ -124,7 +124,7 @@ TEST(PrepareMeshTest, CutsLargeFacesWithInwardCornersWithoutFolds) {
 }
 
 TEST(PrepareMeshTest, IgnoresUnusedVertices) {
-  PolygonSoup soup = Cube();
+  formats::PolygonSoup soup = Cube();
   soup.positions.insert(soup.positions.begin(), {1e6, 0.0, 0.0});
   for (std::uint32_t& v : soup.face_vertices) ++v;
   const PreparedMesh prepared = Prepared(soup);
@@ -136,7 +136,7 @@ TEST(PrepareMeshTest, IgnoresUnusedVertices) {
 }
 
 TEST(PrepareMeshTest, WeldsEqualVerticesOfSoup) {
-  const PolygonSoup cube = Cube();
+  const formats::PolygonSoup cube = Cube();
   const PreparedMesh prepared = Prepared(SplitApart(cube));
   EXPECT_EQ(CodesOf(prepared), "VERTICES_WELDED");
   EXPECT_EQ(CountOf(prepared, "VERTICES_WELDED"), 24 - 8);
@@ -152,7 +152,7 @@ TEST(PrepareMeshTest, WeldsEqualVerticesOfSoup) {
 TEST(PrepareMeshTest, WeldsWithinOneHundredThousandthOfDiagonal) {
   const double diagonal = std::sqrt(3.0);
   for (const double gap : {0.9e-5 * diagonal, 1.1e-5 * diagonal}) {
-    PolygonSoup soup = WithoutFaces(Cube(), 3);
+    formats::PolygonSoup soup = WithoutFaces(Cube(), 3);
     for (const double z : {0.0, 1.0}) {
       for (const double x : {0.0, 1.0}) soup.positions.emplace_back(x, 1.0 + gap, z);
     }
@@ -168,7 +168,7 @@ TEST(PrepareMeshTest, WeldsWithinOneHundredThousandthOfDiagonal) {
 }
 
 TEST(PrepareMeshTest, WeldsNoisySoup) {
-  PolygonSoup soup = SplitApart(Ball(24, 15));
+  formats::PolygonSoup soup = SplitApart(Ball(24, 15));
   Random random(7);
   for (Eigen::Vector3d& position : soup.positions) {
     for (int axis = 0; axis < 3; ++axis) position[axis] += random.NextIn(-1e-6, 1e-6);
@@ -180,14 +180,14 @@ TEST(PrepareMeshTest, WeldsNoisySoup) {
 
 TEST(PrepareMeshTest, KeepsClosedSurfacesThatTouchApart) {
   // The two share four positions, but not four vertices.
-  const PolygonSoup small = Box({1.0, 0.0, 0.0}, {1.2, 1.0, 1.0});
+  const formats::PolygonSoup small = Box({1.0, 0.0, 0.0}, {1.2, 1.0, 1.0});
   const PreparedMesh prepared = Prepared(Together(Cube(), small));
   EXPECT_EQ(CodesOf(prepared), "PARTS_LEFT_OUT");
   EXPECT_DOUBLE_EQ(prepared.mesh.volume(), 1.0);
 }
 
 TEST(PrepareMeshTest, DropsDegenerateFaces) {
-  PolygonSoup soup = Cube();
+  formats::PolygonSoup soup = Cube();
   soup = WithFace(soup, {0, 1, 1});
   soup = WithFace(soup, {2, 3});
   soup = WithFace(soup, {4, 4, 4, 4, 4});
@@ -199,7 +199,7 @@ TEST(PrepareMeshTest, DropsDegenerateFaces) {
 }
 
 TEST(PrepareMeshTest, DropsCopiesOfFacesWhicheverWayRound) {
-  PolygonSoup ball = Ball(12, 7);
+  formats::PolygonSoup ball = Ball(12, 7);
   const std::vector<std::uint32_t> v = ball.face_vertices;
   for (std::size_t f = 10; f < 20; ++f)
     ball = WithFace(ball, {v[3 * f], v[3 * f + 1], v[3 * f + 2]});
@@ -214,8 +214,8 @@ TEST(PrepareMeshTest, DropsCopiesOfFacesWhicheverWayRound) {
 // A vertex in the middle of an edge of the cube, which only one side's faces use: the other side
 // has a face without area there.
 TEST(PrepareMeshTest, TurnsEdgesOfFacesWhoseCornersLieOnALine) {
-  PolygonSoup soup = WithoutFaces(Cube(), 3);  // the face 2, 3, 7, 6
-  soup.positions.emplace_back(0.5, 1.0, 1.0);  // between 3 and 7
+  formats::PolygonSoup soup = WithoutFaces(Cube(), 3);  // the face 2, 3, 7, 6
+  soup.positions.emplace_back(0.5, 1.0, 1.0);           // between 3 and 7
   soup = WithFace(soup, {6, 2, 8});
   soup = WithFace(soup, {2, 3, 8});
   soup = WithFace(soup, {6, 8, 7});
@@ -230,7 +230,7 @@ TEST(PrepareMeshTest, TurnsEdgesOfFacesWhoseCornersLieOnALine) {
 
 TEST(PrepareMeshTest, MergesNeighboursInOnePlace) {
   // The ball's last parallel shrinks onto the pole: every face round it loses its area.
-  PolygonSoup ball = Ball(6, 9);
+  formats::PolygonSoup ball = Ball(6, 9);
   for (int m = 0; m < 6; ++m) ball.positions[6 * 8 + m] = ball.positions.back();
   const PreparedMesh prepared = Prepared(ball);
   EXPECT_EQ(CodesOf(prepared), "FLAT_FACES");
@@ -244,7 +244,7 @@ TEST(PrepareMeshTest, MergesNeighboursInOnePlace) {
 // A row of faces without area that can only be mended from its far end, one after the other.
 TEST(PrepareMeshTest, MendsLongRowsOfFacesWithoutArea) {
   constexpr std::uint32_t kCount = 100'000;
-  PolygonSoup soup;
+  formats::PolygonSoup soup;
   soup.positions = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}};
   for (std::uint32_t i = 0; i <= kCount; ++i) soup.positions.emplace_back(1.0 + i / 1e5, 0, 0);
   for (std::uint32_t i = 0; i < kCount; ++i) {
@@ -273,7 +273,7 @@ class ImpatientObserver final : public FitObserver {
 };
 
 TEST(PrepareMeshTest, StopsBetweenStepsWhenCancelled) {
-  const PolygonSoup open = WithoutFaces(SplitApart(Ball(12, 7)), 3, 2);
+  const formats::PolygonSoup open = WithoutFaces(SplitApart(Ball(12, 7)), 3, 2);
   int patience = 0;
   absl::StatusOr<PreparedMesh> prepared = absl::CancelledError();
   for (; !prepared.ok(); ++patience) {
@@ -286,7 +286,7 @@ TEST(PrepareMeshTest, StopsBetweenStepsWhenCancelled) {
 }
 
 TEST(PrepareMeshTest, DropsFins) {
-  PolygonSoup soup = Cube();
+  formats::PolygonSoup soup = Cube();
   soup.positions.emplace_back(2.0, 2.0, 0.0);
   soup.positions.emplace_back(3.0, 3.0, 0.0);
   soup = WithFace(soup, {6, 7, 8});
@@ -299,7 +299,7 @@ TEST(PrepareMeshTest, DropsFins) {
 
 TEST(PrepareMeshTest, TakesBoxesWithCommonEdgeApart) {
   // The edge from (1, 1, 0) to (1, 1, 1) belongs to four faces.
-  PolygonSoup soup = Together(Cube(), Box({1.0, 1.0, 0.0}, {1.2, 1.2, 1.0}));
+  formats::PolygonSoup soup = Together(Cube(), Box({1.0, 1.0, 0.0}, {1.2, 1.2, 1.0}));
   for (std::uint32_t& v : soup.face_vertices) {
     if (v == 8 || v == 9) v -= 2;
   }
@@ -310,7 +310,7 @@ TEST(PrepareMeshTest, TakesBoxesWithCommonEdgeApart) {
 }
 
 TEST(PrepareMeshTest, SplitsVerticesInWhichTheSurfaceTouchesItself) {
-  PolygonSoup ball = Ball(12, 7);  // its poles are the last two vertices
+  formats::PolygonSoup ball = Ball(12, 7);  // its poles are the last two vertices
   const auto south = static_cast<std::uint32_t>(ball.positions.size() - 1);
   for (std::uint32_t& v : ball.face_vertices) v = v == south ? south - 1 : v;
   const PreparedMesh prepared = Prepared(ball);
@@ -322,7 +322,7 @@ TEST(PrepareMeshTest, SplitsVerticesInWhichTheSurfaceTouchesItself) {
 }
 
 TEST(PrepareMeshTest, TurnsFacesTheSameWayRoundAndOutward) {
-  const PolygonSoup ball = Ball(24, 15);
+  const formats::PolygonSoup ball = Ball(24, 15);
   const SurfaceKey expected = KeyOf(Prepared(ball).mesh, 1e-6);
   const PreparedMesh some = Prepared(RandomlyTurned(ball, 0.3, 1));
   EXPECT_EQ(CodesOf(some), "FACES_TURNED");
@@ -334,8 +334,8 @@ TEST(PrepareMeshTest, TurnsFacesTheSameWayRoundAndOutward) {
 }
 
 TEST(PrepareMeshTest, KeepsTheLargestPart) {
-  const PolygonSoup big = Ball(24, 15);
-  PolygonSoup soup = Together(Moved(Ball(8, 5, 0.2), {3.0, 0.0, 0.0}), big);
+  const formats::PolygonSoup big = Ball(24, 15);
+  formats::PolygonSoup soup = Together(Moved(Ball(8, 5, 0.2), {3.0, 0.0, 0.0}), big);
   soup = Together(soup, Ball(8, 5, 0.9));  // within the big one
   const PreparedMesh prepared = Prepared(soup);
   EXPECT_EQ(CodesOf(prepared), "PARTS_LEFT_OUT");
@@ -348,11 +348,11 @@ TEST(PrepareMeshTest, KeepsTheLargestPart) {
 }
 
 TEST(PrepareMeshTest, RefusesTwoBodies) {
-  const PolygonSoup ball = Ball(12, 7);
+  const formats::PolygonSoup ball = Ball(12, 7);
   EXPECT_THAT(RefusalOf(Together(ball, Moved(ball, {3.0, 0.0, 0.0}))),
               HasSubstr("TWO_BODIES two separate parts are of similar size"));
   // Also where both are open.
-  const PolygonSoup open = WithoutFaces(ball, 0, 3);
+  const formats::PolygonSoup open = WithoutFaces(ball, 0, 3);
   EXPECT_THAT(RefusalOf(Together(open, Moved(open, {3.0, 0.0, 0.0}))), HasSubstr("TWO_BODIES"));
 }
 
@@ -374,8 +374,8 @@ TEST(PrepareMeshTest, ClosesHolesOfInsideOutMeshes) {
 
 TEST(PrepareMeshTest, ClosesHolesThatTouchInVertices) {
   // Every other triangle round the pole is missing: all holes meet there.
-  PolygonSoup ball = Ball(12, 15);
-  PolygonSoup open;
+  formats::PolygonSoup ball = Ball(12, 15);
+  formats::PolygonSoup open;
   open.positions = ball.positions;
   const auto pole = static_cast<std::uint32_t>(ball.positions.size() - 2);
   int at_pole = 0;
@@ -393,7 +393,7 @@ TEST(PrepareMeshTest, ClosesHolesThatTouchInVertices) {
 // ones by cutting ears. Both ends are flat, so the volume is that of the prism.
 TEST(PrepareMeshTest, ClosesLongLoops) {
   for (const int n : {30, 400, 1000}) {
-    PolygonSoup tube;
+    formats::PolygonSoup tube;
     for (int i = 0; i < n; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / n;
       for (const double z : {0.0, 3.0}) {
@@ -416,8 +416,8 @@ TEST(PrepareMeshTest, ClosesLongLoops) {
 }
 
 TEST(PrepareMeshTest, RefusesSurfacesThatAreMostlyHole) {
-  const PolygonSoup ball = Ball(24, 15);
-  PolygonSoup half;
+  const formats::PolygonSoup ball = Ball(24, 15);
+  formats::PolygonSoup half;
   half.positions = ball.positions;
   for (std::size_t i = 0; i < ball.face_vertices.size(); i += 3) {
     const bool above = ball.positions[ball.face_vertices[i]].z() > -0.01 &&
@@ -429,7 +429,7 @@ TEST(PrepareMeshTest, RefusesSurfacesThatAreMostlyHole) {
 }
 
 TEST(PrepareMeshTest, RefusesSurfacesWithoutInside) {
-  PolygonSoup plane;  // the projective plane on six vertices
+  formats::PolygonSoup plane;  // the projective plane on six vertices
   plane.positions = {{0, 0, 0}, {3, 0, 1}, {0, 4, 1}, {1, 1, 5}, {4, 3, 2}, {2, 5, 4}};
   plane.face_vertices = {0, 1, 4, 0, 1, 5, 0, 2, 3, 0, 2, 5, 0, 3, 4,
                          1, 2, 3, 1, 2, 4, 1, 3, 5, 2, 4, 5, 3, 4, 5};
@@ -437,7 +437,7 @@ TEST(PrepareMeshTest, RefusesSurfacesWithoutInside) {
 }
 
 TEST(PrepareMeshTest, RefusesFlatAndEmptySurfaces) {
-  PolygonSoup soup = Cube();
+  formats::PolygonSoup soup = Cube();
   for (Eigen::Vector3d& position : soup.positions) position.x() = 0.0;
   EXPECT_THAT(RefusalOf(soup), HasSubstr("NO_VOLUME"));
   for (Eigen::Vector3d& position : soup.positions) position.setZero();
@@ -448,7 +448,7 @@ TEST(PrepareMeshTest, RefusesFlatAndEmptySurfaces) {
 
 // (Bad arrays: refusals_test.cc.)
 TEST(PrepareMeshTest, TakesSizesUpToTheLimits) {
-  MeshLimits limits;
+  formats::MeshLimits limits;
   limits.max_vertices = 8;
   limits.max_faces = 6;
   EXPECT_TRUE(PrepareMesh(Cube(), limits).ok());
@@ -456,10 +456,10 @@ TEST(PrepareMeshTest, TakesSizesUpToTheLimits) {
 
 // Whatever is done to the arrays of a ball, the same surface comes out.
 TEST(PrepareMeshProperty, OrderTurnsAndCopiesDoNotChangeTheSurface) {
-  const PolygonSoup ball = Ball(16, 9);
+  const formats::PolygonSoup ball = Ball(16, 9);
   const SurfaceKey expected = KeyOf(Prepared(ball).mesh, 1e-6);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    PolygonSoup soup = RandomlyTurned(Shuffled(ball, seed), 0.4, seed);
+    formats::PolygonSoup soup = RandomlyTurned(Shuffled(ball, seed), 0.4, seed);
     if (seed % 2 == 1) soup = SplitApart(soup);
     EXPECT_EQ(KeyOf(Prepared(soup).mesh, 1e-6), expected) << seed;
   }
@@ -468,7 +468,7 @@ TEST(PrepareMeshProperty, OrderTurnsAndCopiesDoNotChangeTheSurface) {
 TEST(PrepareMeshProperty, DroppedFacesAreFilledAgain) {
   const double whole = Prepared(Ball(32, 19)).mesh.volume();
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const PolygonSoup shuffled = Shuffled(Ball(32, 19), seed);
+    const formats::PolygonSoup shuffled = Shuffled(Ball(32, 19), seed);
     const std::size_t faces = shuffled.face_sizes.size();
     const PreparedMesh prepared = Prepared(WithoutFaces(shuffled, 0, faces / 20));
     EXPECT_GT(CountOf(prepared, "HOLES_CLOSED"), 10);
@@ -477,7 +477,8 @@ TEST(PrepareMeshProperty, DroppedFacesAreFilledAgain) {
 }
 
 TEST(PrepareMeshProperty, PlaceAndSizeDoNotMatter) {
-  const PolygonSoup spoilt = RandomlyTurned(WithoutFaces(SplitApart(Ball(16, 9)), 3, 2), 0.3, 5);
+  const formats::PolygonSoup spoilt =
+      RandomlyTurned(WithoutFaces(SplitApart(Ball(16, 9)), 3, 2), 0.3, 5);
   const PreparedMesh near = Prepared(spoilt);
   const Eigen::Vector3d away(2e5, -1e5, 3e5);
   const PreparedMesh far = Prepared(Moved(spoilt, away));
@@ -485,7 +486,7 @@ TEST(PrepareMeshProperty, PlaceAndSizeDoNotMatter) {
   const BodyMesh back = far.mesh.Transformed({Eigen::Matrix3d::Identity(), 1.0, -away});
   EXPECT_EQ(KeyOf(back, 1e-6), KeyOf(near.mesh, 1e-6));
   EXPECT_NEAR(far.mesh.volume(), near.mesh.volume(), 1e-8);
-  PolygonSoup tiny = spoilt;
+  formats::PolygonSoup tiny = spoilt;
   for (Eigen::Vector3d& position : tiny.positions) position *= 0x1p-20;
   const PreparedMesh small = Prepared(tiny);
   EXPECT_EQ(CodesOf(small).substr(0, 12), CodesOf(near).substr(0, 12));

@@ -6,22 +6,24 @@
 #include <filesystem>
 
 #include "core/base/status.h"
+#include "core/formats/read_mesh.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/mesh/read_mesh.h"
 #include "tests/core/mesh/soups.h"
-#include "tests/core/mesh/told.h"
 #include "tests/fuzz/mesh_promises.h"
 #include "tests/support/bodies.h"
+#include "tests/support/told.h"
 
 namespace capfit::mesh {
 namespace {
 
 using testing::HasSubstr;
 
-absl::StatusOr<PolygonSoup> ReadFile(const std::filesystem::path& path, bool by_name = true) {
+absl::StatusOr<formats::PolygonSoup> ReadFile(const std::filesystem::path& path,
+                                              bool by_name = true) {
   const std::string bytes = test_support::ReadFile(path);
-  return ReadMesh(std::as_bytes(std::span(bytes)),
-                  by_name ? FormatFromFileName(path.string()) : MeshFormat::kUnknown);
+  return formats::ReadMesh(
+      std::as_bytes(std::span(bytes)),
+      by_name ? formats::FormatFromFileName(path.string()) : formats::MeshFormat::kUnknown);
 }
 
 PreparedMesh PreparedFile(const std::filesystem::path& path) {

@@ -12,7 +12,7 @@ namespace {
 
 using Faces = std::vector<std::vector<std::uint32_t>>;
 
-Faces FacesOf(const PolygonSoup& soup) {
+Faces FacesOf(const formats::PolygonSoup& soup) {
   Faces faces;
   std::size_t first = 0;
   const std::size_t count =
@@ -26,8 +26,8 @@ Faces FacesOf(const PolygonSoup& soup) {
   return faces;
 }
 
-PolygonSoup With(std::vector<Eigen::Vector3d> positions, const Faces& faces) {
-  PolygonSoup soup;
+formats::PolygonSoup With(std::vector<Eigen::Vector3d> positions, const Faces& faces) {
+  formats::PolygonSoup soup;
   soup.positions = std::move(positions);
   for (const auto& face : faces) {
     soup.face_sizes.push_back(static_cast<std::uint32_t>(face.size()));
@@ -38,7 +38,7 @@ PolygonSoup With(std::vector<Eigen::Vector3d> positions, const Faces& faces) {
 
 }  // namespace
 
-PolygonSoup Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+formats::PolygonSoup Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   std::vector<Eigen::Vector3d> corners;
   for (int i = 0; i < 8; ++i) {
     corners.emplace_back((i & 4) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(),
@@ -48,10 +48,10 @@ PolygonSoup Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
               {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}});
 }
 
-PolygonSoup Cube() { return Box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()); }
+formats::PolygonSoup Cube() { return Box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()); }
 
-PolygonSoup Ball(int meridians, int parallels, double radius) {
-  PolygonSoup ball;
+formats::PolygonSoup Ball(int meridians, int parallels, double radius) {
+  formats::PolygonSoup ball;
   for (int p = 1; p <= parallels; ++p) {
     const double polar = std::numbers::pi * p / (parallels + 1);
     for (int m = 0; m < meridians; ++m) {
@@ -81,7 +81,7 @@ PolygonSoup Ball(int meridians, int parallels, double radius) {
   return ball;
 }
 
-PolygonSoup Together(const PolygonSoup& a, const PolygonSoup& b) {
+formats::PolygonSoup Together(const formats::PolygonSoup& a, const formats::PolygonSoup& b) {
   std::vector<Eigen::Vector3d> positions = a.positions;
   positions.insert(positions.end(), b.positions.begin(), b.positions.end());
   Faces faces = FacesOf(a);
@@ -92,26 +92,27 @@ PolygonSoup Together(const PolygonSoup& a, const PolygonSoup& b) {
   return With(std::move(positions), faces);
 }
 
-PolygonSoup Moved(PolygonSoup soup, const Eigen::Vector3d& by) {
+formats::PolygonSoup Moved(formats::PolygonSoup soup, const Eigen::Vector3d& by) {
   for (Eigen::Vector3d& position : soup.positions) position += by;
   return soup;
 }
 
-PolygonSoup WithoutFaces(const PolygonSoup& soup, std::size_t first, std::size_t count) {
+formats::PolygonSoup WithoutFaces(const formats::PolygonSoup& soup, std::size_t first,
+                                  std::size_t count) {
   Faces faces = FacesOf(soup);
   faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(first),
               faces.begin() + static_cast<std::ptrdiff_t>(first + count));
   return With(soup.positions, faces);
 }
 
-PolygonSoup WithFace(PolygonSoup soup, std::vector<std::uint32_t> corners) {
+formats::PolygonSoup WithFace(formats::PolygonSoup soup, std::vector<std::uint32_t> corners) {
   Faces faces = FacesOf(soup);
   faces.push_back(std::move(corners));
   return With(std::move(soup.positions), faces);
 }
 
-PolygonSoup SplitApart(const PolygonSoup& soup) {
-  PolygonSoup split;
+formats::PolygonSoup SplitApart(const formats::PolygonSoup& soup) {
+  formats::PolygonSoup split;
   split.face_sizes = soup.face_sizes;
   for (const std::uint32_t v : soup.face_vertices) {
     split.face_vertices.push_back(static_cast<std::uint32_t>(split.positions.size()));
@@ -120,7 +121,8 @@ PolygonSoup SplitApart(const PolygonSoup& soup) {
   return split;
 }
 
-PolygonSoup RandomlyTurned(const PolygonSoup& soup, double chance, std::uint64_t seed) {
+formats::PolygonSoup RandomlyTurned(const formats::PolygonSoup& soup, double chance,
+                                    std::uint64_t seed) {
   Random random(seed);
   Faces faces = FacesOf(soup);
   for (std::vector<std::uint32_t>& face : faces) {
@@ -129,7 +131,7 @@ PolygonSoup RandomlyTurned(const PolygonSoup& soup, double chance, std::uint64_t
   return With(soup.positions, faces);
 }
 
-PolygonSoup Shuffled(const PolygonSoup& soup, std::uint64_t seed) {
+formats::PolygonSoup Shuffled(const formats::PolygonSoup& soup, std::uint64_t seed) {
   Random random(seed);
   Faces faces = FacesOf(soup);
   for (std::size_t i = faces.size(); i > 1; --i) {

@@ -13,27 +13,29 @@
 namespace capfit::mesh {
 
 // An axis-parallel box of six quads, outward.
-[[nodiscard]] PolygonSoup Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+[[nodiscard]] formats::PolygonSoup Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 // The unit cube from the origin.
-[[nodiscard]] PolygonSoup Cube();
+[[nodiscard]] formats::PolygonSoup Cube();
 // A ball round the origin as triangles: 2 * meridians * parallels of them, outward.
-[[nodiscard]] PolygonSoup Ball(int meridians, int parallels, double radius = 1.0);
+[[nodiscard]] formats::PolygonSoup Ball(int meridians, int parallels, double radius = 1.0);
 
 // Both in one, as separate parts.
-[[nodiscard]] PolygonSoup Together(const PolygonSoup& a, const PolygonSoup& b);
-[[nodiscard]] PolygonSoup Moved(PolygonSoup soup, const Eigen::Vector3d& by);
+[[nodiscard]] formats::PolygonSoup Together(const formats::PolygonSoup& a,
+                                            const formats::PolygonSoup& b);
+[[nodiscard]] formats::PolygonSoup Moved(formats::PolygonSoup soup, const Eigen::Vector3d& by);
 // Without faces `first` to `first + count - 1`.
-[[nodiscard]] PolygonSoup WithoutFaces(const PolygonSoup& soup, std::size_t first,
-                                       std::size_t count = 1);
+[[nodiscard]] formats::PolygonSoup WithoutFaces(const formats::PolygonSoup& soup, std::size_t first,
+                                                std::size_t count = 1);
 // With one more face.
-[[nodiscard]] PolygonSoup WithFace(PolygonSoup soup, std::vector<std::uint32_t> corners);
+[[nodiscard]] formats::PolygonSoup WithFace(formats::PolygonSoup soup,
+                                            std::vector<std::uint32_t> corners);
 // No two faces share a vertex.
-[[nodiscard]] PolygonSoup SplitApart(const PolygonSoup& soup);
+[[nodiscard]] formats::PolygonSoup SplitApart(const formats::PolygonSoup& soup);
 // Each face turned round with the given chance.
-[[nodiscard]] PolygonSoup RandomlyTurned(const PolygonSoup& soup, double chance,
-                                         std::uint64_t seed);
+[[nodiscard]] formats::PolygonSoup RandomlyTurned(const formats::PolygonSoup& soup, double chance,
+                                                  std::uint64_t seed);
 // The faces in another order.
-[[nodiscard]] PolygonSoup Shuffled(const PolygonSoup& soup, std::uint64_t seed);
+[[nodiscard]] formats::PolygonSoup Shuffled(const formats::PolygonSoup& soup, std::uint64_t seed);
 
 // The corners of all triangles as sorted, rotated coordinates: equal for equal surfaces whatever
 // the order of vertices and faces. Coordinates are rounded to `grid`.

@@ -19,7 +19,7 @@
 namespace capfit::mesh {
 namespace {
 
-std::vector<Triangle> TrianglesOf(const PolygonSoup& soup) {
+std::vector<Triangle> TrianglesOf(const formats::PolygonSoup& soup) {
   std::vector<Triangle> triangles;
   for (std::size_t i = 0; i + 2 < soup.face_vertices.size(); i += 3) {
     triangles.push_back(
@@ -28,19 +28,19 @@ std::vector<Triangle> TrianglesOf(const PolygonSoup& soup) {
   return triangles;
 }
 
-Eigen::Vector3d NormalOf(const PolygonSoup& soup, const Triangle& t) {
+Eigen::Vector3d NormalOf(const formats::PolygonSoup& soup, const Triangle& t) {
   const Eigen::Vector3d& a = soup.positions[t[0]];
   return (soup.positions[t[1]] - a).cross(soup.positions[t[2]] - a);
 }
 
 // Whether it faces into the ball: no triangle of one does, and one of each two that fold over.
-bool IsInward(const PolygonSoup& soup, const Triangle& t) {
+bool IsInward(const formats::PolygonSoup& soup, const Triangle& t) {
   return NormalOf(soup, t).dot(soup.positions[t[0]]) <= 0.0;
 }
 
 // A ball of uneven triangles, as scans and decimated meshes have them: edges turned at random.
-PolygonSoup UnevenBall(std::uint64_t seed) {
-  PolygonSoup ball = Ball(40, 40);
+formats::PolygonSoup UnevenBall(std::uint64_t seed) {
+  formats::PolygonSoup ball = Ball(40, 40);
   std::vector<Triangle> triangles = TrianglesOf(ball);
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const Triangle& t : triangles) {
@@ -74,11 +74,11 @@ PolygonSoup UnevenBall(std::uint64_t seed) {
 }
 
 // Neighbours become quads at random, each beginning anywhere.
-PolygonSoup Joined(const PolygonSoup& soup, std::uint64_t seed) {
+formats::PolygonSoup Joined(const formats::PolygonSoup& soup, std::uint64_t seed) {
   const std::vector<Triangle> triangles = TrianglesOf(soup);
   const EdgeMates mates = FindEdgeMates(triangles, soup.positions.size());
   Random random(seed);
-  PolygonSoup joined;
+  formats::PolygonSoup joined;
   joined.positions = soup.positions;
   std::vector<bool> is_used(triangles.size(), false);
   for (HalfEdge t = 0; t < triangles.size(); ++t) {
@@ -103,13 +103,13 @@ PolygonSoup Joined(const PolygonSoup& soup, std::uint64_t seed) {
   return joined;
 }
 
-std::size_t Inward(const PolygonSoup& soup, const std::vector<Triangle>& triangles) {
+std::size_t Inward(const formats::PolygonSoup& soup, const std::vector<Triangle>& triangles) {
   return static_cast<std::size_t>(std::count_if(
       triangles.begin(), triangles.end(), [&](const Triangle& t) { return IsInward(soup, t); }));
 }
 
 // What a fan from the first corner folds over.
-double FoldedShare(const PolygonSoup& soup) {
+double FoldedShare(const formats::PolygonSoup& soup) {
   std::vector<Triangle> fans;
   std::size_t at = 0;
   for (const std::uint32_t size : soup.face_sizes) {
@@ -126,9 +126,9 @@ double FoldedShare(const PolygonSoup& soup) {
 // does: they are cut where they were joined.
 TEST(TriangulateFacesTest, QuadsJoinedFromTrianglesDoNotFold) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const PolygonSoup ball = UnevenBall(seed);
+    const formats::PolygonSoup ball = UnevenBall(seed);
     ASSERT_EQ(Inward(ball, TrianglesOf(ball)), 0u);
-    const PolygonSoup joined = Joined(ball, seed);
+    const formats::PolygonSoup joined = Joined(ball, seed);
     const double folded = FoldedShare(joined);
     EXPECT_GT(folded, 0.03);
     const TriangulatedFaces faces = TriangulateFaces(joined, joined.positions);
@@ -142,7 +142,7 @@ TEST(TriangulateFacesTest, QuadsJoinedFromTrianglesDoNotFold) {
 // The flat end of a cut: a star of many corners, half of them inward.
 TEST(TriangulateFacesTest, FacesOfManyCornersAreFilledWithoutFolds) {
   for (const std::size_t corners : {std::size_t{100}, std::size_t{400}, std::size_t{1000}}) {
-    PolygonSoup star;
+    formats::PolygonSoup star;
     double twice_area = 0.0;
     for (std::size_t k = 0; k < corners; ++k) {
       const double angle =
@@ -167,7 +167,7 @@ TEST(TriangulateFacesTest, FacesOfManyCornersAreFilledWithoutFolds) {
 
 // A model of quads with a crumpled one here and there is cut as other programs cut it.
 TEST(TriangulateFacesTest, ModelledQuadsKeepTheDiagonalFromTheirFirstCorner) {
-  PolygonSoup sheet;
+  formats::PolygonSoup sheet;
   const std::uint32_t side = 30;
   for (std::uint32_t i = 0; i <= side; ++i) {
     for (std::uint32_t k = 0; k <= side; ++k) sheet.positions.emplace_back(i, k, 0.0);

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "core/base/status.h"
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 #include "tests/support/bodies.h"
 
@@ -89,8 +89,8 @@ constexpr BrokenInput kInputs[] = {
 
 absl::StatusOr<FitResult> FitFile(const std::filesystem::path& path) {
   const std::string bytes = test_support::ReadFile(path);
-  const auto soup =
-      mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(path.string()));
+  const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)),
+                                      formats::FormatFromFileName(path.string()));
   if (!soup.ok()) return soup.status();
   const ThreadPool pool(1);
   NullObserver observer;

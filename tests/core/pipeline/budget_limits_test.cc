@@ -16,10 +16,10 @@
 namespace capfit::pipeline {
 namespace {
 
-constexpr int kOpen = std::numeric_limits<int>::max();
+constexpr int kOpen = capsule::kNoLimit;
 
-const mesh::PolygonSoup& Soup() {
-  static const mesh::PolygonSoup soup = [] {
+const formats::PolygonSoup& Soup() {
+  static const formats::PolygonSoup soup = [] {
     mannequin::MannequinOptions options;
     options.faces = 4000;
     return *mannequin::MakeMannequin(options);
@@ -27,7 +27,7 @@ const mesh::PolygonSoup& Soup() {
   return soup;
 }
 
-circle::Budget BudgetOf(const FitOptions& options) {
+capsule::Budget BudgetOf(const FitOptions& options) {
   return TotalBudget(WithEngineLimits(options));
 }
 

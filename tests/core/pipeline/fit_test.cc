@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/formats/read_mesh.h"
 #include "core/geometry/tapered_capsule.h"
 #include "core/mannequin/mannequin.h"
-#include "core/mesh/read_mesh.h"
 #include "tests/support/bodies.h"
 
 namespace capfit::pipeline {
@@ -18,21 +18,21 @@ namespace {
 
 constexpr double kJudgeTolerance_m = 1e-4;
 
-mesh::PolygonSoup Mannequin(const mannequin::MannequinOptions& options = {}) {
-  absl::StatusOr<mesh::PolygonSoup> soup = mannequin::MakeMannequin(options);
+formats::PolygonSoup Mannequin(const mannequin::MannequinOptions& options = {}) {
+  absl::StatusOr<formats::PolygonSoup> soup = mannequin::MakeMannequin(options);
   EXPECT_TRUE(soup.ok()) << soup.status();
   return *std::move(soup);
 }
 
-mesh::PolygonSoup Read(const std::filesystem::path& path) {
+formats::PolygonSoup Read(const std::filesystem::path& path) {
   const std::string bytes = test_support::ReadFile(path);
-  absl::StatusOr<mesh::PolygonSoup> soup =
-      mesh::ReadMesh(std::as_bytes(std::span(bytes)), mesh::FormatFromFileName(path.string()));
+  absl::StatusOr<formats::PolygonSoup> soup = formats::ReadMesh(
+      std::as_bytes(std::span(bytes)), formats::FormatFromFileName(path.string()));
   EXPECT_TRUE(soup.ok()) << path << ": " << soup.status();
   return *std::move(soup);
 }
 
-FitResult FitOrDie(const mesh::PolygonSoup& soup, const FitOptions& options, int threads = 2) {
+FitResult FitOrDie(const formats::PolygonSoup& soup, const FitOptions& options, int threads = 2) {
   const ThreadPool pool(threads);
   NullObserver observer;
   absl::StatusOr<FitResult> result = Fit(soup, options, pool, observer);
@@ -48,7 +48,7 @@ FitOptions AllParts(int max_primitives) {
 }
 
 // The furthest of the caller's vertices outside the set, in the caller's unit.
-double FurthestOut(const mesh::PolygonSoup& soup, const FitResult& result) {
+double FurthestOut(const formats::PolygonSoup& soup, const FitResult& result) {
   const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(result.primitives);
   double furthest = -1e300;
   for (const Eigen::Vector3d& vertex : soup.positions) {
@@ -79,7 +79,7 @@ void ExpectSameBits(const FitResult& a, const FitResult& b) {
 }
 
 TEST(Fit, EnclosesTheMannequinWithinEveryBudget) {
-  const mesh::PolygonSoup soup = Mannequin();
+  const formats::PolygonSoup soup = Mannequin();
   for (const int budget : {22, 32, 64, 128, 250}) {
     const FitResult result = FitOrDie(soup, AllParts(budget));
     EXPECT_LE(result.metrics.n_p, budget);
@@ -116,7 +116,7 @@ TEST(Fit, SmallerPolygonErrorBuysMoreCirclesAndATighterSet) {
   loose.polygon_error = 0.5;
   FitOptions tight;
   tight.polygon_error = 0.1;
-  const mesh::PolygonSoup soup = Mannequin();
+  const formats::PolygonSoup soup = Mannequin();
   const FitResult a = FitOrDie(soup, loose);
   const FitResult b = FitOrDie(soup, tight);
   EXPECT_LT(a.metrics.n_p, b.metrics.n_p);
@@ -124,7 +124,7 @@ TEST(Fit, SmallerPolygonErrorBuysMoreCirclesAndATighterSet) {
 }
 
 TEST(Fit, SameBitsForAnyNumberOfThreads) {
-  const mesh::PolygonSoup soup = Mannequin();
+  const formats::PolygonSoup soup = Mannequin();
   FitOptions options = AllParts(64);
   options.skinning = SkinningMode::kDense;
   const FitResult one = FitOrDie(soup, options, 1);
@@ -178,11 +178,11 @@ void ExpectFollows(const FitResult& here, const FitResult& there, const Copy& co
   EXPECT_NEAR(there.metrics.E_r, here.metrics.E_r, 1e-9);
 }
 
-void ExpectCopiesFollow(const mesh::PolygonSoup& soup) {
+void ExpectCopiesFollow(const formats::PolygonSoup& soup) {
   const FitResult here = FitOrDie(soup, AllParts(64));
   for (const Copy& copy : Copies()) {
     SCOPED_TRACE(copy.name);
-    mesh::PolygonSoup moved = soup;
+    formats::PolygonSoup moved = soup;
     for (Eigen::Vector3d& p : moved.positions) p = copy.Apply(p);
     ExpectFollows(here, FitOrDie(moved, AllParts(64)), copy);
   }
@@ -199,7 +199,7 @@ TEST(Fit, FollowsRealBodiesIntoAnyFrameAndUnit) {
 }
 
 TEST(Fit, WeightsCarryTheCentresThroughMotionAndScale) {
-  const mesh::PolygonSoup soup = Mannequin();
+  const formats::PolygonSoup soup = Mannequin();
   FitOptions options = AllParts(64);
   options.skinning = SkinningMode::kDense;
   const FitResult result = FitOrDie(soup, options);
@@ -254,7 +254,7 @@ TEST(Fit, RealBodiesAreEnclosed) {
   CAPFIT_REQUIRE_BODIES();
   for (const std::filesystem::path& file : test_support::BodyFiles()) {
     SCOPED_TRACE(file.filename().string());
-    const mesh::PolygonSoup soup = Read(file);
+    const formats::PolygonSoup soup = Read(file);
     const bool is_cut = file.string().find("no_hands") != std::string::npos;
     for (const int budget : {64, 128}) {
       const FitResult result = FitOrDie(soup, AllParts(budget));

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/read_mesh.h"
+#include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 #include "tests/core/pipeline/glb_bytes.h"
 #include "tests/support/bodies.h"
@@ -20,20 +20,20 @@
 namespace capfit::pipeline {
 namespace {
 
-using mesh::MeshFormat;
-using mesh::PolygonSoup;
+using formats::MeshFormat;
+using formats::PolygonSoup;
 
 constexpr double kSameShare = 1e-6;  // of the body's height
 
 PolygonSoup ReadBytes(const std::string& bytes, MeshFormat format) {
-  auto soup = mesh::ReadMesh(std::as_bytes(std::span(bytes)), format);
+  auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)), format);
   EXPECT_TRUE(soup.ok()) << soup.status();
   return soup.ok() ? *std::move(soup) : PolygonSoup();
 }
 
 PolygonSoup ReadBody(const std::string& name) {
   const std::filesystem::path path = test_support::BodiesFolder() / name;
-  return ReadBytes(test_support::ReadFile(path), mesh::FormatFromFileName(name));
+  return ReadBytes(test_support::ReadFile(path), formats::FormatFromFileName(name));
 }
 
 FitResult FitSoup(const PolygonSoup& soup) {

@@ -27,7 +27,7 @@ class PartsAlone : public testing::TestWithParam<std::tuple<Groups, Quality, Fit
 
 TEST_P(PartsAlone, AreFitted) {
   const auto& [groups, quality, fit] = GetParam();
-  static const mesh::PolygonSoup soup = [] {
+  static const formats::PolygonSoup soup = [] {
     mannequin::MannequinOptions options;
     options.faces = 5000;
     return *mannequin::MakeMannequin(options);

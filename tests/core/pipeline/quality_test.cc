@@ -16,13 +16,13 @@
 namespace capfit::pipeline {
 namespace {
 
-mesh::PolygonSoup Person() {
-  absl::StatusOr<mesh::PolygonSoup> soup = mannequin::MakeMannequin({});
+formats::PolygonSoup Person() {
+  absl::StatusOr<formats::PolygonSoup> soup = mannequin::MakeMannequin({});
   EXPECT_TRUE(soup.ok()) << soup.status();
   return *std::move(soup);
 }
 
-FitResult MustFit(const mesh::PolygonSoup& soup, FitOptions options, int threads = 2) {
+FitResult MustFit(const formats::PolygonSoup& soup, FitOptions options, int threads = 2) {
   options.parts = {true, true, true, true, true, true};
   const ThreadPool pool(threads);
   NullObserver observer;
@@ -40,7 +40,7 @@ FitOptions Of(Quality quality, FitMode fit, int max_primitives) {
 }
 
 // The furthest vertex outside, asked of the solids themselves.
-double FurthestVertexOut(const mesh::PolygonSoup& soup, const FitResult& result) {
+double FurthestVertexOut(const formats::PolygonSoup& soup, const FitResult& result) {
   const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(result.primitives);
   double furthest = -1e300;
   for (const Eigen::Vector3d& vertex : soup.positions) {
@@ -52,7 +52,7 @@ double FurthestVertexOut(const mesh::PolygonSoup& soup, const FitResult& result)
 }
 
 TEST(TightQuality, EnclosesWithLessThanPaper) {
-  const mesh::PolygonSoup soup = Person();
+  const formats::PolygonSoup soup = Person();
   const FitResult paper = MustFit(soup, Of(Quality::kPaper, FitMode::kEnclose, 64));
   const FitResult tight = MustFit(soup, Of(Quality::kTight, FitMode::kEnclose, 64));
   EXPECT_LE(FurthestVertexOut(soup, tight), 0.0);
@@ -63,7 +63,7 @@ TEST(TightQuality, EnclosesWithLessThanPaper) {
 }
 
 TEST(TightQuality, BestFitIsTighterStillAndSaysHowFarThingsStickOut) {
-  const mesh::PolygonSoup soup = Person();
+  const formats::PolygonSoup soup = Person();
   const FitResult enclosing = MustFit(soup, Of(Quality::kTight, FitMode::kEnclose, 64));
   const FitResult best = MustFit(soup, Of(Quality::kTight, FitMode::kBestFit, 64));
   EXPECT_LT(best.metrics.E_r, 0.5 * enclosing.metrics.E_r);
@@ -74,7 +74,7 @@ TEST(TightQuality, BestFitIsTighterStillAndSaysHowFarThingsStickOut) {
 }
 
 TEST(PaperQuality, ThePublishedLastStepEnclosesWithMore) {
-  const mesh::PolygonSoup soup = Person();
+  const formats::PolygonSoup soup = Person();
   FitOptions options = Of(Quality::kPaper, FitMode::kEnclose, 64);
   const FitResult paper = MustFit(soup, options);
   options.grows_only = true;
@@ -86,7 +86,7 @@ TEST(PaperQuality, ThePublishedLastStepEnclosesWithMore) {
 }
 
 TEST(PaperQuality, BestFitSettlesThePapersPrimitives) {
-  const mesh::PolygonSoup soup = Person();
+  const formats::PolygonSoup soup = Person();
   const FitResult enclosing = MustFit(soup, Of(Quality::kPaper, FitMode::kEnclose, 64));
   const FitResult best = MustFit(soup, Of(Quality::kPaper, FitMode::kBestFit, 64));
   EXPECT_GT(FurthestVertexOut(soup, best), 0.0);
@@ -101,7 +101,7 @@ TEST(PaperQuality, BestFitSettlesThePapersPrimitives) {
 }
 
 TEST(PaperQuality, BestFitGetsBetterWithEveryBudgetAndUsesIt) {
-  const mesh::PolygonSoup soup = Person();
+  const formats::PolygonSoup soup = Person();
   double last = 1.0;
   for (const int budget : {22, 40, 64, 128}) {
     const FitResult best = MustFit(soup, Of(Quality::kPaper, FitMode::kBestFit, budget));
@@ -114,7 +114,7 @@ TEST(PaperQuality, BestFitGetsBetterWithEveryBudgetAndUsesIt) {
 }
 
 TEST(TightQuality, SameBitsForAnyNumberOfThreads) {
-  const mesh::PolygonSoup soup = Person();
+  const formats::PolygonSoup soup = Person();
   for (const FitMode fit : {FitMode::kEnclose, FitMode::kBestFit}) {
     const FitResult one = MustFit(soup, Of(Quality::kTight, fit, 48), 1);
     const FitResult seven = MustFit(soup, Of(Quality::kTight, fit, 48), 7);
@@ -128,7 +128,7 @@ TEST(TightQuality, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(TightQuality, OneLimitAloneIsKeptAndUsed) {
-  const mesh::PolygonSoup soup = Person();
+  const formats::PolygonSoup soup = Person();
   for (const FitMode fit : {FitMode::kEnclose, FitMode::kBestFit}) {
     FitOptions options;
     options.quality = Quality::kTight;
@@ -158,7 +158,7 @@ class StopsIn final : public FitObserver {
 };
 
 TEST(TightQuality, CancellationEndsIt) {
-  const mesh::PolygonSoup soup = Person();
+  const formats::PolygonSoup soup = Person();
   for (const FitMode fit : {FitMode::kEnclose, FitMode::kBestFit}) {
     StopsIn observer(Stage::kRefine);
     const absl::StatusOr<FitResult> result =
@@ -181,7 +181,7 @@ TEST(TightQuality, ASymmetricBodyGetsAnExactlySymmetricSet) {
 }
 
 TEST(Tolerance, IsUsedAndKept) {
-  const mesh::PolygonSoup soup = Person();
+  const formats::PolygonSoup soup = Person();
   for (const Quality quality : {Quality::kPaper, Quality::kTight}) {
     FitOptions options = Of(quality, FitMode::kEnclose, 64);
     const FitResult strict = MustFit(soup, options);
@@ -196,7 +196,7 @@ TEST(Tolerance, IsUsedAndKept) {
 }
 
 TEST(Engines, LimitsHoldAndTheBodyIsCoveredInTheEnginesOwnProfile) {
-  const mesh::PolygonSoup soup = Person();
+  const formats::PolygonSoup soup = Person();
   for (const Engine& engine : Engines()) {
     FitOptions options;
     options.engine = std::string(engine.name);

@@ -28,19 +28,19 @@ class Notes final : public FitObserver {
   std::vector<double> fractions;
 };
 
-mesh::PolygonSoup Mannequin(double metres_per_unit = 1.0) {
-  mesh::PolygonSoup soup = mannequin::MakeMannequin({}).value();
+formats::PolygonSoup Mannequin(double metres_per_unit = 1.0) {
+  formats::PolygonSoup soup = mannequin::MakeMannequin({}).value();
   for (Eigen::Vector3d& p : soup.positions) p /= metres_per_unit;
   return soup;
 }
 
-absl::StatusOr<FitResult> FitWith(const mesh::PolygonSoup& soup, const FitOptions& options,
+absl::StatusOr<FitResult> FitWith(const formats::PolygonSoup& soup, const FitOptions& options,
                                   FitObserver& observer) {
   const ThreadPool pool(2);
   return Fit(soup, options, pool, observer);
 }
 
-FitResult MustFit(const mesh::PolygonSoup& soup, const FitOptions& options) {
+FitResult MustFit(const formats::PolygonSoup& soup, const FitOptions& options) {
   NullObserver observer;
   return FitWith(soup, options, observer).value();
 }
@@ -150,14 +150,14 @@ TEST(EffectiveOptionsOfAResult, TheEnginesLimitsAreApplied) {
 }
 
 TEST(EffectiveOptionsOfAResult, ABodyThatLiesAskewHasNoUpAxis) {
-  mesh::PolygonSoup soup = Mannequin();
+  formats::PolygonSoup soup = Mannequin();
   const Eigen::AngleAxisd turn(std::numbers::pi / 5.0, Eigen::Vector3d(1, 2, 3).normalized());
   for (Eigen::Vector3d& p : soup.positions) p = turn * p;
   EXPECT_EQ(MustFit(soup, {}).effective_options.up, body::UpAxis::kAuto);
 }
 
 TEST(BodyFactsOfAResult, AreThoseOfTheCallersMesh) {
-  const mesh::PolygonSoup soup = Mannequin(0.01);
+  const formats::PolygonSoup soup = Mannequin(0.01);
   const FitResult result = MustFit(soup, {});
   EXPECT_EQ(result.body.vertex_count, static_cast<std::int64_t>(soup.positions.size()));
   EXPECT_EQ(result.body.face_count, static_cast<std::int64_t>(soup.face_count()));
@@ -192,7 +192,7 @@ TEST(PolygonsOfSpheres, AreToldOnlyWithThePolygons) {
 }
 
 TEST(WarningsOfARefusal, AreThoseThatWereNoticedBefore) {
-  mesh::PolygonSoup soup = Mannequin();
+  formats::PolygonSoup soup = Mannequin();
   soup.positions.emplace_back(0.0, 1.0, 0.0);  // no face uses it
   FitOptions options;
   options.max_primitives = 15;

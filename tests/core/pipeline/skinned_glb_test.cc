@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "core/formats/read_mesh.h"
 #include "core/mannequin/mannequin.h"
-#include "core/mesh/read_mesh.h"
 #include "core/pipeline/fit.h"
 #include "tests/core/pipeline/glb_bytes.h"
 
@@ -93,11 +93,11 @@ std::vector<AvatarStyle> Styles() {
 
 // The mannequin and where its joints are, both in its own frame.
 struct Model {
-  mesh::PolygonSoup soup;
+  formats::PolygonSoup soup;
   std::map<LandmarkId, Vector3d> measured;
 };
 
-FitResult FitOf(const mesh::PolygonSoup& soup) {
+FitResult FitOf(const formats::PolygonSoup& soup) {
   const ThreadPool pool(1);
   NullObserver observer;
   FitOptions options;
@@ -197,7 +197,7 @@ class AvatarFile {
   }
 
   void AddMesh() {
-    const mesh::PolygonSoup& soup = TheModel().soup;
+    const formats::PolygonSoup& soup = TheModel().soup;
     std::string positions;
     for (const Vector3d& p : soup.positions) {
       const Vector3d stored = stored_from_model_ * p;
@@ -242,10 +242,10 @@ class AvatarFile {
   json gltf_;
 };
 
-mesh::PolygonSoup ReadAvatar(const std::string& bytes) {
-  auto soup = mesh::ReadMesh(std::as_bytes(std::span(bytes)));
+formats::PolygonSoup ReadAvatar(const std::string& bytes) {
+  auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)));
   EXPECT_TRUE(soup.ok()) << soup.status();
-  return soup.ok() ? *std::move(soup) : mesh::PolygonSoup();
+  return soup.ok() ? *std::move(soup) : formats::PolygonSoup();
 }
 
 std::int64_t IgnoredBones(const FitResult& result) {

@@ -24,13 +24,13 @@ using body::LandmarkId;
 using body::Part;
 using testing::ElementsAre;
 
-mesh::PolygonSoup SmallMannequin() {
+formats::PolygonSoup SmallMannequin() {
   mannequin::MannequinOptions options;
   options.faces = 5000;
   return *mannequin::MakeMannequin(options);
 }
 
-body::Body BodyOf(const mesh::PolygonSoup& soup) {
+body::Body BodyOf(const formats::PolygonSoup& soup) {
   const auto prepared = mesh::PrepareMesh(soup);
   EXPECT_TRUE(prepared.ok());
   auto body = body::FindBody(prepared->mesh, {}, ThreadPool(1), NullObserver());
@@ -47,14 +47,14 @@ FitOptions AllPartsWith(int max_primitives, Quality quality) {
 }
 
 // The set in the body frame.
-capsule::PrimitiveSet SetOf(const mesh::PolygonSoup& soup, const FitOptions& options) {
+capsule::PrimitiveSet SetOf(const formats::PolygonSoup& soup, const FitOptions& options) {
   NullObserver observer;
   const auto result = Fit(soup, options, ThreadPool(2), observer);
   EXPECT_TRUE(result.ok()) << result.status();
   return ToCallerFrame(result->primitives, result->body_from_caller);
 }
 
-std::vector<std::string> NamesOf(const mesh::PolygonSoup& soup, const FitOptions& options) {
+std::vector<std::string> NamesOf(const formats::PolygonSoup& soup, const FitOptions& options) {
   return SphereNames(BodyOf(soup), SetOf(soup, options));
 }
 
@@ -81,7 +81,7 @@ void ExpectUniqueAndPaired(const std::vector<std::string>& names,
 }
 
 TEST(SphereNames, AreUniqueAndPairedOnSetsOfAllSizes) {
-  const mesh::PolygonSoup soup = SmallMannequin();
+  const formats::PolygonSoup soup = SmallMannequin();
   const body::Body body = BodyOf(soup);
   for (const Quality quality : {Quality::kPaper, Quality::kTight}) {
     for (const int budget : {22, 64, 100}) {
@@ -102,8 +102,8 @@ TEST(SphereNames, AreUniqueAndPairedOnSetsOfAllSizes) {
 }
 
 TEST(SphereNames, StayWhenTheBodyIsTurnedScaledAndReordered) {
-  const mesh::PolygonSoup soup = SmallMannequin();
-  mesh::PolygonSoup other = soup;
+  const formats::PolygonSoup soup = SmallMannequin();
+  formats::PolygonSoup other = soup;
   const Eigen::AngleAxisd turn(1.1, Eigen::Vector3d(0.3, -0.5, 0.8).normalized());
   const std::size_t count = soup.positions.size();
   for (std::size_t v = 0; v < count; ++v) {
@@ -118,7 +118,7 @@ TEST(SphereNames, StayWhenTheBodyIsTurnedScaledAndReordered) {
 }
 
 TEST(SphereNames, DoNotDependOnTheOrderOfTheSet) {
-  const mesh::PolygonSoup soup = SmallMannequin();
+  const formats::PolygonSoup soup = SmallMannequin();
   const body::Body body = BodyOf(soup);
   const capsule::PrimitiveSet set = SetOf(soup, AllPartsWith(64, Quality::kPaper));
   capsule::PrimitiveSet other = set;

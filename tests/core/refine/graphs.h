@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/base/random.h"
-#include "core/refine/capsule_graph.h"
-#include "core/refine/cone.h"
+#include "core/refine/graph/capsule_graph.h"
+#include "core/refine/graph/cone.h"
 
 namespace capfit::refine {
 

@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "core/body/find_body.h"
-#include "core/coverage/cover_vertices.h"
+#include "core/coverage/cover_body.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/refine/graph_edit.h"
-#include "core/refine/occupancy_grid.h"
+#include "core/refine/best_fit/occupancy_grid.h"
+#include "core/refine/graph/graph_edit.h"
 
 namespace capfit::refine {
 namespace {
@@ -79,7 +79,7 @@ double ErrorOf(const body::Body& body, const capsule::PrimitiveSet& set) {
 capsule::PrimitiveSet Refine(const body::Body& body, const RefineOptions& options,
                              int threads = 2) {
   const ThreadPool pool(threads);
-  const coverage::CoverTarget target = coverage::TargetOf(body, options.parts);
+  const tighten::CoverTarget target = tighten::TargetOf(body, options.parts);
   NullObserver observer;
   std::vector<capsule::PrimitiveSet> sets = RefineSet(body, target, options, pool, observer);
   if (!options.enclose) return sets.front();
@@ -110,8 +110,7 @@ TEST(RefineSetTest, TellsHowFarItIs) {
   for (const bool enclose : {true, false}) {
     const RefineOptions options = WithPrimitives(64, enclose);
     Listener listener;
-    (void)RefineSet(body, coverage::TargetOf(body, options.parts), options, ThreadPool(2),
-                    listener);
+    (void)RefineSet(body, tighten::TargetOf(body, options.parts), options, ThreadPool(2), listener);
     std::vector<double>& told = listener.fractions;
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     told.erase(std::unique(told.begin(), told.end()), told.end());
@@ -127,7 +126,7 @@ TEST(RefineSetTest, EnclosingSetsAreNearlyThatBeforeCoverage) {
        {WithSpheresAndCapsules(32, 32, true), WithPrimitives(100, true)}) {
     NullObserver observer;
     const std::vector<capsule::PrimitiveSet> sets =
-        RefineSet(CutMannequin(), coverage::TargetOf(CutMannequin(), options.parts), options,
+        RefineSet(CutMannequin(), tighten::TargetOf(CutMannequin(), options.parts), options,
                   ThreadPool(2), observer);
     ASSERT_FALSE(sets.empty());
     for (const capsule::PrimitiveSet& set : sets) {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/body/find_body.h"
+#include "core/formats/read_mesh.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/mesh/read_mesh.h"
 #include "core/section/stations.h"
 #include "tests/core/section/shapes.h"
 #include "tests/support/bodies.h"
@@ -184,7 +184,7 @@ class RealBodyTest : public testing::Test {
  protected:
   static body::Body Load(const std::filesystem::path& path) {
     const std::string bytes = test_support::ReadFile(path);
-    const auto soup = mesh::ReadMesh(std::as_bytes(std::span(bytes.data(), bytes.size())));
+    const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes.data(), bytes.size())));
     const auto prepared = mesh::PrepareMesh(soup.value());
     auto body = body::FindBody(prepared.value().mesh, {}, ThreadPool(1), NullObserver());
     return std::move(body).value();

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/base/random.h"
+#include "core/formats/read_mesh.h"
 #include "core/mesh/prepare_mesh.h"
-#include "core/mesh/read_mesh.h"
 #include "tests/core/metrics/shapes.h"
 #include "tests/support/bodies.h"
 
@@ -308,7 +308,7 @@ TEST(RealBodiesTest, ReproduceCentresInsideEveryBody) {
   CAPFIT_REQUIRE_BODIES();
   for (const auto& file : test_support::BodyFiles()) {
     const std::string bytes = test_support::ReadFile(file);
-    const auto soup = mesh::ReadMesh(std::as_bytes(std::span(bytes)));
+    const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)));
     ASSERT_TRUE(soup.ok()) << file << soup.status();
     const auto prepared = mesh::PrepareMesh(*soup);
     ASSERT_TRUE(prepared.ok()) << file << prepared.status();

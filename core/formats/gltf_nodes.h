@@ -1,0 +1,24 @@
+// The node tree of a glTF file: who is drawn and where.
+#ifndef CAPFIT_CORE_FORMATS_GLTF_NODES_H_
+#define CAPFIT_CORE_FORMATS_GLTF_NODES_H_
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "absl/status/statusor.h"
+
+namespace capfit::formats {
+
+struct GltfNodes {
+  std::vector<Eigen::Matrix4d> to_world;  // of every node, also of those outside the scene
+  std::vector<std::size_t> drawn;         // nodes of the scene, parents before children
+};
+
+// INVALID_ARGUMENT where a node has two parents or is its own ancestor. O(nodes).
+[[nodiscard]] absl::StatusOr<GltfNodes> ReadGltfNodes(const nlohmann::json& gltf);
+
+}  // namespace capfit::formats
+
+#endif  // CAPFIT_CORE_FORMATS_GLTF_NODES_H_

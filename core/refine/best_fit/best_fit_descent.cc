@@ -1,0 +1,54 @@
+#include "core/refine/best_fit/best_fit_descent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/random.h"
+#include "core/refine/best_fit/boundary_integral.h"
+#include "core/refine/graph/cone.h"
+#include "core/refine/internal.h"
+
+namespace capfit::refine {
+namespace {
+
+constexpr double kMeanDecay = 0.9;
+constexpr double kSquareDecay = 0.95;
+
+struct Moments {
+  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
+  double square = 0.0;  // of the whole gradient, halved
+};
+
+double RateAt(const BestFitOptions& options, int step) {
+  const double phase = std::numbers::pi * step / std::max(1, options.steps);
+  return options.last_rate_m +
+         0.5 * (options.first_rate_m - options.last_rate_m) * (1.0 + std::cos(phase));
+}
+
+}  // namespace
+
+void DescendBestFit(const OccupancyGrid& grid, const BestFitOptions& options, CapsuleGraph& graph) {
+  std::vector<Moments> moments(graph.nodes.size());
+  Random random(options.seed);
+  for (int step = 0; step < options.steps; ++step) {
+    const BoundaryIntegral boundary = IntegrateBoundary(
+        graph, ConesOf(graph), {options.spacing_m, random.NextUnit(), &grid, options.active});
+    const double rate = RateAt(options, step) / (1.0 - std::pow(kMeanDecay, step + 1));
+    const double unbias = 1.0 / (1.0 - std::pow(kSquareDecay, step + 1));
+    for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
+      if (!graph.IsNodeRepresentative(static_cast<int>(v))) continue;
+      if (options.active != nullptr && !(*options.active)[v]) continue;
+      const Eigen::Vector4d gradient = boundary.gradient_m2[v] / grid.volume_m3;
+      Moments& m = moments[v];
+      m.mean = kMeanDecay * m.mean + (1.0 - kMeanDecay) * gradient;
+      m.square = kSquareDecay * m.square + (1.0 - kSquareDecay) * 0.5 * gradient.squaredNorm();
+      const Eigen::Vector4d move = rate * m.mean / (std::sqrt(unbias * m.square) + 1e-9);
+      graph.nodes[v].center_m -= move.head<3>();
+      graph.nodes[v].radius_m = std::max(kLeastRadiusM, graph.nodes[v].radius_m - move[3]);
+    }
+    graph.CopyToImages();
+  }
+}
+
+}  // namespace capfit::refine

@@ -1,0 +1,381 @@
+#include "core/refine/best_fit/growth.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/refine/graph/graph_edit.h"
+#include "core/refine/internal.h"
+
+namespace capfit::refine {
+namespace {
+
+// Spheres whose surfaces come within this share of their radii are worth a capsule's trial.
+constexpr double kLinkReach = 1.1;
+// A round keeps edits that gain at least this share of its best one, per primitive.
+constexpr double kKeepShare = 0.35;
+// Of the edits glanced at no fewer than so many are tried thoroughly.
+constexpr std::size_t kLeastThorough = 8;
+// Capsules go together when their losses are within this ratio, or below the least, which is
+// relative to the body's volume.
+constexpr double kSpareShare = 2.0;
+constexpr double kLeastLoss = 1e-4;
+// An exchange gives up this share of all primitives.
+constexpr double kExchangeShare = 0.06;
+// So many exchanges in a row may fail before no more are tried.
+constexpr std::size_t kMostFailures = 2;
+// Of the removals glanced at, how many are tried thoroughly.
+constexpr double kSpareThoroughShare = 0.35;
+// So often capsules are cut and all is settled again.
+constexpr int kCuttingRounds = 3;
+// A round of trials is taken for this share of what is left of the work, until it shows how far it
+// went; a trial in earnest for so many glances.
+constexpr double kRoundShare = 0.1;
+constexpr int kGlancesPerThorough = 3;
+// A round spends at least this share of what is there already.
+constexpr double kLeastBatchShare = 0.05;
+
+struct Candidate {
+  Edit edit;
+  EditedGraph result;
+  double score = 0.0;  // gain per primitive, > 0 is good
+};
+
+// What falling into more pieces, or fewer, counts in primitives.
+double PieceCost(const GrowthOptions& options, const CapsuleGraph& before,
+                 const CapsuleGraph& after) {
+  if (options.piece_cost == 0.0) return 0.0;
+  return options.piece_cost * (ComponentCount(after) - ComponentCount(before));
+}
+
+// Primitives that the edit saves, or what they are worth beside new pieces.
+double SavingOf(const GrowthOptions& options, const CapsuleGraph& before,
+                const CapsuleGraph& after) {
+  return before.primitive_count() - after.primitive_count() - PieceCost(options, before, after);
+}
+
+// Spheres and capsules weigh alike under one total. Under two limits each weighs what share of the
+// room left it takes.
+double CostOf(const capsule::Budget& budget, const GrowthOptions& options,
+              const CapsuleGraph& before, const CapsuleGraph& after) {
+  const double spheres =
+      after.sphere_count() - before.sphere_count() + PieceCost(options, before, after);
+  const double capsules = after.capsule_count() - before.capsule_count();
+  if (budget.max_spheres >= capsule::kNoLimit || budget.max_capsules >= capsule::kNoLimit) {
+    return std::max(0.5, spheres + capsules);
+  }
+  const double sphere_room = std::max(1, budget.max_spheres - before.sphere_count());
+  const double capsule_room = std::max(1, budget.max_capsules - before.capsule_count());
+  const double unit = 0.5 * (sphere_room + capsule_room);
+  return std::max(0.5, unit * (spheres / sphere_room + capsules / capsule_room));
+}
+
+void ProposeLinks(const CapsuleGraph& graph, std::vector<Edit>& edits) {
+  for (int i = 0; i < graph.sphere_count(); ++i) {
+    for (int j = i + 1; j < graph.sphere_count(); ++j) {
+      const Node& a = graph.nodes[U(i)];
+      const Node& b = graph.nodes[U(j)];
+      if (graph.symmetric && std::minmax(a.mirror, b.mirror) < std::minmax(i, j)) continue;
+      const double reach = kLinkReach * (a.radius_m + b.radius_m);
+      if ((a.center_m - b.center_m).norm() > reach || graph.HasEdge(i, j)) continue;
+      edits.push_back(EditOf(EditKind::kLink, i, j));
+    }
+  }
+}
+
+std::vector<Edit> Additions(const Objective& objective, const GrowthOptions& options,
+                            const CapsuleGraph& graph) {
+  std::vector<Edit> edits;
+  for (int e = 0; e < graph.capsule_count(); ++e) {
+    if (graph.IsEdgeRepresentative(e)) edits.push_back(EditOf(EditKind::kSplit, e));
+  }
+  ProposeLinks(graph, edits);
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (!graph.IsOnPlane(v)) continue;
+    edits.push_back(EditOf(EditKind::kPart, v, 0));
+    edits.push_back(EditOf(EditKind::kPart, v, 1));
+  }
+  for (const Eigen::Vector3d& p : objective.WorstPoints(graph, options.worst_points)) {
+    const std::vector<Edit> leaves = LeavesAt(graph, p);
+    edits.insert(edits.end(), leaves.begin(), leaves.end());
+    if (!leaves.empty()) {
+      Edit ball = leaves.front();
+      ball.kind = EditKind::kBall;
+      edits.push_back(ball);
+    }
+  }
+  return edits;
+}
+
+std::vector<Edit> Removals(const CapsuleGraph& graph) {
+  std::vector<Edit> edits;
+  for (int e = 0; e < graph.capsule_count(); ++e) {
+    if (graph.IsEdgeRepresentative(e)) edits.push_back(EditOf(EditKind::kUnlink, e));
+  }
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (graph.IsNodeRepresentative(v)) edits.push_back(EditOf(EditKind::kDissolve, v));
+  }
+  return edits;
+}
+
+void SortByScore(std::vector<Candidate>& candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+}
+
+// Applies and settles all edits in parallel: a glance at each, then the better ones in earnest.
+// `score` turns a gain into a score. Best first.
+template <class Admit, class Score>
+std::vector<Candidate> TryAll(const Objective& objective, const CapsuleGraph& graph,
+                              const std::vector<Edit>& edits, const ThreadPool& pool,
+                              WorkMeter& meter, double until, double thorough_share,
+                              const Admit& admit, const Score& score) {
+  const std::unique_ptr<Objective::Round> round = objective.StartRound(graph);
+  std::vector<Candidate> candidates(edits.size());
+  const auto attempt = [&](Trial trial) {
+    pool.ForEach(candidates.size(), [&](std::size_t i) {
+      Candidate& c = candidates[i];
+      if (meter.IsCancelled()) {
+        c.result.possible = false;
+        return;
+      }
+      if (trial == Trial::kGlance) {
+        c.edit = edits[i];
+        c.result = Apply(graph, edits[i]);
+        c.result.possible = c.result.possible && admit(c.result.graph);
+      }
+      if (c.result.possible) c.score = score(c.result.graph, round->Try(trial, c.result));
+      meter.Add(trial == Trial::kGlance ? 1 : kGlancesPerThorough);
+    });
+    std::erase_if(candidates, [](const Candidate& c) { return !c.result.possible; });
+    SortByScore(candidates);
+  };
+  const auto kept = static_cast<std::size_t>(thorough_share * static_cast<double>(edits.size()));
+  meter.ExpectShare(kRoundShare, until,
+                    static_cast<std::int64_t>(edits.size() + kGlancesPerThorough * kept));
+  attempt(Trial::kGlance);
+  candidates.resize(std::min(candidates.size(), std::max(kLeastThorough, kept)));
+  attempt(Trial::kThorough);
+  return candidates;
+}
+
+// Whether the edit's surroundings are still as they were tried; locks them if so.
+bool LockSurroundings(const CapsuleGraph& graph, const Candidate& c, std::vector<char>& locked) {
+  const std::vector<char> around = Neighbourhood(graph, c.result.touched_before, 0);
+  for (std::size_t v = 0; v < around.size(); ++v) {
+    if (around[v] && locked[v]) return false;
+  }
+  for (std::size_t v = 0; v < around.size(); ++v) locked[v] |= around[v];
+  return true;
+}
+
+// The edit again on a graph that has grown by other edits meanwhile, with the places that were
+// found in the trial. Only for edits that add: they keep all indices of nodes.
+std::optional<CapsuleGraph> Replay(const CapsuleGraph& base, const Candidate& c,
+                                   const CapsuleGraph& grown) {
+  Edit edit = c.edit;
+  if (edit.kind == EditKind::kSplit) {
+    const Edge& wanted = base.edges[U(edit.first)];
+    edit.first = -1;
+    for (int e = 0; e < grown.capsule_count(); ++e) {
+      if (grown.edges[U(e)].a == wanted.a && grown.edges[U(e)].b == wanted.b) edit.first = e;
+    }
+    if (edit.first < 0) return std::nullopt;
+  }
+  EditedGraph again = Apply(grown, edit);
+  if (!again.possible) return std::nullopt;
+  const int shift = grown.sphere_count() - base.sphere_count();
+  for (const int v : c.result.touched) {
+    const int image = c.result.graph.symmetric ? c.result.graph.nodes[U(v)].mirror : v;
+    for (const int from : {v, image}) {
+      Node& to = again.graph.nodes[U(from < base.sphere_count() ? from : from + shift)];
+      to.center_m = c.result.graph.nodes[U(from)].center_m;
+      to.radius_m = c.result.graph.nodes[U(from)].radius_m;
+    }
+  }
+  return again.graph;
+}
+
+// Keeps the best candidates that do not touch each other.
+CapsuleGraph KeepBest(const CapsuleGraph& graph, const std::vector<Candidate>& candidates,
+                      const capsule::Budget& budget, double room_to_spend) {
+  std::vector<char> locked(graph.nodes.size(), 0);
+  CapsuleGraph grown = graph;
+  const int start = graph.primitive_count();
+  for (const Candidate& c : candidates) {
+    if (c.score < kKeepShare * candidates.front().score || c.score <= 0.0) break;
+    if (grown.primitive_count() > start && grown.primitive_count() - start >= room_to_spend) break;
+    // Parting a mid-plane sphere re-ties its neighbours: only ever alone.
+    const bool parts = c.edit.kind == EditKind::kPart;
+    if (parts && grown.primitive_count() > start) continue;
+    if (!LockSurroundings(graph, c, locked)) continue;
+    std::optional<CapsuleGraph> next = Replay(graph, c, grown);
+    if (!next || !budget.Allows(next->count())) continue;
+    grown = *std::move(next);
+    if (parts) break;
+  }
+  return grown;
+}
+
+bool GrowOnce(const Objective& objective, const capsule::Budget& budget,
+              const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
+              CapsuleGraph& graph) {
+  const std::vector<Candidate> candidates = TryAll(
+      objective, graph, Additions(objective, options, graph), pool, meter, options.until,
+      options.thorough_share,
+      [&](const CapsuleGraph& after) { return budget.Allows(after.count()); },
+      [&](const CapsuleGraph& after, double gain) {
+        return gain / CostOf(budget, options, graph, after);
+      });
+  if (candidates.empty() || candidates.front().score <= 0.0) return false;
+  CapsuleGraph grown = KeepBest(graph, candidates, budget,
+                                std::max(options.batch_share * budget.Unused(graph.count()),
+                                         kLeastBatchShare * graph.primitive_count()));
+  if (grown.primitive_count() == graph.primitive_count()) return false;
+  objective.Settle(Effort::kTouch, grown);
+  if (options.piece_cost > 0.0) MergeSwallowed(grown);
+  RemoveSwallowed(grown);
+  const bool grew = grown.primitive_count() > graph.primitive_count();
+  graph = std::move(grown);
+  return grew;
+}
+
+// Capsules and spheres that could go, least loss first.
+std::vector<Candidate> RankRemovals(const Objective& objective, const GrowthOptions& options,
+                                    const ThreadPool& pool, WorkMeter& meter,
+                                    const CapsuleGraph& graph) {
+  return TryAll(
+      objective, graph, Removals(graph), pool, meter, options.until, kSpareThoroughShare,
+      [&](const CapsuleGraph& after) { return SavingOf(options, graph, after) > 0.0; },
+      [&](const CapsuleGraph& after, double gain) {
+        return gain / std::max(0.5, SavingOf(options, graph, after));
+      });
+}
+
+// Without the candidate `first`, and where that is a capsule without other capsules elsewhere that
+// cost hardly more, up to `most` primitives or a little beyond.
+CapsuleGraph TakeAway(const std::vector<Candidate>& candidates, std::size_t first, int most,
+                      const GrowthOptions& options, const CapsuleGraph& graph) {
+  const Candidate& chosen = candidates[first];
+  CapsuleGraph spared = chosen.result.graph;
+  // Removing capsules keeps the indices of spheres, so that several may go at once.
+  if (chosen.edit.kind != EditKind::kUnlink) return spared;
+  std::vector<char> locked(graph.nodes.size(), 0);
+  LockSurroundings(graph, chosen, locked);
+  const double worst = kSpareShare * std::min(-kLeastLoss, chosen.score);
+  for (const Candidate& c : candidates) {
+    if (graph.primitive_count() - spared.primitive_count() >= most || c.score < worst) break;
+    if (c.edit.kind != EditKind::kUnlink || !LockSurroundings(graph, c, locked)) continue;
+    const Edge& wanted = graph.edges[U(c.edit.first)];
+    for (int e = 0; e < spared.capsule_count(); ++e) {
+      if (spared.edges[U(e)].a != wanted.a || spared.edges[U(e)].b != wanted.b) continue;
+      CapsuleGraph without = spared;
+      without.RemoveEdge(e);
+      if (SavingOf(options, spared, without) > 0.0) spared = std::move(without);
+      break;
+    }
+  }
+  return spared;
+}
+
+void Fill(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
+          const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+  const int room = budget.Unused(graph.count());
+  const double begin = meter.until();
+  for (int i = 0; i < 4 + room && budget.Unused(graph.count()) > 0; ++i) {
+    const double left = static_cast<double>(budget.Unused(graph.count())) / room;
+    meter.Expect(begin + std::min(1.0, 1.0 - left) * (options.until - begin), 1);
+    if (meter.IsCancelled()) return;
+    if (!GrowOnce(objective, budget, options, pool, meter, graph)) return;
+  }
+}
+
+// Gives up the least and spends it elsewhere, as long as that pays. Where it does not, the next
+// least is given up instead.
+void Exchange(const Objective& objective, const capsule::Budget& budget,
+              const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
+              CapsuleGraph& graph) {
+  objective.Settle(Effort::kTighten, graph);
+  double value = objective.Value(graph);
+  std::vector<Candidate> removals;
+  std::size_t failures = 0;
+  const double begin = meter.until();
+  GrowthOptions refill = options;
+  for (int i = 0; i < options.exchanges && !meter.IsCancelled(); ++i) {
+    if (failures == 0) removals = RankRemovals(objective, options, pool, meter, graph);
+    if (failures >= removals.size()) return;
+    const int most = std::max(2, static_cast<int>(kExchangeShare * graph.primitive_count()));
+    CapsuleGraph other = TakeAway(removals, failures, most, options, graph);
+    objective.Settle(Effort::kTouch, other);
+    refill.until = begin + (i + 1.0) / options.exchanges * (options.until - begin);
+    Fill(objective, budget, refill, pool, meter, other);
+    const double other_value = objective.Value(other);
+    if (other_value < value) {
+      graph = std::move(other);
+      value = other_value;
+      failures = 0;
+    } else if (++failures == kMostFailures) {
+      return;
+    }
+  }
+}
+
+// The graph with the largest capsules cut until nothing fits any more.
+CapsuleGraph CutLargest(const capsule::Budget& budget, CapsuleGraph graph) {
+  const auto surface = [&graph](int e) {
+    const Node& a = graph.nodes[U(graph.edges[U(e)].a)];
+    const Node& b = graph.nodes[U(graph.edges[U(e)].b)];
+    return (a.center_m - b.center_m).norm() * (a.radius_m + b.radius_m);
+  };
+  for (;;) {
+    int largest = -1;
+    for (int e = 0; e < graph.capsule_count(); ++e) {
+      const bool is_larger = largest < 0 || surface(e) > surface(largest);
+      if (graph.IsEdgeRepresentative(e) && is_larger) largest = e;
+    }
+    if (largest < 0) return graph;
+    EditedGraph cut = Apply(graph, EditOf(EditKind::kSplit, largest));
+    if (!cut.possible || !budget.Allows(cut.graph.count())) return graph;
+    graph = std::move(cut.graph);
+  }
+}
+
+}  // namespace
+
+void SpendByCutting(const Objective& objective, const capsule::Budget& budget, WorkMeter& meter,
+                    CapsuleGraph& graph) {
+  double value = objective.Value(graph);
+  for (int round = 0; round < kCuttingRounds && !meter.IsCancelled(); ++round) {
+    CapsuleGraph cut = CutLargest(budget, graph);
+    if (cut.primitive_count() == graph.primitive_count()) return;
+    objective.Settle(Effort::kFinish, cut);
+    MergeSwallowed(cut);
+    RemoveSwallowed(cut);
+    const double cut_value = objective.Value(cut);
+    if (cut_value >= value) return;
+    graph = std::move(cut);
+    value = cut_value;
+  }
+}
+
+void Spare(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
+           const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+  while (!budget.Allows(graph.count()) && !meter.IsCancelled()) {
+    const int excess = budget.Excess(graph.count());
+    const std::vector<Candidate> removals = RankRemovals(objective, options, pool, meter, graph);
+    if (removals.empty()) return;
+    graph = TakeAway(removals, 0, excess, options, graph);
+    objective.Settle(Effort::kTouch, graph);
+  }
+}
+
+void Grow(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
+          const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+  Fill(objective, budget, options, pool, meter, graph);
+  if (options.exchanges > 0) Exchange(objective, budget, options, pool, meter, graph);
+}
+
+}  // namespace capfit::refine

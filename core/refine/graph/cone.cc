@@ -1,0 +1,78 @@
+#include "core/refine/graph/cone.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace capfit::refine {
+namespace {
+
+// Below this difference, in metres, a capsule counts as swallowed by its larger end.
+constexpr double kSwallowedM = 1e-6;
+
+Cone SphereCone(const Node& node, int index, int other) {
+  Cone cone{};
+  cone.ax = static_cast<float>(node.center_m.x());
+  cone.ay = static_cast<float>(node.center_m.y());
+  cone.az = static_cast<float>(node.center_m.z());
+  cone.radius_a = static_cast<float>(node.radius_m);
+  cone.cos_half = 1.0f;
+  cone.node_a = index;
+  cone.node_b = other;
+  cone.is_sphere = true;
+  return cone;
+}
+
+}  // namespace
+
+Cone MakeCone(const CapsuleGraph& graph, int a, int b) {
+  const Node& first = graph.nodes[static_cast<std::size_t>(a)];
+  const Node& second = graph.nodes[static_cast<std::size_t>(b)];
+  const Eigen::Vector3d between = second.center_m - first.center_m;
+  const double length = between.norm();
+  if (length <= std::abs(first.radius_m - second.radius_m) + kSwallowedM) {
+    return second.radius_m > first.radius_m ? SphereCone(second, b, a) : SphereCone(first, a, b);
+  }
+  Cone cone = SphereCone(first, a, b);
+  cone.is_sphere = false;
+  const double sine = (first.radius_m - second.radius_m) / length;
+  const double cosine = std::sqrt(1.0 - sine * sine);
+  cone.ux = static_cast<float>(between.x() / length);
+  cone.uy = static_cast<float>(between.y() / length);
+  cone.uz = static_cast<float>(between.z() / length);
+  cone.length = static_cast<float>(length);
+  cone.slope = static_cast<float>(-sine);
+  cone.foot_slope = static_cast<float>(-sine / cosine);
+  cone.sin_half = static_cast<float>(sine);
+  cone.cos_half = static_cast<float>(cosine);
+  return cone;
+}
+
+std::vector<Cone> ConesOf(const CapsuleGraph& graph) {
+  std::vector<Cone> cones;
+  std::vector<char> used(graph.nodes.size(), 0);
+  for (const Edge& e : graph.edges) {
+    cones.push_back(MakeCone(graph, e.a, e.b));
+    used[static_cast<std::size_t>(e.a)] = used[static_cast<std::size_t>(e.b)] = 1;
+  }
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (!used[static_cast<std::size_t>(v)]) cones.push_back(MakeCone(graph, v, v));
+  }
+  return cones;
+}
+
+ConeFoot Locate(const Cone& cone, const Eigen::Vector3d& point_m) {
+  const Eigen::Vector3d axis(cone.ux, cone.uy, cone.uz);
+  const Eigen::Vector3d p = point_m - Eigen::Vector3d(cone.ax, cone.ay, cone.az);
+  const double along = p.dot(axis);
+  const double across = std::sqrt(std::max(0.0, p.squaredNorm() - along * along));
+  const double foot =
+      std::clamp(along + across * cone.foot_slope, 0.0, static_cast<double>(cone.length));
+  const Eigen::Vector3d offset = p - foot * axis;
+  ConeFoot result;
+  result.share_b = cone.length > 0.0f ? foot / cone.length : 0.0;
+  result.radius_m = cone.radius_a + cone.slope * foot;
+  if (const double norm = offset.norm(); norm > 1e-9) result.normal = offset / norm;
+  return result;
+}
+
+}  // namespace capfit::refine

@@ -1,0 +1,136 @@
+#include "core/refine/layouts/layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/refine/internal.h"
+
+namespace capfit::refine {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+constexpr double kLeastHungRadiusM = 0.006;
+
+body::Part PartOf(BoneId bone, Side side) {
+  const auto of_side = [side](body::Part left) {
+    return side == Side::kLeft ? left : body::MirrorPart(left);
+  };
+  switch (bone) {
+    case BoneId::kBelly:
+    case BoneId::kRibs:
+    case BoneId::kChest:
+    case BoneId::kClavicle:
+    case BoneId::kPelvis:
+      return body::Part::kTorso;
+    case BoneId::kHead:
+      return body::Part::kHead;
+    case BoneId::kUpperArm:
+    case BoneId::kForearm:
+      return of_side(body::Part::kLeftArm);
+    case BoneId::kHand:
+      return of_side(body::Part::kLeftHand);
+    case BoneId::kThigh:
+    case BoneId::kShin:
+      return of_side(body::Part::kLeftLeg);
+    case BoneId::kFoot:
+    case BoneId::kHeel:
+      return of_side(body::Part::kLeftFoot);
+  }
+  return body::Part::kTorso;
+}
+
+class Hanger {
+ public:
+  Hanger(const Layout& layout, const body::Body& body, const body::PartSelection& parts,
+         bool symmetric)
+      : layout_(layout), body_(body), parts_(parts), skeleton_(body) {
+    graph_.symmetric = symmetric;
+  }
+
+  CapsuleGraph Hang() {
+    for (std::size_t i = 0; i < layout_.nodes.size(); ++i) AddNode(layout_.nodes[i]);
+    for (const LayoutEdge& e : layout_.edges) AddEdge(e);
+    for (int part = 0; part < body::kChainCount; ++part) AddMissingChain(body::Part(part));
+    if (graph_.nodes.empty()) AddBall();
+    return graph_;
+  }
+
+ private:
+  void AddNode(const LayoutNode& node) {
+    const int left = Place(node, Side::kLeft);
+    int right = left;
+    if (node.paired) {
+      right = graph_.symmetric ? (left < 0 ? -1 : left + 1) : Place(node, Side::kRight);
+    }
+    index_.push_back({left, right});
+  }
+
+  int Place(const LayoutNode& node, Side side) {
+    const body::Part part = PartOf(node.bone, side);
+    const std::optional<Vec3> center = skeleton_.Position(node.bone, side, node.place);
+    if (!center || !parts_.Includes(part)) return -1;
+    if (U(static_cast<int>(part)) < chain_has_sphere_.size()) {
+      chain_has_sphere_[U(static_cast<int>(part))] = true;
+    }
+    const double radius = node.radius * skeleton_.bone(node.bone, side)->radius_m;
+    return graph_.AddNode(*center, std::max(kLeastHungRadiusM, radius), !node.paired);
+  }
+
+  void AddEdge(const LayoutEdge& edge) {
+    const auto [a_left, a_right] = index_[edge.a];
+    const auto [b_left, b_right] = index_[edge.b];
+    const auto tie = [this](int a, int b) {
+      if (a >= 0 && b >= 0) graph_.AddEdge(a, b);
+    };
+    tie(a_left, edge.crossed ? b_right : b_left);
+    tie(a_right, edge.crossed ? b_left : b_right);
+  }
+
+  // A selected chain that no bone led to: spheres along its medial curve.
+  void AddMissingChain(body::Part part) {
+    const auto& chain = body_.chain(part);
+    const bool right = part == body::Part::kRightArm || part == body::Part::kRightLeg;
+    if (!chain || !parts_.Includes(part) || chain_has_sphere_[U(static_cast<int>(part))]) return;
+    if (graph_.symmetric && right) return;
+    int last = -1;
+    for (const double share : {0.05, 0.5, 0.95}) {
+      const Vec3 center = chain->PointAt(share * chain->length_m());
+      const int v = graph_.AddNode(center, std::max(kLeastHungRadiusM, SkinDistance(center)),
+                                   part == body::Part::kTorso);
+      if (last >= 0) graph_.AddEdge(last, v);
+      last = v;
+    }
+  }
+
+  void AddBall() {
+    const Vec3 center = 0.5 * (body_.mesh.box_min() + body_.mesh.box_max());
+    graph_.AddNode(center, std::max(kLeastHungRadiusM, SkinDistance(center)), true);
+  }
+
+  [[nodiscard]] double SkinDistance(const Vec3& point) const {
+    double least = std::numeric_limits<double>::max();
+    for (const Vec3& v : body_.mesh.vertices()) least = std::min(least, (v - point).squaredNorm());
+    return std::sqrt(least);
+  }
+
+  const Layout& layout_;
+  const body::Body& body_;
+  const body::PartSelection& parts_;
+  Skeleton skeleton_;
+  CapsuleGraph graph_;
+  std::vector<std::array<int, 2>> index_;  // by layout node: left or only, right; -1: left out
+  std::array<bool, body::kChainCount> chain_has_sphere_{};
+};
+
+}  // namespace
+
+CapsuleGraph HangLayout(const Layout& layout, const body::Body& body,
+                        const body::PartSelection& parts, bool symmetric) {
+  return Hanger(layout, body, parts, symmetric).Hang();
+}
+
+}  // namespace capfit::refine

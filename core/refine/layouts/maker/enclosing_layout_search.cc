@@ -1,0 +1,263 @@
+#include "core/refine/layouts/maker/enclosing_layout_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "core/base/random.h"
+#include "core/refine/internal.h"
+#include "core/refine/layouts/layout.h"
+#include "core/refine/layouts/starting_graphs.h"
+
+namespace capfit::refine {
+namespace {
+
+constexpr int kFirstSteps = 10;
+constexpr int kTrialSteps = 4;
+constexpr int kFinalSteps = 8;
+constexpr int kTakeInSteps = 2;
+// A change this much worse on one mannequin is not tried on the others; one this much worse on all
+// is not settled further.
+constexpr double kHopeless = 1.06;
+constexpr double kPromising = 1.02;
+constexpr double kFirstSlack = 0.004;  // a change may be this much worse in the beginning
+constexpr double kCooling = 1.3;       // and none from 1 / this of the time on
+constexpr int kMostRemovals = 3;
+constexpr int kMostAdditions = 24;
+constexpr double kRewiringShare = 0.3;
+constexpr double kTieReach = 1.3;  // between centres, in sums of radii
+
+class EnclosingLayoutSearch {
+ public:
+  EnclosingLayoutSearch(const LayoutTask& task, const std::vector<Subject>& subjects)
+      : task_(task), subjects_(subjects), budget_(BudgetOf(task)), random_(task.seed) {}
+
+  Graphs Run() {
+    Attempt now = Start();
+    Attempt best;
+    int tried = 0;
+    int taken = 0;
+    double said = CpuSeconds();
+    while (CpuSeconds() < task_.cpu_seconds) {
+      std::optional<Attempt> next = Tried(Changed(now.graphs), now);
+      ++tried;
+      if (CpuSeconds() > said + 60.0) {
+        said = CpuSeconds();
+        std::fprintf(stderr, "%5.0f s  %d tried, %d taken, %d + %d, %.4f (best %.4f)\n", said,
+                     tried, taken, now.graphs[0].sphere_count(), now.graphs[0].capsule_count(),
+                     now.value, best.value);
+      }
+      if (!next) continue;
+      const double cooling = std::max(0.0, 1.0 - kCooling * CpuSeconds() / task_.cpu_seconds);
+      const double slack = kFirstSlack * now.value * cooling * random_.NextUnit();
+      if (next->value >= now.value + slack) continue;
+      now = *std::move(next);
+      ++taken;
+      if (now.value < best.value && budget_.Allows(now.graphs[0].count())) best = now;
+    }
+    if (best.graphs.empty()) best = now;
+    std::fprintf(stderr, "%d tried, %d taken, %.4f\n", tried, taken, best.value);
+    return best.graphs;
+  }
+
+ private:
+  // Relative to the body's volume, beyond it; by mannequin, and their mean.
+  struct Attempt {
+    Graphs graphs;
+    std::vector<double> values;
+    double value = std::numeric_limits<double>::max();
+  };
+
+  Attempt Start() {
+    LayoutTask first = task_;
+    if (task_.first_primitives > 0) first.primitives = task_.first_primitives;
+    Attempt start;
+    for (std::size_t k = 0; k < subjects_.size(); ++k) {
+      const Subject& s = subjects_[k];
+      start.graphs.push_back(StartingGraphs(Guise::kEnclose, s.body, s.parts, BudgetOf(first),
+                                            /*sizes=*/1, /*most_spared=*/0)
+                                 .front());
+      Settle(k, kFirstSteps, start.graphs[k]);
+      start.values.push_back(ValueOf(k, start.graphs[k]));
+    }
+    start.value = MeanOf(start.values);
+    return start;
+  }
+
+  static double MeanOf(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
+
+  void Settle(std::size_t subject, int steps, CapsuleGraph& graph) {
+    const EnclosingTask& task = *subjects_[subject].enclosing;
+    const std::uint64_t seed = random_.NextBelow(1'000'000);
+    task.FindShape(steps, 1.0, seed, alone_, meter_, graph);
+    task.TakeIn(kTakeInSteps, seed, alone_, meter_, graph);
+  }
+
+  [[nodiscard]] double ValueOf(std::size_t subject, const CapsuleGraph& graph) const {
+    const Subject& s = subjects_[subject];
+    return s.enclosing->Value(graph, alone_) / s.grid.volume_m3 - 1.0;
+  }
+
+  // What the changed graphs come to; nothing where that is hopeless.
+  std::optional<Attempt> Tried(Graphs graphs, const Attempt& now) {
+    Attempt attempt{std::move(graphs), std::vector<double>(subjects_.size()), 0.0};
+    const bool grown = attempt.graphs[0].primitive_count() > now.graphs[0].primitive_count();
+    const std::size_t first = random_.NextBelow(subjects_.size());
+    for (const int steps : {kTrialSteps, kFinalSteps}) {
+      for (std::size_t i = 0; i < subjects_.size(); ++i) {
+        const std::size_t k = (first + i) % subjects_.size();
+        Settle(k, steps, attempt.graphs[k]);
+        attempt.values[k] = ValueOf(k, attempt.graphs[k]);
+        if (attempt.values[k] > (grown ? 1.0 : kHopeless) * now.values[k]) return std::nullopt;
+      }
+      attempt.value = MeanOf(attempt.values);
+      if (attempt.value > kPromising * now.value) return std::nullopt;
+      if (attempt.value < now.value && grown) break;
+    }
+    return attempt;
+  }
+
+  int Below(int count) {
+    return static_cast<int>(random_.NextBelow(static_cast<std::uint64_t>(count)));
+  }
+
+  // The worth of the mean mannequin, each in its own volume.
+  [[nodiscard]] GraphWorth WorthOf(const Graphs& graphs) const {
+    GraphWorth sum;
+    for (std::size_t k = 0; k < graphs.size(); ++k) {
+      GraphWorth one = subjects_[k].enclosing->Weigh(graphs[k]);
+      if (k == 0) {
+        sum = std::move(one);
+        continue;
+      }
+      const auto add = [](const std::vector<double>& from, std::vector<double>& to) {
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
+      };
+      add(one.edge_gap, sum.edge_gap);
+      add(one.edge_loss, sum.edge_loss);
+      add(one.node_loss, sum.node_loss);
+    }
+    return sum;
+  }
+
+  // Draws from a list in order of weight, the first ones most often; the exponent says how much.
+  int Drawn(const std::vector<double>& weights, bool largest_first, double exponent) {
+    std::vector<int> order(weights.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      return largest_first ? weights[U(a)] > weights[U(b)] : weights[U(a)] < weights[U(b)];
+    });
+    const double share = std::pow(random_.NextUnit(), exponent);
+    return order[static_cast<std::size_t>(share * static_cast<double>(order.size()))];
+  }
+
+  Graphs Changed(const Graphs& graphs) {
+    Graphs next = graphs;
+    const bool used_up = graphs[0].primitive_count() >= task_.primitives - 1 ||
+                         graphs[0].sphere_count() >= budget_.max_spheres;
+    if (used_up && random_.NextUnit() < kRewiringShare) {
+      Rewire(next);
+    } else {
+      Remove(used_up ? 1 + Below(kMostRemovals) : Below(2), next);
+    }
+    Add(used_up, next);
+    return next;
+  }
+
+  void Remove(int count, Graphs& graphs) {
+    for (int tries = 0; count > 0 && tries < kMostAdditions; ++tries) {
+      const GraphWorth worth = WorthOf(graphs);
+      const CapsuleGraph& graph = graphs[0];
+      const bool edge = graph.capsule_count() > 0 && random_.NextUnit() < 0.5;
+      const int i = Drawn(edge ? worth.edge_loss : worth.node_loss, false, 2.5);
+      if (ApplyToAll(EditOf(edge ? EditKind::kUnlink : EditKind::kDissolve, i), graphs)) --count;
+    }
+  }
+
+  // One capsule gets another end.
+  void Rewire(Graphs& graphs) {
+    const CapsuleGraph& graph = graphs[0];
+    if (graph.capsule_count() == 0) return;
+    const int index = Below(graph.capsule_count());
+    const Edge& edge = graph.edges[U(index)];
+    const int kept = Below(2) == 0 ? edge.a : edge.b;
+    const std::optional<int> other = NearTo(graph, kept);
+    if (!other) return;
+    Graphs next = graphs;
+    if (!ApplyToAll(EditOf(EditKind::kUnlink, index), next)) return;
+    if (!ApplyToAll(EditOf(EditKind::kLink, kept, *other), next)) return;
+    graphs = std::move(next);
+  }
+
+  std::optional<int> NearTo(const CapsuleGraph& graph, int v) {
+    std::vector<int> near;
+    const Node& a = graph.nodes[U(v)];
+    for (int j = 0; j < graph.sphere_count(); ++j) {
+      const Node& b = graph.nodes[U(j)];
+      const double apart_m = (a.center_m - b.center_m).norm();
+      if (j != v && apart_m < kTieReach * (a.radius_m + b.radius_m)) near.push_back(j);
+    }
+    if (near.empty()) return std::nullopt;
+    return near[U(Below(static_cast<int>(near.size())))];
+  }
+
+  void Add(bool used_up, Graphs& graphs) {
+    int added = 0;
+    for (int i = 0; i < kMostAdditions; ++i) {
+      const int room = task_.primitives - graphs[0].primitive_count();
+      if (used_up ? room <= (i > kMostAdditions / 2 ? 1 : 0) : added >= 2) break;
+      const std::optional<Edit> edit = Addition(graphs);
+      if (!edit) continue;
+      Graphs tried = graphs;
+      if (!ApplyToAll(*edit, tried) || !budget_.Allows(tried[0].count())) continue;
+      graphs = std::move(tried);
+      ++added;
+    }
+  }
+
+  std::optional<Edit> Addition(const Graphs& graphs) {
+    const CapsuleGraph& graph = graphs[0];
+    const double lot = random_.NextUnit();
+    if (lot < 0.35) {
+      if (graph.capsule_count() == 0) return std::nullopt;
+      return EditOf(EditKind::kSplit, Drawn(WorthOf(graphs).edge_gap, true, 1.5));
+    }
+    const int v = Below(graph.sphere_count());
+    if (lot < 0.8) {
+      const std::optional<int> other = NearTo(graph, v);
+      if (!other) return std::nullopt;
+      return EditOf(EditKind::kLink, v, *other);
+    }
+    if (lot < 0.93) {
+      const auto vertices = subjects_[0].body.mesh.vertices();
+      const Eigen::Vector3d& point = vertices[random_.NextBelow(vertices.size())];
+      std::vector<Edit> leaves = LeavesAt(graph, point);
+      if (leaves.empty()) return std::nullopt;
+      return leaves[random_.NextBelow(leaves.size())];
+    }
+    if (!graph.IsOnPlane(v)) return std::nullopt;
+    return EditOf(EditKind::kPart, v, Below(2));
+  }
+
+  const LayoutTask& task_;
+  const std::vector<Subject>& subjects_;
+  capsule::Budget budget_;
+  Random random_;
+  const ThreadPool alone_{1};
+  NullObserver observer_;
+  WorkMeter meter_{observer_};
+};
+
+}  // namespace
+
+Graphs SearchEnclosingLayout(const LayoutTask& task, const std::vector<Subject>& subjects) {
+  return EnclosingLayoutSearch(task, subjects).Run();
+}
+
+}  // namespace capfit::refine

@@ -1,0 +1,21 @@
+// The search for an enclosing topology that serves several mannequins at once.
+#ifndef CAPFIT_CORE_REFINE_LAYOUTS_MAKER_ENCLOSING_LAYOUT_SEARCH_H_
+#define CAPFIT_CORE_REFINE_LAYOUTS_MAKER_ENCLOSING_LAYOUT_SEARCH_H_
+
+#include <vector>
+
+#include "core/refine/layouts/maker/layout_subjects.h"
+
+namespace capfit::refine {
+
+// Starts from a stored layout and exchanges primitives at random for the task's CPU time: what is
+// least missed goes most often, capsules are cut where they are loose, near spheres are tied. A
+// change stays where the mean volume over the mannequins falls, or, at first, hardly rises. A few
+// minutes: what a longer search finds suits the mannequins ever better and people ever less. Says
+// on stderr how it goes.
+[[nodiscard]] Graphs SearchEnclosingLayout(const LayoutTask& task,
+                                           const std::vector<Subject>& subjects);
+
+}  // namespace capfit::refine
+
+#endif  // CAPFIT_CORE_REFINE_LAYOUTS_MAKER_ENCLOSING_LAYOUT_SEARCH_H_

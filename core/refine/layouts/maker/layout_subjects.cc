@@ -1,0 +1,128 @@
+#include "core/refine/layouts/maker/layout_subjects.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/body/find_body.h"
+#include "core/mannequin/mannequin.h"
+#include "core/mesh/prepare_mesh.h"
+#include "core/refine/internal.h"
+
+namespace capfit::refine {
+namespace {
+
+constexpr double kGridCellM = 0.010;
+constexpr double kThinnedM = 0.016;
+// Of an enclosing search's points, over the root of the number of primitives, relative to the
+// body's size.
+constexpr double kEnclosingSpacing = 0.17;
+constexpr int kEngineBudget = 64;
+constexpr int kEngineLimit = 32;
+
+struct Figure {
+  mannequin::MannequinSex sex;
+  double arm_angle_rad, height_m, girth;  // girth: 1 is usual
+};
+
+std::vector<Figure> FiguresFor(Figures figures) {
+  using enum mannequin::MannequinSex;
+  if (figures == Figures::kWomen) {
+    return {{kFemale, 0.9, 1.66, 1.0}, {kFemale, 1.45, 1.72, 1.05}, {kFemale, 0.7, 1.62, 1.15}};
+  }
+  return {{kFemale, 0.9, 1.66, 1.0}, {kMale, 1.45, 1.80, 1.0}, {kFemale, 0.7, 1.62, 1.15}};
+}
+
+int FacesFor(const LayoutTask& task) {
+  if (!task.enclose) return 8000;
+  return task.primitives > kEngineBudget ? 12'000 : 5000;
+}
+
+std::optional<Subject> MakeSubject(const Figure& figure, const LayoutTask& task) {
+  const bool female = figure.sex == mannequin::MannequinSex::kFemale;
+  mannequin::MannequinOptions options;
+  options.sex = figure.sex;
+  options.arm_angle_rad = figure.arm_angle_rad;
+  options.height_m = figure.height_m;
+  options.faces = FacesFor(task);
+  options.with_head = options.with_hands = options.with_feet = task.full;
+  if (figure.girth != 1.0) {
+    options.bust_m = 0.54 * figure.height_m * figure.girth;
+    options.waist_m = (female ? 0.42 : 0.48) * figure.height_m * figure.girth;
+    options.hip_m = 0.57 * figure.height_m * figure.girth;
+  }
+  const auto soup = mannequin::MakeMannequin(options);
+  if (!soup.ok()) return std::nullopt;
+  const auto prepared = mesh::PrepareMesh(*soup);
+  if (!prepared.ok()) return std::nullopt;
+  body::BodyOptions body_options;
+  body_options.unit = body::Unit::kMetre;
+  auto found = body::FindBody(prepared->mesh, body_options, ThreadPool(1), NullObserver());
+  if (!found.ok() || !found->is_symmetric) return std::nullopt;
+  const Skeleton skeleton(*found);
+  Subject subject{*std::move(found), skeleton, {}, {}, {}, nullptr, nullptr};
+  subject.parts.head = subject.parts.hands = subject.parts.feet = task.full;
+  subject.grid = MakeOccupancyGrid(subject.body, subject.parts, kGridCellM, true);
+  std::vector<CoverPoint> points;
+  for (const Eigen::Vector3d& v : subject.body.mesh.vertices()) {
+    if (v.x() >= 0.0) points.push_back({v.cast<float>(), 0.0f});
+  }
+  subject.points = MakeCoverPoints(ThinOut(points, kThinnedM));
+  if (task.enclose) {
+    subject.enclosing = std::make_unique<EnclosingTask>(
+        tighten::TargetOf(subject.body, subject.parts), /*symmetric=*/true, 0.0,
+        kEnclosingSpacing / std::sqrt(task.primitives));
+  } else {
+    subject.objective = std::make_unique<BestFitObjective>(subject.grid, subject.points, 1);
+  }
+  return subject;
+}
+
+}  // namespace
+
+std::vector<Subject> MakeSubjects(const LayoutTask& task) {
+  std::vector<Subject> subjects;
+  for (const Figure& figure : FiguresFor(task.figures)) {
+    std::optional<Subject> subject = MakeSubject(figure, task);
+    if (!subject) return {};
+    subjects.push_back(*std::move(subject));
+  }
+  return subjects;
+}
+
+capsule::Budget BudgetOf(const LayoutTask& task) {
+  if (task.enclose && task.primitives == kEngineBudget) {
+    return {kEngineBudget, kEngineLimit, kEngineLimit};
+  }
+  return {task.primitives, capsule::kNoLimit, capsule::kNoLimit};
+}
+
+bool ApplyToAll(const Edit& edit, Graphs& graphs) {
+  constexpr double kOffPlaneShare = 0.35;
+  Graphs result;
+  for (const CapsuleGraph& graph : graphs) {
+    Edit own = edit;
+    if (edit.kind == EditKind::kLeaf || edit.kind == EditKind::kBall) {
+      const Node& from = graphs[0].nodes[U(edit.first)];
+      const Node& to = graph.nodes[U(edit.first)];
+      const double scale = to.radius_m / from.radius_m;
+      own.center_m = to.center_m + scale * (edit.center_m - from.center_m);
+      own.radius_m = scale * edit.radius_m;
+      const double aside = kOffPlaneShare * own.radius_m;
+      if (std::abs(edit.center_m.x()) < kOffPlaneShare * edit.radius_m) {
+        own.center_m.x() = 0.0;
+      } else if (std::abs(own.center_m.x()) < aside) {
+        own.center_m.x() = std::copysign(aside, edit.center_m.x());
+      }
+    }
+    EditedGraph edited = Apply(graph, own);
+    if (!edited.possible) return false;
+    result.push_back(std::move(edited.graph));
+    if (result.back().nodes.size() != result[0].nodes.size()) return false;
+    if (result.back().edges.size() != result[0].edges.size()) return false;
+  }
+  graphs = std::move(result);
+  return true;
+}
+
+}  // namespace capfit::refine

@@ -1,0 +1,23 @@
+// What a search starts from: the stored layouts that come near to a budget.
+#ifndef CAPFIT_CORE_REFINE_LAYOUTS_STARTING_GRAPHS_H_
+#define CAPFIT_CORE_REFINE_LAYOUTS_STARTING_GRAPHS_H_
+
+#include <vector>
+
+#include "core/body/body.h"
+#include "core/refine/graph/capsule_graph.h"
+#include "core/refine/layouts/layout.h"
+
+namespace capfit::refine {
+
+// At least one graph: layouts of the `sizes` largest numbers of primitives that fit the budget,
+// and the next ones beyond where no more than `most_spared` primitives of them have to go. Layouts
+// with spheres for head, hands and feet where any of these parts is selected and present.
+[[nodiscard]] std::vector<CapsuleGraph> StartingGraphs(Guise guise, const body::Body& body,
+                                                       const body::PartSelection& parts,
+                                                       const capsule::Budget& budget, int sizes,
+                                                       int most_spared);
+
+}  // namespace capfit::refine
+
+#endif  // CAPFIT_CORE_REFINE_LAYOUTS_STARTING_GRAPHS_H_

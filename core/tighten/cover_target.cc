@@ -1,0 +1,27 @@
+#include "core/tighten/cover_target.h"
+
+#include <cstdint>
+#include <limits>
+
+namespace capfit::tighten {
+
+CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts) {
+  constexpr std::uint32_t kLeftOut = std::numeric_limits<std::uint32_t>::max();
+  CoverTarget target;
+  std::vector<std::uint32_t> new_index(body.mesh.vertices().size(), kLeftOut);
+  for (std::size_t v = 0; v < new_index.size(); ++v) {
+    const body::Part part = body::PartOf(body.vertex_segments[v]);
+    if (!parts.Includes(part)) continue;
+    new_index[v] = static_cast<std::uint32_t>(target.points_m.size());
+    target.points_m.push_back(body.mesh.vertices()[v]);
+    target.point_parts.push_back(part);
+  }
+  for (const mesh::Triangle& t : body.mesh.triangles()) {
+    const mesh::Triangle kept = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
+    if (kept[0] == kLeftOut || kept[1] == kLeftOut || kept[2] == kLeftOut) continue;
+    target.triangles.push_back(kept);
+  }
+  return target;
+}
+
+}  // namespace capfit::tighten

@@ -1,0 +1,38 @@
+// The small convex programme that every tightening step solves.
+#ifndef CAPFIT_CORE_TIGHTEN_PENALTY_PROGRAM_H_
+#define CAPFIT_CORE_TIGHTEN_PENALTY_PROGRAM_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace capfit::tighten {
+
+// value + coefficients . d should be <= 0; what is above costs `penalty` times as much. Touches two
+// groups of four variables, from first[0] and first[1] on; first[1] == -1: only one.
+struct PenaltyRow {
+  std::array<int, 2> first{0, -1};
+  std::array<double, 8> coefficients{};
+  double value = 0.0;
+  double penalty = 1.0;  // > 0
+};
+
+// minimise  gradient . d + sum(hessian_i d_i^2) / 2 + sum over rows penalty * max(0, excess)
+// subject to  lower <= d <= upper,  lower < 0 < upper.
+struct PenaltyProgram {
+  Eigen::VectorXd gradient;
+  Eigen::VectorXd hessian;  // diagonal, > 0
+  Eigen::VectorXd lower;
+  Eigen::VectorXd upper;
+  std::vector<PenaltyRow> rows;
+};
+
+// Solves to `relative_gap` of the decrease won. Primal-dual interior point with predictor and
+// corrector (Mehrotra 1992); the rows' slacks are eliminated, so that each iteration costs 36
+// products a row and one Cholesky factorisation in the number of variables. Ten to twenty
+// iterations, about 20 ns a row each. The bounds hold strictly. Deterministic.
+[[nodiscard]] Eigen::VectorXd Solve(const PenaltyProgram& program, double relative_gap);
+
+}  // namespace capfit::tighten
+
+#endif  // CAPFIT_CORE_TIGHTEN_PENALTY_PROGRAM_H_

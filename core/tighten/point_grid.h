@@ -1,0 +1,59 @@
+// Many points against many capsules: the distance of each point to their union, fast.
+#ifndef CAPFIT_CORE_TIGHTEN_POINT_GRID_H_
+#define CAPFIT_CORE_TIGHTEN_POINT_GRID_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/thread_pool.h"
+#include "core/geometry/tapered_capsule.h"
+
+namespace capfit::tighten {
+
+// Where each point stands: signed distance to the union of the solids as far as one solid tells
+// (the least over the solids), and the solid that gives it.
+struct UnionDistances {
+  std::vector<double> distance_m;
+  std::vector<std::int32_t> solid;
+};
+
+// Points sorted into blocks of neighbours, coordinates apart, so that a block meets only the few
+// solids that can be its nearest and the inner loop runs over points in vector registers.
+class PointGrid {
+ public:
+  // O(n).
+  explicit PointGrid(std::span<const Eigen::Vector3d> points_m);
+
+  // All results are in this grid's order of the points; this is the caller's index of each.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+  [[nodiscard]] std::size_t size() const { return order_.size(); }
+  [[nodiscard]] Eigen::Vector3d point(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+
+  // Points [begin, end) of each block.
+  struct Block {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    double reach = 0.0;  // no point of the block is further from its centre
+  };
+  [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
+
+  // O(blocks * solids + points * (solids near each)). Exact to 1e-7 m; on a tie the lower index.
+  // Where a whole block is deeper than `ignore_below_m` its points get a bound that is too, with
+  // the solid that gives it. No solids: infinity and -1.
+  [[nodiscard]] UnionDistances DistancesTo(const std::vector<geometry::TaperedCapsule>& solids,
+                                           double ignore_below_m, const ThreadPool& pool) const;
+
+ private:
+  void MakeBlocks(const std::vector<std::uint32_t>& cell_ends);
+
+  std::vector<std::uint32_t> order_;
+  std::vector<double> x_, y_, z_;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace capfit::tighten
+
+#endif  // CAPFIT_CORE_TIGHTEN_POINT_GRID_H_

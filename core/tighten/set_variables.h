@@ -1,0 +1,62 @@
+// The numbers that coverage may turn: centres and radii, mirrored spheres as one.
+#ifndef CAPFIT_CORE_TIGHTEN_SET_VARIABLES_H_
+#define CAPFIT_CORE_TIGHTEN_SET_VARIABLES_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "core/capsule/primitive_set.h"
+
+namespace capfit::tighten {
+
+// One solid of the set by its end spheres; both the same for a sphere that no capsule uses.
+struct Solid {
+  std::array<int, 2> ends{0, 0};
+};
+
+// How a sphere hangs on the variables: four of them (x, y, z, radius) from `first` on. The image of
+// a mirrored pair sees x with the other sign; on the mid-plane x is fixed at 0.
+struct SphereVariables {
+  int first = 0;
+  double x_sign = 1.0;  // -1 for the image, 0 on the mid-plane
+};
+
+// The layout of the variables of a set, and the set's solids in the order of capsule::Solids.
+class SetVariables {
+ public:
+  // Makes mirrored spheres exact images and centred ones exactly centred, should they not be.
+  explicit SetVariables(capsule::PrimitiveSet& set);
+
+  [[nodiscard]] int count() const { return 4 * orbit_count_; }
+  [[nodiscard]] const SphereVariables& of(int sphere) const {
+    return spheres_[static_cast<std::size_t>(sphere)];
+  }
+  [[nodiscard]] const std::vector<Solid>& solids() const { return solids_; }
+  // One sphere of each group of four variables, the one that sees x with its own sign.
+  [[nodiscard]] const std::vector<int>& representatives() const { return representatives_; }
+
+  // Change of the variables' values for a change (x, y, z, radius) of `sphere` alone: what a
+  // gradient by the sphere contributes to the gradient by the variables.
+  [[nodiscard]] Eigen::Vector4d ToVariables(int sphere, const Eigen::Vector4d& gradient) const {
+    return {of(sphere).x_sign * gradient.x(), gradient.y(), gradient.z(), gradient.w()};
+  }
+
+  // Adds `change` (metres) to the centres and radii. Images stay exact, bit by bit.
+  void Apply(const Eigen::VectorXd& change, capsule::PrimitiveSet& set) const;
+
+ private:
+  std::vector<SphereVariables> spheres_;
+  std::vector<int> images_;  // by sphere; itself or -1: none
+  std::vector<int> representatives_;
+  std::vector<Solid> solids_;
+  int orbit_count_ = 0;
+};
+
+// The solids' shapes, in the order of SetVariables::solids().
+[[nodiscard]] std::vector<geometry::TaperedCapsule> ShapesOf(const std::vector<Solid>& solids,
+                                                             const capsule::PrimitiveSet& set);
+
+}  // namespace capfit::tighten
+
+#endif  // CAPFIT_CORE_TIGHTEN_SET_VARIABLES_H_

@@ -1,0 +1,202 @@
+#include "core/tighten/tighten.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/tighten/penalty_program.h"
+#include "core/tighten/set_variables.h"
+#include "core/tighten/union_volume.h"
+
+namespace capfit::tighten {
+namespace {
+
+using geometry::TaperedCapsule;
+
+// Steeper capsules are little more than their larger end, and engines differ most on them.
+constexpr double kMaxSin = 0.8;
+// Relative to the body's size, as the settings of a phase are.
+constexpr double kLeastRadius = 0.003;
+constexpr double kSampleSpacing = 0.025;
+constexpr double kSteepnessReach = 0.05;  // capsules this near to the limit get a row
+constexpr double kSteepnessPenalty = 100.0;
+// Points deeper than this many trust regions cannot get out in one step: both ends move and grow.
+constexpr double kDepthOfInterest = 1.5;
+// Added curvature, in volumes per body size squared: keeps idle variables where they are.
+constexpr double kIdleCurvature = 1e-3;
+
+double Between(double first, double last, int step, int steps) {
+  if (steps <= 1) return last;
+  return first * std::pow(last / first, static_cast<double>(step) / (steps - 1));
+}
+
+class Tightener {
+ public:
+  Tightener(const PointGrid& points, std::span<const double> allowed_m,
+            std::span<const double> weights, double body_size_m, const ThreadPool& pool,
+            capsule::PrimitiveSet& set)
+      : points_(points),
+        allowed_(allowed_m),
+        weights_(weights),
+        size_(body_size_m),
+        pool_(pool),
+        set_(set),
+        variables_(set) {}
+
+  void Step(double trust_m, double penalty, const TightenPhase& phase, std::uint64_t seed) {
+    shapes_ = ShapesOf(variables_.solids(), set_);
+    distances_ = points_.DistancesTo(shapes_, -kDepthOfInterest * trust_m, pool_);
+    PenaltyProgram program;
+    AddVolume(seed, program);
+    AddBounds(trust_m, program);
+    AddPointRows(kDepthOfInterest * trust_m, program);
+    SetPenalties(penalty, program);
+    if (phase.uniform_radius) {
+      AddUniformRows(program);
+    } else {
+      AddSteepnessRows(program);
+    }
+    const Eigen::VectorXd change = Solve(program, phase.relative_gap);
+    if (change.allFinite()) variables_.Apply(change, set_);
+  }
+
+ private:
+  // Linear: the volume's gradient. Quadratic: a sphere that grows, or slides off, exposes more of
+  // itself; half its exposed area over its radius is what that costs per square of the step.
+  void AddVolume(std::uint64_t seed, PenaltyProgram& program) {
+    const VolumeGradient gradient =
+        UnionVolumeGradient(set_, variables_.solids(), kSampleSpacing * size_, seed, pool_);
+    if (volume_ == 0.0) volume_ = std::max(gradient.volume_m3, 1e-6 * size_ * size_ * size_);
+    growth_rate_ = std::max(gradient.area_m2 / volume_, 1e-6 / size_);
+    program.gradient = Eigen::VectorXd::Zero(variables_.count());
+    program.hessian =
+        Eigen::VectorXd::Constant(variables_.count(), kIdleCurvature / (size_ * size_));
+    for (int i = 0; i < static_cast<int>(set_.spheres.size()); ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      const Eigen::Vector4d by_sphere = gradient.by_sphere[index] / volume_;
+      const int first = variables_.of(i).first;
+      program.gradient.segment<4>(first) += variables_.ToVariables(i, by_sphere);
+      program.hessian.segment<4>(first).array() +=
+          0.5 * by_sphere.w() / std::max(set_.spheres[index].radius_m, kLeastRadius * size_);
+    }
+  }
+
+  void AddBounds(double trust_m, PenaltyProgram& program) const {
+    program.lower = Eigen::VectorXd::Constant(variables_.count(), -trust_m);
+    program.upper = Eigen::VectorXd::Constant(variables_.count(), trust_m);
+    for (const int i : variables_.representatives()) {
+      const double radius = set_.spheres[static_cast<std::size_t>(i)].radius_m;
+      const double room = std::max(radius - kLeastRadius * size_, 1e-3 * std::min(trust_m, radius));
+      double& lower = program.lower[variables_.of(i).first + 3];
+      lower = std::max(lower, -room);
+    }
+  }
+
+  void AddRow(const Solid& solid, const Eigen::Vector4d& by_a, const Eigen::Vector4d& by_b,
+              double value, double penalty, PenaltyProgram& program) const {
+    PenaltyRow row;
+    row.value = value;
+    row.penalty = penalty;
+    row.first = {variables_.of(solid.ends[0]).first, variables_.of(solid.ends[1]).first};
+    Eigen::Map<Eigen::Matrix<double, 8, 1>> coefficients(row.coefficients.data());
+    coefficients.head<4>() = variables_.ToVariables(solid.ends[0], by_a);
+    coefficients.tail<4>() = variables_.ToVariables(solid.ends[1], by_b);
+    if (row.first[0] == row.first[1]) {  // a sphere, or a bar between two images
+      coefficients.head<4>() += coefficients.tail<4>();
+      row.first[1] = -1;
+    }
+    program.rows.push_back(row);
+  }
+
+  double Allowed(std::uint32_t i) const { return allowed_[points_.order()[i]]; }
+
+  void AddPointRow(std::uint32_t i, double weight, PenaltyProgram& program) const {
+    const auto index = static_cast<std::size_t>(distances_.solid[i]);
+    const geometry::CapsuleDistance at = shapes_[index].Locate(points_.point(i));
+    const Eigen::Vector4d speed(at.normal.x(), at.normal.y(), at.normal.z(), 1.0);
+    AddRow(variables_.solids()[index], -(1.0 - at.axis_parameter) * speed,
+           -at.axis_parameter * speed, at.distance_m - Allowed(i), weight, program);
+  }
+
+  // All points near the surface: a choice among them could fall out differently for vertices that
+  // differ by rounding alone. For the same reason those just near enough count for nothing yet
+  // where weights are added up; as rows they do not bind.
+  void AddPointRows(double depth_m, PenaltyProgram& program) {
+    near_weight_ = 0.0;
+    if (shapes_.empty()) return;
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+      const double excess = distances_.distance_m[i] - Allowed(i);
+      if (excess <= -depth_m) continue;
+      const double ramp = std::min(1.0, 2.0 * (1.0 + excess / depth_m));
+      const double weight = weights_.empty() ? 1.0 : weights_[points_.order()[i]];
+      near_weight_ += ramp * weight;
+      AddPointRow(i, weight, program);
+    }
+  }
+
+  // Together the rows weigh `penalty` times as much as the volume does when the whole surface
+  // moves: so it means the same for any number of points, and below 1 everything would shrink to
+  // nothing.
+  void SetPenalties(double penalty, PenaltyProgram& program) const {
+    const double each = penalty * growth_rate_ / (weights_.empty() ? 1.0 : near_weight_);
+    for (PenaltyRow& row : program.rows) row.penalty *= each;
+  }
+
+  // |r_a - r_b| <= kMaxSin * length. Where that is broken already it must not get worse.
+  void AddSteepnessRows(PenaltyProgram& program) const {
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      const Solid& solid = variables_.solids()[k];
+      if (solid.ends[0] == solid.ends[1]) continue;
+      const TaperedCapsule& shape = shapes_[k];
+      const double difference = shape.a().radius_m - shape.b().radius_m;
+      const double excess = std::abs(difference) - kMaxSin * shape.length_m();
+      if (excess < -kSteepnessReach * size_) continue;
+      Eigen::Vector4d by_a;
+      by_a << kMaxSin * shape.axis(), difference >= 0.0 ? 1.0 : -1.0;
+      AddRow(solid, by_a, -by_a, std::min(excess, 0.0), kSteepnessPenalty / size_, program);
+    }
+  }
+
+  // |r_a - r_b| <= 0, a row for each sign.
+  void AddUniformRows(PenaltyProgram& program) const {
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      const Solid& solid = variables_.solids()[k];
+      if (solid.ends[0] == solid.ends[1]) continue;
+      const double difference = shapes_[k].a().radius_m - shapes_[k].b().radius_m;
+      const Eigen::Vector4d radius(0.0, 0.0, 0.0, 1.0);
+      AddRow(solid, radius, -radius, difference, kSteepnessPenalty / size_, program);
+      AddRow(solid, -radius, radius, -difference, kSteepnessPenalty / size_, program);
+    }
+  }
+
+  const PointGrid& points_;
+  std::span<const double> allowed_;
+  std::span<const double> weights_;
+  double near_weight_ = 0.0;  // of the points near the surface
+  double size_;
+  const ThreadPool& pool_;
+  capsule::PrimitiveSet& set_;
+  SetVariables variables_;
+  std::vector<TaperedCapsule> shapes_;
+  UnionDistances distances_;
+  double growth_rate_ = 0.0;  // relative volume that one metre of growth everywhere adds
+  double volume_ = 0.0;       // of the union when the phase began: the unit of the objective
+};
+
+}  // namespace
+
+void Tighten(const PointGrid& points, std::span<const double> allowed_m,
+             std::span<const double> weights, double body_size_m, const TightenPhase& phase,
+             std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
+             capsule::PrimitiveSet& set) {
+  Tightener tightener(points, allowed_m, weights, body_size_m, pool, set);
+  for (int i = 0; i < phase.steps && !meter.IsCancelled(); ++i) {
+    const double trust = Between(phase.first_trust, phase.last_trust, i, phase.steps);
+    const double penalty = Between(phase.first_penalty, phase.last_penalty, i, phase.steps);
+    tightener.Step(trust * body_size_m, penalty, phase, seed + static_cast<std::uint64_t>(i));
+    meter.Add(set.primitive_count());
+  }
+}
+
+}  // namespace capfit::tighten

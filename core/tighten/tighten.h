@@ -1,0 +1,55 @@
+// Makes the set as small as it can be while everything stays inside: centres and radii together, by
+// sequential convex programming. What the growing step of the paper (III-D) gives away, this takes
+// back.
+#ifndef CAPFIT_CORE_TIGHTEN_TIGHTEN_H_
+#define CAPFIT_CORE_TIGHTEN_TIGHTEN_H_
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/thread_pool.h"
+#include "core/base/work_meter.h"
+#include "core/capsule/primitive_set.h"
+#include "core/tighten/point_grid.h"
+
+namespace capfit::tighten {
+
+// A run of steps whose settings go from first to last in equal ratios. Lengths are relative to the
+// size of the body, the square root of its surface area (1.1 to 1.6 m for an adult).
+struct TightenPhase {
+  int steps = 8;
+  double first_trust = 0.01;  // how far a coordinate or radius may go in one step
+  double last_trust = 0.01;
+  // What points cost when they stick out, relative to what the volume costs when the whole surface
+  // moves by as much. With weights: all points together. Above 1; small: points may be left out for
+  // the while, and the set finds its shape. Without weights: each of them; a few tenths: all points
+  // must be inside.
+  double first_penalty = 3.0;
+  double last_penalty = 3.0;
+  // Each step's programme is solved to this share of what it wins: by default far better than its
+  // rows are true. Where it is left unfinished the number of iterations decides, and vertices moved
+  // by a millionth can change that; trials that are only compared may take hundredths.
+  double relative_gap = 1e-8;
+  // Pulls the two radii of each capsule together, at a price: nearly equal, not exactly.
+  bool uniform_radius = false;
+};
+
+// Each step takes the least volume of the union, by its gradient, under one linear row for each
+// point near the surface: a point of distance s at axis parameter t of its nearest solid must have
+// s - (1-t)(n.da + dra) - t(n.db + drb) <= allowed, or pay the penalty. No step makes a capsule
+// steeper than sin 0.8 or a radius smaller than 3 thousandths of the body's size, nor such ones
+// worse. Mirrored spheres stay exact images.
+//
+// `allowed_m` is by the caller's index of the point, in metres; negative asks for depth; `weights`
+// too, any unit, or empty. The result depends on the points smoothly but where the nearest solid of
+// one changes. Costs 3 ms a step for ten thousand points and some fifty solids; stops early when
+// cancelled. Adds the set's primitives to the meter in each step. The result is not feasible by
+// itself: at the last trust region's accuracy only.
+void Tighten(const PointGrid& points, std::span<const double> allowed_m,
+             std::span<const double> weights, double body_size_m, const TightenPhase& phase,
+             std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
+             capsule::PrimitiveSet& set);
+
+}  // namespace capfit::tighten
+
+#endif  // CAPFIT_CORE_TIGHTEN_TIGHTEN_H_

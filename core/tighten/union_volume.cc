@@ -1,0 +1,402 @@
+#include "core/tighten/union_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "core/base/random.h"
+#include "core/tighten/distance_kernel.h"
+
+namespace capfit::tighten {
+namespace {
+
+using geometry::Sphere;
+using geometry::TaperedCapsule;
+
+// Samples fade out over this many spacings on either side of the border where another solid begins
+// to hide them. The gradient follows the set smoothly that way: no sample comes or goes at once.
+constexpr double kFade = 0.1;
+constexpr int kMinRings = 2;
+constexpr int kMinRingPoints = 8;
+constexpr int kMinSpherePoints = 24;
+constexpr int kMaxCount = 4096;
+
+int CountFor(double length, double spacing, int least) {
+  return std::clamp(static_cast<int>(std::lround(length / spacing)), least, kMaxCount);
+}
+
+// What one solid or sphere contributes.
+struct Share {
+  Eigen::Vector4d a = Eigen::Vector4d::Zero();
+  Eigen::Vector4d b = Eigen::Vector4d::Zero();
+  double area = 0.0;
+  double volume = 0.0;  // flux of the flow below; the shares' sum is the volume
+};
+
+// Cosine and sine of angles in equal steps.
+struct Turner {
+  Turner(double first, double step)
+      : cosine(std::cos(first)), sine(std::sin(first)), c(std::cos(step)), s(std::sin(step)) {}
+  void Next() {
+    const double old = cosine;
+    cosine = old * c - sine * s;
+    sine = old * s + sine * c;
+  }
+  double cosine, sine, c, s;
+};
+
+// Samples of the surface, their coordinates apart for the loops over them.
+struct Samples {
+  static constexpr int kMost = 64;
+  int count = 0;
+  std::array<double, kMost> x, y, z, nx, ny, nz, area;
+
+  [[nodiscard]] bool IsFull() const { return count == kMost; }
+  void Add(const Eigen::Vector3d& normal, const Eigen::Vector3d& center, double radius,
+           double own_area) {
+    const auto i = static_cast<std::size_t>(count++);
+    nx[i] = normal.x(), ny[i] = normal.y(), nz[i] = normal.z();
+    x[i] = center.x() + radius * normal.x();
+    y[i] = center.y() + radius * normal.y();
+    z[i] = center.z() + radius * normal.z();
+    area[i] = own_area;
+  }
+};
+
+// Which sphere and which solid is the mirror image of each. Where the whole set is its own image,
+// half of it tells all.
+struct Images {
+  Images(const capsule::PrimitiveSet& set, const std::vector<Solid>& solids)
+      : sphere(set.spheres.size()), solid(solids.size()) {
+    std::iota(sphere.begin(), sphere.end(), std::size_t{0});
+    std::iota(solid.begin(), solid.end(), std::size_t{0});
+    if (!FindAll(set, solids)) {
+      std::iota(sphere.begin(), sphere.end(), std::size_t{0});
+      std::iota(solid.begin(), solid.end(), std::size_t{0});
+    }
+  }
+
+  std::vector<std::size_t> sphere;
+  std::vector<std::size_t> solid;
+
+ private:
+  bool FindAll(const capsule::PrimitiveSet& set, const std::vector<Solid>& solids) {
+    for (std::size_t i = 0; i < sphere.size(); ++i) {
+      const int image = set.origins[i].mirror;
+      if (image < 0) return false;
+      sphere[i] = static_cast<std::size_t>(image);
+      const Sphere& a = set.spheres[i];
+      const Sphere& b = set.spheres[sphere[i]];
+      if (a.radius_m != b.radius_m || a.center_m.x() != -b.center_m.x() ||
+          a.center_m.tail<2>() != b.center_m.tail<2>()) {
+        return false;
+      }
+    }
+    std::vector<std::pair<std::array<int, 2>, std::size_t>> by_ends;
+    for (std::size_t k = 0; k < solid.size(); ++k) by_ends.emplace_back(solids[k].ends, k);
+    std::sort(by_ends.begin(), by_ends.end());
+    for (std::size_t k = 0; k < solid.size(); ++k) {
+      std::array<int, 2> ends{};
+      for (std::size_t e = 0; e < 2; ++e) {
+        ends[e] = set.origins[static_cast<std::size_t>(solids[k].ends[e])].mirror;
+      }
+      std::sort(ends.begin(), ends.end());
+      const auto found =
+          std::lower_bound(by_ends.begin(), by_ends.end(), std::pair(ends, k),
+                           [](const auto& x, const auto& y) { return x.first < y.first; });
+      if (found == by_ends.end() || found->first != ends) return false;
+      solid[k] = found->second;
+    }
+    return true;
+  }
+};
+
+class Sampler {
+ public:
+  Sampler(const capsule::PrimitiveSet& set, const std::vector<Solid>& solids, double spacing_m,
+          std::uint64_t seed)
+      : set_(set),
+        solids_(solids),
+        shapes_(ShapesOf(solids, set)),
+        kernels_(shapes_.begin(), shapes_.end()),
+        spacing_(spacing_m),
+        fade_(kFade * spacing_m),
+        half_over_fade_(0.5 / fade_),
+        seed_(seed) {
+    if (set.spheres.empty()) return;
+    for (const Sphere& sphere : set.spheres) origin_ += sphere.center_m;
+    origin_ /= static_cast<double>(set.spheres.size());
+    Eigen::Array3d spread = Eigen::Array3d::Constant(1e-12);
+    for (const Sphere& sphere : set.spheres) {
+      spread += (sphere.center_m - origin_).array().square() + sphere.radius_m * sphere.radius_m;
+    }
+    flow_ = spread.inverse() / spread.inverse().sum();
+  }
+
+  Share Slant(std::size_t index) const {
+    Share share;
+    const TaperedCapsule& capsule = shapes_[index];
+    if (capsule.IsSphere()) return share;
+    Random random(seed_ ^ (index * 0x9E3779B9u));
+    const std::vector<Neighbour> others = NeighboursOf(
+        0.5 * (capsule.a().center_m + capsule.b().center_m),
+        0.5 * capsule.length_m() + std::max(capsule.a().radius_m, capsule.b().radius_m), index);
+    const double slant_length = capsule.length_m() * capsule.cos_half_angle();
+    const int rings = CountFor(slant_length, spacing_, kMinRings);
+    for (int ring = 0; ring < rings; ++ring) {
+      const double t = (ring + random.NextUnit()) / rings;
+      Ring(capsule, t, slant_length / rings, random.NextUnit(), others, share);
+    }
+    return share;
+  }
+
+  // The caps of a sphere, once however many capsules share it.
+  Share Caps(std::size_t index) const {
+    Share share;
+    const Sphere& sphere = set_.spheres[index];
+    const Surroundings around = SurroundingsOf(index);
+    const double area = 4.0 * std::numbers::pi * sphere.radius_m * sphere.radius_m;
+    const int count = CountFor(area, spacing_ * spacing_, kMinSpherePoints);
+    Random random(seed_ ^ (~index * 0x9E3779B9u));
+    Turner turner(2.0 * std::numbers::pi * random.NextUnit(),
+                  2.0 * std::numbers::pi / std::numbers::phi);
+    Samples samples;
+    for (int i = 0; i < count; ++i, turner.Next()) {
+      const double z = 1.0 - 2.0 * (i + 0.5) / count;
+      const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
+      samples.Add({r * turner.cosine, r * turner.sine, z}, sphere.center_m, sphere.radius_m,
+                  area / count);
+      if (!samples.IsFull() && i + 1 < count) continue;
+      for (const Cut& cut : around.cuts) Hide(cut, sphere.radius_m, samples);
+      HideBehind(around.others, samples);
+      Collect(samples, 0.0, share);
+    }
+    return share;
+  }
+
+  // `slants` and `caps` of what is no image of an earlier one.
+  VolumeGradient Combine(const Images& images, const std::vector<Share>& slants,
+                         const std::vector<Share>& caps) const {
+    VolumeGradient result;
+    result.by_sphere.assign(set_.spheres.size(), Eigen::Vector4d::Zero());
+    const auto add = [&](const Share& share) {
+      result.area_m2 += share.area;
+      result.volume_m3 += share.volume;
+    };
+    for (std::size_t k = 0; k < solids_.size(); ++k) {
+      const auto [a, b] = solids_[k].ends;
+      const auto first = static_cast<std::size_t>(a);
+      const auto second = static_cast<std::size_t>(b);
+      const std::size_t image = images.solid[k];
+      const Share& share = slants[std::min(k, image)];
+      add(share);
+      if (image >= k) {
+        result.by_sphere[first] += share.a;
+        result.by_sphere[second] += share.b;
+      } else {
+        const bool in_order =
+            images.sphere[static_cast<std::size_t>(solids_[image].ends[0])] == first;
+        result.by_sphere[first] += Mirrored(in_order ? share.a : share.b);
+        result.by_sphere[second] += Mirrored(in_order ? share.b : share.a);
+      }
+    }
+    for (std::size_t i = 0; i < caps.size(); ++i) {
+      const std::size_t image = images.sphere[i];
+      const Share& share = caps[std::min(i, image)];
+      add(share);
+      result.by_sphere[i] += image >= i ? share.a : Mirrored(share.a);
+    }
+    return result;
+  }
+
+ private:
+  static Eigen::Vector4d Mirrored(const Eigen::Vector4d& x) { return {-x[0], x[1], x[2], x[3]}; }
+
+  // A solid that may hide part of a capsule. Where the two share an end sphere both run on smoothly
+  // into it, each in turn at distance 0 from the other: there only what lies past the joint hides.
+  struct Neighbour {
+    std::size_t solid;
+    double joint_m = 0.0;  // where the solid leaves the shared sphere, along its axis
+    double way = 0.0;      // 1 or -1: to where on that axis; 0: no shared sphere
+  };
+
+  // A capsule hides the part of its end sphere beyond the circle where they touch: there both run
+  // on smoothly, so that their distance tells nothing.
+  struct Cut {
+    Eigen::Vector3d axis;  // into the capsule
+    double sine;           // of the normals on the circle
+  };
+  struct Surroundings {
+    std::vector<Cut> cuts;
+    std::vector<const DistanceKernel*> others;
+  };
+
+  Surroundings SurroundingsOf(std::size_t sphere_index) const {
+    const Sphere& sphere = set_.spheres[sphere_index];
+    const int self = static_cast<int>(sphere_index);
+    Surroundings around;
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      const TaperedCapsule& shape = shapes_[k];
+      const bool is_first = solids_[k].ends[0] == self;
+      if (is_first || solids_[k].ends[1] == self) {
+        const double way = is_first ? 1.0 : -1.0;
+        if (!shape.IsSphere()) {
+          around.cuts.push_back({way * shape.axis(), way * shape.sin_half_angle()});
+          continue;
+        }
+        // Swallowed by this sphere: nothing else is there.
+        if (std::max(shape.a().radius_m, shape.b().radius_m) <= sphere.radius_m) continue;
+      }
+      if (shape.SignedDistance(sphere.center_m) < sphere.radius_m + fade_) {
+        around.others.push_back(&kernels_[k]);
+      }
+    }
+    return around;
+  }
+
+  // Share of a sample that is seen at a distance from a solid.
+  double Seen(double distance_m) const {
+    double u = 0.5 + half_over_fade_ * distance_m;
+    u = u > 0.0 ? u : 0.0;
+    u = u < 1.0 ? u : 1.0;
+    return u * u * (3.0 - 2.0 * u);
+  }
+
+  // Solids other than `self` that reach into a ball.
+  std::vector<Neighbour> NeighboursOf(const Eigen::Vector3d& center, double reach,
+                                      std::size_t self) const {
+    const std::array<int, 2>& own = solids_[self].ends;
+    std::vector<Neighbour> near;
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      if (k == self || shapes_[k].SignedDistance(center) >= reach + fade_) continue;
+      const auto is_shared = [&own](int end) { return end == own[0] || end == own[1]; };
+      const bool shares_a = is_shared(solids_[k].ends[0]);
+      const bool shares_b = is_shared(solids_[k].ends[1]);
+      const TaperedCapsule& shape = shapes_[k];
+      if (shape.IsSphere()) {
+        // Nothing of a capsule lies within its own end sphere.
+        if (shape.a().radius_m >= shape.b().radius_m ? shares_a : shares_b) continue;
+        near.push_back({k});
+      } else if (shares_a == shares_b) {
+        near.push_back({k});
+      } else {
+        near.push_back({k, shares_a ? 0.0 : shape.length_m(), shares_a ? 1.0 : -1.0});
+      }
+    }
+    return near;
+  }
+
+  void Ring(const TaperedCapsule& capsule, double t, double width, double turn,
+            const std::vector<Neighbour>& others, Share& share) const {
+    const Eigen::Vector3d center = (1 - t) * capsule.a().center_m + t * capsule.b().center_m;
+    const double radius = (1 - t) * capsule.a().radius_m + t * capsule.b().radius_m;
+    std::vector<const DistanceKernel*> near;
+    std::vector<const Neighbour*> joined;
+    for (const Neighbour& other : others) {
+      const double distance = shapes_[other.solid].SignedDistance(center);
+      if (distance < -radius - fade_) return;  // hides the ring
+      if (distance >= radius + fade_) continue;
+      if (other.way == 0.0) {
+        near.push_back(&kernels_[other.solid]);
+      } else {
+        joined.push_back(&other);
+      }
+    }
+    const double girth = 2.0 * std::numbers::pi * radius * capsule.cos_half_angle();
+    const int count = CountFor(girth, spacing_, kMinRingPoints);
+    const Eigen::Vector3d first = capsule.cos_half_angle() * capsule.axis().unitOrthogonal();
+    const Eigen::Vector3d second = capsule.axis().cross(first);
+    const Eigen::Vector3d along = capsule.sin_half_angle() * capsule.axis();
+    Turner turner(2.0 * std::numbers::pi * turn / count, 2.0 * std::numbers::pi / count);
+    Samples samples;
+    for (int i = 0; i < count; ++i, turner.Next()) {
+      samples.Add(along + turner.cosine * first + turner.sine * second, center, radius,
+                  girth * width / count);
+      if (!samples.IsFull() && i + 1 < count) continue;
+      HideBehind(near, samples);
+      HideBehindJoined(joined, samples);
+      Collect(samples, t, share);
+    }
+  }
+
+  void Hide(const Cut& cut, double radius, Samples& samples) const {
+    for (int i = 0; i < samples.count; ++i) {
+      const double along = samples.nx[i] * cut.axis.x() + samples.ny[i] * cut.axis.y() +
+                           samples.nz[i] * cut.axis.z();
+      samples.area[i] *= Seen(radius * (cut.sine - along));
+    }
+  }
+
+  void HideBehind(const std::vector<const DistanceKernel*>& others, Samples& samples) const {
+    for (const DistanceKernel* other : others) {
+      for (int i = 0; i < samples.count; ++i) {
+        samples.area[i] *= Seen(other->SignedDistance(samples.x[i], samples.y[i], samples.z[i]));
+      }
+    }
+  }
+
+  void HideBehindJoined(const std::vector<const Neighbour*>& others, Samples& samples) const {
+    for (const Neighbour* other : others) {
+      const DistanceKernel& kernel = kernels_[other->solid];
+      for (int i = 0; i < samples.count; ++i) {
+        const auto [distance, foot] = kernel.Locate(samples.x[i], samples.y[i], samples.z[i]);
+        const double past_joint = Seen(other->way * (foot - other->joint_m) - fade_);
+        samples.area[i] *= 1.0 - past_joint * (1.0 - Seen(distance));
+      }
+    }
+  }
+
+  // Adds what is still seen of the samples, and starts them anew.
+  void Collect(Samples& samples, double t, Share& share) const {
+    Eigen::Vector4d speed = Eigen::Vector4d::Zero();
+    for (int i = 0; i < samples.count; ++i) {
+      const Eigen::Vector3d normal(samples.nx[i], samples.ny[i], samples.nz[i]);
+      const Eigen::Vector3d point(samples.x[i], samples.y[i], samples.z[i]);
+      const double area = samples.area[i];
+      speed += area * Eigen::Vector4d(normal.x(), normal.y(), normal.z(), 1.0);
+      share.volume += area * (normal.array() * flow_ * (point - origin_).array()).sum();
+    }
+    share.a += (1 - t) * speed;
+    share.b += t * speed;
+    share.area += speed.w();
+    samples.count = 0;
+  }
+
+  const capsule::PrimitiveSet& set_;
+  const std::vector<Solid>& solids_;
+  std::vector<TaperedCapsule> shapes_;
+  std::vector<DistanceKernel> kernels_;  // of the same solids
+  double spacing_;
+  double fade_;
+  double half_over_fade_;
+  std::uint64_t seed_;
+  // The volume is the flux of flow_ * (point - origin_) through the surface, whose divergence is 1.
+  // It flows along the axis in which the set is thinnest, mostly: what the samples of one solid
+  // miss or count twice weighs by its distance from the origin along the flow.
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  Eigen::Array3d flow_ = Eigen::Array3d::Constant(1.0 / 3.0);
+};
+
+}  // namespace
+
+VolumeGradient UnionVolumeGradient(const capsule::PrimitiveSet& set,
+                                   const std::vector<Solid>& solids, double spacing_m,
+                                   std::uint64_t seed, const ThreadPool& pool) {
+  const Sampler sampler(set, solids, spacing_m, seed);
+  const Images images(set, solids);
+  std::vector<Share> slants(solids.size());
+  std::vector<Share> caps(set.spheres.size());
+  pool.ForEach(solids.size() + set.spheres.size(), [&](std::size_t i) {
+    if (i < solids.size()) {
+      if (images.solid[i] >= i) slants[i] = sampler.Slant(i);
+    } else if (const std::size_t k = i - solids.size(); images.sphere[k] >= k) {
+      caps[k] = sampler.Caps(k);
+    }
+  });
+  return sampler.Combine(images, slants, caps);
+}
+
+}  // namespace capfit::tighten

@@ -1,0 +1,149 @@
+#include "core/refine/best_fit/occupancy_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace capfit::refine {
+namespace {
+
+// A ball of rings and segments around `center`, its lower half labelled as a foot.
+body::Body BallBody(const Eigen::Vector3d& center, double radius_m) {
+  constexpr int kRings = 48, kSegments = 96;
+  std::vector<Eigen::Vector3d> vertices = {center + Eigen::Vector3d(0, radius_m, 0)};
+  for (int i = 1; i < kRings; ++i) {
+    const double polar = std::numbers::pi * i / kRings;
+    for (int k = 0; k < kSegments; ++k) {
+      const double around = 2.0 * std::numbers::pi * (k + 0.5) / kSegments;
+      vertices.push_back(center + radius_m * Eigen::Vector3d(std::sin(polar) * std::sin(around),
+                                                             std::cos(polar),
+                                                             std::sin(polar) * std::cos(around)));
+    }
+  }
+  vertices.push_back(center - Eigen::Vector3d(0, radius_m, 0));
+  std::vector<mesh::Triangle> triangles;
+  const auto at = [](int ring, int k) {
+    return static_cast<std::uint32_t>(1 + (ring - 1) * kSegments + k % kSegments);
+  };
+  const auto last = static_cast<std::uint32_t>(vertices.size() - 1);
+  for (int k = 0; k < kSegments; ++k) {
+    triangles.push_back({0, at(1, k), at(1, k + 1)});
+    triangles.push_back({last, at(kRings - 1, k + 1), at(kRings - 1, k)});
+    for (int i = 1; i + 1 < kRings; ++i) {
+      triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+  }
+  std::vector<body::Segment> segments;
+  for (const Eigen::Vector3d& v : vertices) {
+    segments.push_back(v.y() < center.y() ? body::Segment::kLeftFoot : body::Segment::kTorso);
+  }
+  std::vector<std::int32_t> source(vertices.size());
+  for (std::size_t i = 0; i < source.size(); ++i) source[i] = static_cast<std::int32_t>(i);
+  body::Body body{mesh::BodyMesh(std::move(vertices), std::move(triangles), std::move(source)),
+                  {},
+                  2.0 * radius_m,
+                  true,
+                  {},
+                  std::move(segments),
+                  {},
+                  {}};
+  return body;
+}
+
+body::PartSelection AllParts() {
+  body::PartSelection parts;
+  parts.head = parts.hands = parts.feet = true;
+  return parts;
+}
+
+CapsuleGraph Ball(const Eigen::Vector3d& center, double radius_m) {
+  CapsuleGraph graph;
+  graph.symmetric = true;
+  graph.AddNode(center, radius_m, true);
+  return graph;
+}
+
+class OccupancyGridTest : public testing::TestWithParam<bool> {};
+
+TEST_P(OccupancyGridTest, VolumeIsThatOfTheMesh) {
+  const body::Body body = BallBody({0.0, 0.3, 0.05}, 0.2);
+  ASSERT_GT(body.mesh.volume(), 0.0);
+  const OccupancyGrid grid = MakeOccupancyGrid(body, AllParts(), 0.008, GetParam());
+  EXPECT_NEAR(grid.volume_m3, body.mesh.volume(), 0.005 * body.mesh.volume());
+}
+
+TEST_P(OccupancyGridTest, CostIsOneOutsideMinusOneInsideAndZeroOnTheSurface) {
+  const OccupancyGrid grid =
+      MakeOccupancyGrid(BallBody({0.0, 0.3, 0.05}, 0.2), AllParts(), 0.008, GetParam());
+  const float x[] = {0.0f, 0.0f, 0.0f, 5.0f}, y[] = {0.3f, 0.53f, 0.5f, 0.0f},
+              z[] = {0.05f, 0.05f, 0.05f, 0.0f};
+  float cost[4];
+  SampleCost(grid, x, y, z, 4, cost);
+  EXPECT_FLOAT_EQ(cost[0], -1.0f);
+  EXPECT_FLOAT_EQ(cost[1], 1.0f);
+  EXPECT_NEAR(cost[2], 0.0f, 0.3f);
+  EXPECT_FLOAT_EQ(cost[3], 1.0f);
+}
+
+TEST_P(OccupancyGridTest, ACoarserGridHoldsTheSame) {
+  const Eigen::Vector3d center(0.0, 0.3, 0.05);
+  const OccupancyGrid grid =
+      MakeOccupancyGrid(BallBody(center, 0.2), AllParts(), 0.008, GetParam());
+  const OccupancyGrid coarse = CoarserGrid(grid);
+  EXPECT_EQ(coarse.volume_m3, grid.volume_m3);
+  EXPECT_FLOAT_EQ(coarse.cell_m, 0.016f);
+  double fine_cells = 0.0, coarse_cells = 0.0;
+  for (const float share : grid.inside) fine_cells += share;
+  for (const float share : coarse.inside) coarse_cells += share;
+  EXPECT_NEAR(coarse_cells, fine_cells / 8.0, 1e-3 * fine_cells);
+  CapsuleGraph less = Ball(center, 0.16);
+  less.symmetric = GetParam();
+  EXPECT_NEAR(GridError(coarse, less), 1.0 - std::pow(0.8, 3), 0.02);
+}
+
+TEST_P(OccupancyGridTest, ErrorIsNothingForTheBallItselfAndExactForOthers) {
+  const Eigen::Vector3d center(0.0, 0.3, 0.05);
+  const OccupancyGrid grid =
+      MakeOccupancyGrid(BallBody(center, 0.2), AllParts(), 0.008, GetParam());
+  CapsuleGraph same = Ball(center, 0.2), less = Ball(center, 0.16), more = Ball(center, 0.22);
+  for (CapsuleGraph* graph : {&same, &less, &more}) graph->symmetric = GetParam();
+  EXPECT_LT(GridError(grid, same), 0.02);
+  EXPECT_NEAR(GridError(grid, less), 1.0 - std::pow(0.8, 3), 0.015);
+  EXPECT_NEAR(GridError(grid, more), std::pow(1.1, 3) - 1.0, 0.015);
+}
+
+TEST_P(OccupancyGridTest, PartsLeftOutCostNothingToFillAndNothingToLeave) {
+  body::PartSelection no_feet;
+  const Eigen::Vector3d center(0.0, 0.3, 0.05);
+  const OccupancyGrid grid = MakeOccupancyGrid(BallBody(center, 0.2), no_feet, 0.008, GetParam());
+  const double whole = 4.0 / 3.0 * std::numbers::pi * 0.008;
+  EXPECT_NEAR(grid.volume_m3, 0.5 * whole, 0.05 * whole);
+  const float x = 0.0f, y = 0.2f, z = 0.05f;
+  float cost = 1.0f;
+  SampleCost(grid, &x, &y, &z, 1, &cost);
+  EXPECT_FLOAT_EQ(cost, 0.0f);
+  CapsuleGraph same = Ball(center, 0.2);
+  same.symmetric = GetParam();
+  EXPECT_LT(GridError(grid, same), 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Folding, OccupancyGridTest, testing::Bool(),
+                         [](const auto& info) { return info.param ? "Folded" : "Whole"; });
+
+TEST(UnionVolumeTest, MatchesClosedForms) {
+  CapsuleGraph graph = Ball({0.0, 0.3, 0.0}, 0.1);
+  const double ball = 4.0 / 3.0 * std::numbers::pi * 1e-3;
+  EXPECT_NEAR(UnionVolume(graph, BoundsOf(graph, 0.01), 0.004), ball, 0.01 * ball);
+  const int top = graph.AddNode({0.0, 0.6, 0.0}, 0.1, true);
+  graph.AddEdge(0, top);
+  const double capsule = ball + std::numbers::pi * 0.01 * 0.3;
+  EXPECT_NEAR(UnionVolume(graph, BoundsOf(graph, 0.01), 0.004), capsule, 0.01 * capsule);
+  graph.symmetric = false;
+  EXPECT_NEAR(UnionVolume(graph, BoundsOf(graph, 0.01), 0.004), capsule, 0.01 * capsule);
+}
+
+}  // namespace
+}  // namespace capfit::refine

@@ -1,0 +1,89 @@
+#include "core/tighten/penalty_program.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/random.h"
+
+namespace capfit::tighten {
+namespace {
+
+PenaltyProgram Free(int variables, double curvature) {
+  PenaltyProgram program;
+  program.gradient = Eigen::VectorXd::Zero(variables);
+  program.hessian = Eigen::VectorXd::Constant(variables, curvature);
+  program.lower = Eigen::VectorXd::Constant(variables, -1.0);
+  program.upper = Eigen::VectorXd::Constant(variables, 1.0);
+  return program;
+}
+
+double Objective(const PenaltyProgram& program, const Eigen::VectorXd& d) {
+  double value = program.gradient.dot(d) + 0.5 * d.dot(program.hessian.cwiseProduct(d));
+  for (const PenaltyRow& row : program.rows) {
+    double excess = row.value;
+    for (int k = 0; k < 8; ++k) {
+      const int first = row.first[static_cast<std::size_t>(k / 4)];
+      if (first >= 0) excess += row.coefficients[static_cast<std::size_t>(k)] * d[first + k % 4];
+    }
+    value += row.penalty * std::max(0.0, excess);
+  }
+  return value;
+}
+
+TEST(PenaltyProgramTest, WithoutRowsTheFreeMinimumWithinTheBounds) {
+  PenaltyProgram program = Free(4, 2.0);
+  program.gradient << 1.0, -10.0, 0.0, 0.2;
+  const Eigen::VectorXd d = Solve(program, 1e-6);
+  EXPECT_NEAR(d[0], -0.5, 1e-3);
+  EXPECT_NEAR(d[1], 1.0, 1e-3);
+  EXPECT_NEAR(d[2], 0.0, 1e-9);
+  EXPECT_NEAR(d[3], -0.1, 1e-3);
+}
+
+TEST(PenaltyProgramTest, ARowHoldsWhenItsPenaltyIsWorthIt) {
+  // Shrink by one per unit, but stay above -0.3.
+  for (const double penalty : {0.5, 5.0}) {
+    PenaltyProgram program = Free(4, 1e-3);
+    program.gradient[3] = 1.0;
+    PenaltyRow row;
+    row.coefficients[3] = -1.0;
+    row.value = -0.3;
+    row.penalty = penalty;
+    program.rows.push_back(row);
+    EXPECT_NEAR(Solve(program, 1e-6)[3], penalty > 1.0 ? -0.3 : -1.0, 1e-3);
+  }
+}
+
+TEST(PenaltyProgramTest, NothingNearOrFarIsBetter) {
+  Random random(61);
+  for (int round = 0; round < 30; ++round) {
+    const int groups = 2 + static_cast<int>(random.NextBelow(6));
+    PenaltyProgram program = Free(4 * groups, random.NextIn(0.01, 1.0));
+    for (double& g : program.gradient) g = random.NextIn(-1, 1);
+    for (int k = 0; k < 40; ++k) {
+      PenaltyRow row;
+      row.first[0] = 4 * static_cast<int>(random.NextBelow(static_cast<std::uint64_t>(groups)));
+      row.first[1] = 4 * static_cast<int>(random.NextBelow(static_cast<std::uint64_t>(groups)));
+      if (row.first[0] == row.first[1]) row.first[1] = -1;
+      for (double& c : row.coefficients) c = random.NextIn(-1, 1);
+      row.value = random.NextIn(-1.0, 0.5);
+      row.penalty = random.NextIn(0.05, 3.0);
+      program.rows.push_back(row);
+    }
+    const Eigen::VectorXd d = Solve(program, 1e-6);
+    EXPECT_TRUE((d.array() > program.lower.array()).all());
+    EXPECT_TRUE((d.array() < program.upper.array()).all());
+    const double value = Objective(program, d);
+    for (int trial = 0; trial < 300; ++trial) {
+      const double reach = std::pow(10.0, random.NextIn(-4, 0.3));
+      Eigen::VectorXd other = d;
+      for (double& x : other) x = std::clamp(x + reach * random.NextIn(-1, 1), -1.0, 1.0);
+      EXPECT_GE(Objective(program, other), value - 1e-4);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace capfit::tighten
