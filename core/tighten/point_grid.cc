@@ -15,7 +15,6 @@ using geometry::TaperedCapsule;
 // Points of a block on average. Fewer cull better, more fill the vector loop better; between 24 and
 // 96 the time changes little.
 constexpr double kPointsPerBlock = 48.0;
-constexpr std::uint32_t kMaxBlock = 128;
 // A bound on memory: cells of the grid for each point.
 constexpr double kMaxCellsPerPoint = 4.0;
 
@@ -59,40 +58,91 @@ Grid MakeGrid(std::span<const Eigen::Vector3d> points) {
   return grid;
 }
 
-// Lowers `best` and sets `index` where `kernel` is nearer. Free of branches, so that it vectorises.
-void Lower(const DistanceKernel& kernel, double own_index, const double* x, const double* y,
-           const double* z, int count, double* best, double* index) {
-  for (int i = 0; i < count; ++i) {
-    const double distance = kernel.SignedDistance(x[i], y[i], z[i]);
-    index[i] = distance < best[i] ? own_index : index[i];
-    best[i] = distance < best[i] ? distance : best[i];
+// A solid as the points of one block see it, in floats: from the block's centre, and along the axis
+// from the point nearest to that, so that all numbers are small and their digits tell.
+struct BlockKernel {
+  BlockKernel(const DistanceKernel& solid, const Eigen::Vector3d& center) {
+    const double along = (center.x() - solid.ax) * solid.ux + (center.y() - solid.ay) * solid.uy +
+                         (center.z() - solid.az) * solid.uz;
+    const double start = std::clamp(along, 0.0, solid.length);
+    ox = static_cast<float>(solid.ax + start * solid.ux - center.x());
+    oy = static_cast<float>(solid.ay + start * solid.uy - center.y());
+    oz = static_cast<float>(solid.az + start * solid.uz - center.z());
+    ux = static_cast<float>(solid.ux);
+    uy = static_cast<float>(solid.uy);
+    uz = static_cast<float>(solid.uz);
+    lowest = static_cast<float>(-start);
+    highest = static_cast<float>(solid.length - start);
+    foot_slope = static_cast<float>(solid.slope);
+    const double growth = solid.dr * solid.inverse_length;
+    radius = static_cast<float>(solid.ra + growth * start);
+    radius_slope = static_cast<float>(growth);
   }
-}
+
+  // Lowers `best` and sets `index` where this solid is nearer. Free of branches, so that it
+  // vectorises.
+  void Lower(std::int32_t own_index, const float* x, const float* y, const float* z, int count,
+             float* best, std::int32_t* index) const {
+    for (int i = 0; i < count; ++i) {
+      const float dx = x[i] - ox;
+      const float dy = y[i] - oy;
+      const float dz = z[i] - oz;
+      const float axial = dx * ux + dy * uy + dz * uz;
+      const float rest = dx * dx + dy * dy + dz * dz - axial * axial;
+      const float squared = rest > 0.0f ? rest : 0.0f;
+      float foot = axial - std::sqrt(squared) * foot_slope;
+      foot = foot > lowest ? foot : lowest;
+      foot = foot < highest ? foot : highest;
+      const float off = axial - foot;
+      const float distance = std::sqrt(squared + off * off) - (radius + radius_slope * foot);
+      index[i] = distance < best[i] ? own_index : index[i];
+      best[i] = distance < best[i] ? distance : best[i];
+    }
+  }
+
+  float ox, oy, oz, ux, uy, uz, lowest, highest, foot_slope, radius, radius_slope;
+};
+
+// The solids' distances from a block's centre, the least of them and whose it is.
+struct AtCenter {
+  AtCenter(const std::vector<DistanceKernel>& solids, const Eigen::Vector3d& center,
+           std::vector<double>& distance_m) {
+    for (std::size_t k = 0; k < solids.size(); ++k) {
+      distance_m[k] = solids[k].SignedDistance(center.x(), center.y(), center.z());
+      if (distance_m[k] < least_m) least_m = distance_m[k], nearest = k;
+    }
+  }
+  double least_m = std::numeric_limits<double>::infinity();
+  std::size_t nearest = 0;
+};
 
 }  // namespace
 
-PointGrid::PointGrid(std::span<const Eigen::Vector3d> points_m)
-    : order_(points_m.size()), x_(points_m.size()), y_(points_m.size()), z_(points_m.size()) {
-  const Grid grid = MakeGrid(points_m);
-  std::vector<std::uint32_t> cells(points_m.size());
+PointGrid::PointGrid(std::span<const Eigen::Vector3d> points_m, Fold fold)
+    : order_(points_m.size()), points_m_(points_m.size()) {
+  std::vector<Eigen::Vector3d> laid(points_m.begin(), points_m.end());
+  if (fold == Fold::kToPositiveX) {
+    for (Eigen::Vector3d& p : laid) p.x() = std::abs(p.x());
+  }
+  const Grid grid = MakeGrid(laid);
+  std::vector<std::uint32_t> cells(laid.size());
   std::vector<std::uint32_t> ends(grid.size() + 1, 0);
-  for (std::size_t i = 0; i < points_m.size(); ++i) {
-    cells[i] = grid.CellOf(points_m[i]);
+  for (std::size_t i = 0; i < laid.size(); ++i) {
+    cells[i] = grid.CellOf(laid[i]);
     ++ends[cells[i] + 1];
   }
   for (std::size_t c = 1; c < ends.size(); ++c) ends[c] += ends[c - 1];
   // ends[c] is where cell c begins; after placing its points it is where the cell ends.
-  for (std::size_t i = 0; i < points_m.size(); ++i) {
+  for (std::size_t i = 0; i < laid.size(); ++i) {
     const std::uint32_t slot = ends[cells[i]]++;
     order_[slot] = static_cast<std::uint32_t>(i);
-    x_[slot] = points_m[i].x();
-    y_[slot] = points_m[i].y();
-    z_[slot] = points_m[i].z();
+    points_m_[slot] = laid[i];
   }
   MakeBlocks(ends);
 }
 
 void PointGrid::MakeBlocks(const std::vector<std::uint32_t>& cell_ends) {
+  for (std::vector<float>* axis : {&x_m_, &y_m_, &z_m_}) axis->reserve(size());
   std::uint32_t begin = 0;
   for (const std::uint32_t cell_end : cell_ends) {
     while (begin < cell_end) {
@@ -105,7 +155,11 @@ void PointGrid::MakeBlocks(const std::vector<std::uint32_t>& cell_ends) {
       }
       block.center = 0.5 * (low + high);
       for (std::uint32_t i = begin; i < block.end; ++i) {
-        block.reach = std::max(block.reach, (point(i) - block.center).norm());
+        const Eigen::Vector3d local = point(i) - block.center;
+        block.reach = std::max(block.reach, local.norm());
+        x_m_.push_back(static_cast<float>(local.x()));
+        y_m_.push_back(static_cast<float>(local.y()));
+        z_m_.push_back(static_cast<float>(local.z()));
       }
       begin = block.end;
       blocks_.push_back(block);
@@ -118,39 +172,31 @@ UnionDistances PointGrid::DistancesTo(const std::vector<TaperedCapsule>& solids,
   UnionDistances result;
   result.distance_m.assign(size(), std::numeric_limits<double>::infinity());
   result.solid.assign(size(), -1);
+  if (solids.empty()) return result;
   const std::vector<DistanceKernel> kernels(solids.begin(), solids.end());
   pool.ForChunks(blocks_.size(), 32, [&](std::size_t first, std::size_t last) {
     std::vector<double> at_center(solids.size());
-    std::array<double, kMaxBlock> index{};
+    std::array<float, kMaxBlock> best{};
     for (std::size_t b = first; b < last; ++b) {
       const Block& block = blocks_[b];
       const int count = static_cast<int>(block.end - block.begin);
-      double least = std::numeric_limits<double>::infinity();
-      std::size_t nearest = 0;
-      for (std::size_t k = 0; k < solids.size(); ++k) {
-        at_center[k] = solids[k].SignedDistance(block.center);
-        if (at_center[k] < least) {
-          least = at_center[k];
-          nearest = k;
-        }
-      }
-      double* const best = result.distance_m.data() + block.begin;
-      if (least + block.reach < ignore_below_m) {
-        std::fill_n(best, count, least + block.reach);
-        std::fill_n(result.solid.begin() + block.begin, count, static_cast<std::int32_t>(nearest));
+      const AtCenter at(kernels, block.center, at_center);
+      double* const distances = result.distance_m.data() + block.begin;
+      std::int32_t* const index = result.solid.data() + block.begin;
+      if (at.least_m + block.reach < ignore_below_m) {
+        std::fill_n(distances, count, at.least_m + block.reach);
+        std::fill_n(index, count, static_cast<std::int32_t>(at.nearest));
         continue;
       }
-      index.fill(-1.0);
+      best.fill(std::numeric_limits<float>::infinity());
       for (std::size_t k = 0; k < solids.size(); ++k) {
         // Neither this solid nor the nearest at the centre can gain more than the block's reach.
-        if (at_center[k] > least + 2.0 * block.reach) continue;
-        Lower(kernels[k], static_cast<double>(k), x_.data() + block.begin, y_.data() + block.begin,
-              z_.data() + block.begin, count, best, index.data());
+        if (at_center[k] > at.least_m + 2.0 * block.reach) continue;
+        BlockKernel(kernels[k], block.center)
+            .Lower(static_cast<std::int32_t>(k), x_m_.data() + block.begin,
+                   y_m_.data() + block.begin, z_m_.data() + block.begin, count, best.data(), index);
       }
-      for (int i = 0; i < count; ++i) {
-        result.solid[block.begin + static_cast<std::uint32_t>(i)] =
-            static_cast<std::int32_t>(index[static_cast<std::size_t>(i)]);
-      }
+      std::copy_n(best.begin(), count, distances);
     }
   });
   return result;

@@ -1,5 +1,8 @@
 #include "core/tighten/set_variables.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace capfit::tighten {
 namespace {
 
@@ -50,6 +53,30 @@ SetVariables::SetVariables(PrimitiveSet& set)
     representatives_.push_back(i);
     ++orbit_count_;
   }
+  is_symmetric_ = FindSolidImages();
+}
+
+// Whether every sphere and every solid has one.
+bool SetVariables::FindSolidImages() {
+  if (std::find(images_.begin(), images_.end(), -1) != images_.end()) return false;
+  std::vector<std::pair<std::array<int, 2>, std::size_t>> by_ends;
+  for (std::size_t k = 0; k < solids_.size(); ++k) {
+    const auto [low, high] = std::minmax(solids_[k].ends[0], solids_[k].ends[1]);
+    by_ends.push_back({{low, high}, k});
+  }
+  std::sort(by_ends.begin(), by_ends.end());
+  solid_images_.resize(solids_.size());
+  for (std::size_t k = 0; k < solids_.size(); ++k) {
+    const auto [low, high] = std::minmax(images_[static_cast<std::size_t>(solids_[k].ends[0])],
+                                         images_[static_cast<std::size_t>(solids_[k].ends[1])]);
+    const std::array<int, 2> ends = {low, high};
+    const auto found = std::lower_bound(
+        by_ends.begin(), by_ends.end(), ends,
+        [](const auto& entry, const std::array<int, 2>& key) { return entry.first < key; });
+    if (found == by_ends.end() || found->first != ends) return false;
+    solid_images_[k] = found->second;
+  }
+  return true;
 }
 
 void SetVariables::Apply(const Eigen::VectorXd& change, PrimitiveSet& set) const {

@@ -1,4 +1,4 @@
-// The numbers that coverage may turn: centres and radii, mirrored spheres as one.
+// The numbers that tightening and growing may turn: centres and radii, mirrored spheres as one.
 #ifndef CAPFIT_CORE_TIGHTEN_SET_VARIABLES_H_
 #define CAPFIT_CORE_TIGHTEN_SET_VARIABLES_H_
 
@@ -36,6 +36,16 @@ class SetVariables {
   // One sphere of each group of four variables, the one that sees x with its own sign.
   [[nodiscard]] const std::vector<int>& representatives() const { return representatives_; }
 
+  // Whether the whole set is its own mirror image. Then every sphere and solid has an image, itself
+  // on the mid-plane; otherwise each counts as its own.
+  [[nodiscard]] bool is_symmetric() const { return is_symmetric_; }
+  [[nodiscard]] std::size_t image_of_sphere(std::size_t sphere) const {
+    return is_symmetric_ ? static_cast<std::size_t>(images_[sphere]) : sphere;
+  }
+  [[nodiscard]] std::size_t image_of_solid(std::size_t solid) const {
+    return is_symmetric_ ? solid_images_[solid] : solid;
+  }
+
   // Change of the variables' values for a change (x, y, z, radius) of `sphere` alone: what a
   // gradient by the sphere contributes to the gradient by the variables.
   [[nodiscard]] Eigen::Vector4d ToVariables(int sphere, const Eigen::Vector4d& gradient) const {
@@ -46,10 +56,14 @@ class SetVariables {
   void Apply(const Eigen::VectorXd& change, capsule::PrimitiveSet& set) const;
 
  private:
+  bool FindSolidImages();
+
   std::vector<SphereVariables> spheres_;
   std::vector<int> images_;  // by sphere; itself or -1: none
   std::vector<int> representatives_;
   std::vector<Solid> solids_;
+  std::vector<std::size_t> solid_images_;
+  bool is_symmetric_ = false;
   int orbit_count_ = 0;
 };
 

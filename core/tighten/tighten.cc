@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/tighten/penalty_program.h"
@@ -26,6 +28,8 @@ constexpr double kDepthOfInterest = 1.5;
 // Added curvature, in volumes per body size squared: keeps idle variables where they are.
 constexpr double kIdleCurvature = 1e-3;
 
+constexpr std::size_t kBlocksAtOnce = 32;
+
 double Between(double first, double last, int step, int steps) {
   if (steps <= 1) return last;
   return first * std::pow(last / first, static_cast<double>(step) / (steps - 1));
@@ -33,24 +37,16 @@ double Between(double first, double last, int step, int steps) {
 
 class Tightener {
  public:
-  Tightener(const PointGrid& points, std::span<const double> allowed_m,
-            std::span<const double> weights, double body_size_m, const ThreadPool& pool,
+  Tightener(std::span<const PointsToHold> points, double body_size_m, const ThreadPool& pool,
             capsule::PrimitiveSet& set)
-      : points_(points),
-        allowed_(allowed_m),
-        weights_(weights),
-        size_(body_size_m),
-        pool_(pool),
-        set_(set),
-        variables_(set) {}
+      : points_(points), size_(body_size_m), pool_(pool), set_(set), variables_(set) {}
 
   void Step(double trust_m, double penalty, const TightenPhase& phase, std::uint64_t seed) {
     shapes_ = ShapesOf(variables_.solids(), set_);
-    distances_ = points_.DistancesTo(shapes_, -kDepthOfInterest * trust_m, pool_);
     PenaltyProgram program;
     AddVolume(seed, program);
     AddBounds(trust_m, program);
-    AddPointRows(kDepthOfInterest * trust_m, program);
+    AddPointRows(kDepthOfInterest * trust_m, phase.row_spacing * size_, program);
     SetPenalties(penalty, program);
     if (phase.uniform_radius) {
       AddUniformRows(program);
@@ -66,7 +62,7 @@ class Tightener {
   // itself; half its exposed area over its radius is what that costs per square of the step.
   void AddVolume(std::uint64_t seed, PenaltyProgram& program) {
     const VolumeGradient gradient =
-        UnionVolumeGradient(set_, variables_.solids(), kSampleSpacing * size_, seed, pool_);
+        UnionVolumeGradient(set_, variables_, kSampleSpacing * size_, seed, pool_);
     if (volume_ == 0.0) volume_ = std::max(gradient.volume_m3, 1e-6 * size_ * size_ * size_);
     growth_rate_ = std::max(gradient.area_m2 / volume_, 1e-6 / size_);
     program.gradient = Eigen::VectorXd::Zero(variables_.count());
@@ -93,8 +89,8 @@ class Tightener {
     }
   }
 
-  void AddRow(const Solid& solid, const Eigen::Vector4d& by_a, const Eigen::Vector4d& by_b,
-              double value, double penalty, PenaltyProgram& program) const {
+  PenaltyRow RowOf(const Solid& solid, const Eigen::Vector4d& by_a, const Eigen::Vector4d& by_b,
+                   double value, double penalty) const {
     PenaltyRow row;
     row.value = value;
     row.penalty = penalty;
@@ -106,32 +102,94 @@ class Tightener {
       coefficients.head<4>() += coefficients.tail<4>();
       row.first[1] = -1;
     }
-    program.rows.push_back(row);
+    return row;
   }
 
-  double Allowed(std::uint32_t i) const { return allowed_[points_.order()[i]]; }
-
-  void AddPointRow(std::uint32_t i, double weight, PenaltyProgram& program) const {
-    const auto index = static_cast<std::size_t>(distances_.solid[i]);
-    const geometry::CapsuleDistance at = shapes_[index].Locate(points_.point(i));
+  PenaltyRow PointRow(const Eigen::Vector3d& point, std::int32_t solid, double allowed_m,
+                      double penalty) const {
+    const auto index = static_cast<std::size_t>(solid);
+    const geometry::CapsuleDistance at = shapes_[index].Locate(point);
     const Eigen::Vector4d speed(at.normal.x(), at.normal.y(), at.normal.z(), 1.0);
-    AddRow(variables_.solids()[index], -(1.0 - at.axis_parameter) * speed,
-           -at.axis_parameter * speed, at.distance_m - Allowed(i), weight, program);
+    return RowOf(variables_.solids()[index], -(1.0 - at.axis_parameter) * speed,
+                 -at.axis_parameter * speed, at.distance_m - allowed_m, penalty);
+  }
+
+  // What a chunk of blocks asks for.
+  struct Rows {
+    std::vector<PenaltyRow> rows;
+    double near_weight = 0.0;  // of the points near the surface
+  };
+
+  void AddPointRows(double depth_m, double spacing_m, PenaltyProgram& program) {
+    near_weight_ = 0.0;
+    if (shapes_.empty()) return;
+    for (const PointsToHold& points : points_) {
+      const UnionDistances distances = points.points.DistancesTo(shapes_, -depth_m, pool_);
+      const std::size_t blocks = points.points.blocks().size();
+      std::vector<Rows> found((blocks + kBlocksAtOnce - 1) / kBlocksAtOnce);
+      pool_.ForChunks(blocks, kBlocksAtOnce, [&](std::size_t begin, std::size_t end) {
+        Rows& rows = found[begin / kBlocksAtOnce];
+        for (std::size_t b = begin; b < end; ++b) {
+          if (spacing_m > 0.0) {
+            AddDemanding(points, distances, b, depth_m, spacing_m, rows);
+          } else {
+            AddAll(points, distances, b, depth_m, rows);
+          }
+        }
+      });
+      for (const Rows& rows : found) {
+        program.rows.insert(program.rows.end(), rows.rows.begin(), rows.rows.end());
+        near_weight_ += rows.near_weight;
+      }
+    }
   }
 
   // All points near the surface: a choice among them could fall out differently for vertices that
   // differ by rounding alone. For the same reason those just near enough count for nothing yet
   // where weights are added up; as rows they do not bind.
-  void AddPointRows(double depth_m, PenaltyProgram& program) {
-    near_weight_ = 0.0;
-    if (shapes_.empty()) return;
-    for (std::uint32_t i = 0; i < points_.size(); ++i) {
-      const double excess = distances_.distance_m[i] - Allowed(i);
+  void AddAll(const PointsToHold& points, const UnionDistances& distances, std::size_t b,
+              double depth_m, Rows& rows) const {
+    const PointGrid::Block& block = points.points.blocks()[b];
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+      const double excess = distances.distance_m[i] - points.allowed_m;
       if (excess <= -depth_m) continue;
       const double ramp = std::min(1.0, 2.0 * (1.0 + excess / depth_m));
-      const double weight = weights_.empty() ? 1.0 : weights_[points_.order()[i]];
-      near_weight_ += ramp * weight;
-      AddPointRow(i, weight, program);
+      const double weight = points.weights.empty() ? 1.0 : points.weights[points.points.order()[i]];
+      rows.near_weight += ramp * weight;
+      rows.rows.push_back(
+          PointRow(points.points.point(i), distances.solid[i], points.allowed_m, weight));
+    }
+  }
+
+  // Of the points of a cell that are nearest to the same solid, or to its image, the one furthest
+  // out.
+  void AddDemanding(const PointsToHold& points, const UnionDistances& distances, std::size_t b,
+                    double depth_m, double spacing_m, Rows& rows) const {
+    struct Cell {
+      Eigen::Array3i place;
+      std::size_t solid;
+      std::uint32_t point;
+    };
+    std::array<Cell, PointGrid::kMaxBlock> cells;
+    std::size_t count = 0;
+    const PointGrid::Block& block = points.points.blocks()[b];
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+      if (distances.distance_m[i] - points.allowed_m <= -depth_m) continue;
+      const Eigen::Array3i place = (points.points.point(i).array() / spacing_m).floor().cast<int>();
+      const auto own = static_cast<std::size_t>(distances.solid[i]);
+      const std::size_t solid = std::min(own, variables_.image_of_solid(own));
+      std::size_t c = 0;
+      while (c < count && !(cells[c].solid == solid && (cells[c].place == place).all())) ++c;
+      if (c == count) {
+        cells[count++] = {place, solid, i};
+      } else if (distances.distance_m[i] > distances.distance_m[cells[c].point]) {
+        cells[c].point = i;
+      }
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::uint32_t i = cells[c].point;
+      rows.rows.push_back(
+          PointRow(points.points.point(i), distances.solid[i], points.allowed_m, 1.0));
     }
   }
 
@@ -139,7 +197,8 @@ class Tightener {
   // moves: so it means the same for any number of points, and below 1 everything would shrink to
   // nothing.
   void SetPenalties(double penalty, PenaltyProgram& program) const {
-    const double each = penalty * growth_rate_ / (weights_.empty() ? 1.0 : near_weight_);
+    const bool is_weighted = !points_.empty() && !points_.front().weights.empty();
+    const double each = penalty * growth_rate_ / (is_weighted ? near_weight_ : 1.0);
     for (PenaltyRow& row : program.rows) row.penalty *= each;
   }
 
@@ -154,7 +213,8 @@ class Tightener {
       if (excess < -kSteepnessReach * size_) continue;
       Eigen::Vector4d by_a;
       by_a << kMaxSin * shape.axis(), difference >= 0.0 ? 1.0 : -1.0;
-      AddRow(solid, by_a, -by_a, std::min(excess, 0.0), kSteepnessPenalty / size_, program);
+      program.rows.push_back(
+          RowOf(solid, by_a, -by_a, std::min(excess, 0.0), kSteepnessPenalty / size_));
     }
   }
 
@@ -165,32 +225,29 @@ class Tightener {
       if (solid.ends[0] == solid.ends[1]) continue;
       const double difference = shapes_[k].a().radius_m - shapes_[k].b().radius_m;
       const Eigen::Vector4d radius(0.0, 0.0, 0.0, 1.0);
-      AddRow(solid, radius, -radius, difference, kSteepnessPenalty / size_, program);
-      AddRow(solid, -radius, radius, -difference, kSteepnessPenalty / size_, program);
+      const double penalty = kSteepnessPenalty / size_;
+      program.rows.push_back(RowOf(solid, radius, -radius, difference, penalty));
+      program.rows.push_back(RowOf(solid, -radius, radius, -difference, penalty));
     }
   }
 
-  const PointGrid& points_;
-  std::span<const double> allowed_;
-  std::span<const double> weights_;
+  std::span<const PointsToHold> points_;
   double near_weight_ = 0.0;  // of the points near the surface
   double size_;
   const ThreadPool& pool_;
   capsule::PrimitiveSet& set_;
   SetVariables variables_;
   std::vector<TaperedCapsule> shapes_;
-  UnionDistances distances_;
   double growth_rate_ = 0.0;  // relative volume that one metre of growth everywhere adds
   double volume_ = 0.0;       // of the union when the phase began: the unit of the objective
 };
 
 }  // namespace
 
-void Tighten(const PointGrid& points, std::span<const double> allowed_m,
-             std::span<const double> weights, double body_size_m, const TightenPhase& phase,
+void Tighten(std::span<const PointsToHold> points, double body_size_m, const TightenPhase& phase,
              std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
              capsule::PrimitiveSet& set) {
-  Tightener tightener(points, allowed_m, weights, body_size_m, pool, set);
+  Tightener tightener(points, body_size_m, pool, set);
   for (int i = 0; i < phase.steps && !meter.IsCancelled(); ++i) {
     const double trust = Between(phase.first_trust, phase.last_trust, i, phase.steps);
     const double penalty = Between(phase.first_penalty, phase.last_penalty, i, phase.steps);

@@ -30,8 +30,20 @@ struct TightenPhase {
   // rows are true. Where it is left unfinished the number of iterations decides, and vertices moved
   // by a millionth can change that; trials that are only compared may take hundredths.
   double relative_gap = 1e-8;
+  // 0: a row for each point near the surface. Else one for each cell of this edge length and solid,
+  // for the point that asks for most there: enough to end with, where another step follows that
+  // sees what the others ask for.
+  double row_spacing = 0.0;
   // Pulls the two radii of each capsule together, at a price: nearly equal, not exactly.
   bool uniform_radius = false;
+};
+
+// Points that must come in.
+struct PointsToHold {
+  const PointGrid& points;
+  double allowed_m = 0.0;  // how far each may stick out; negative: how deep it must be
+  // What each weighs, by the caller's index, any unit; or empty.
+  std::span<const double> weights{};
 };
 
 // Each step takes the least volume of the union, by its gradient, under one linear row for each
@@ -40,13 +52,12 @@ struct TightenPhase {
 // steeper than sin 0.8 or a radius smaller than 3 thousandths of the body's size, nor such ones
 // worse. Mirrored spheres stay exact images.
 //
-// `allowed_m` is by the caller's index of the point, in metres; negative asks for depth; `weights`
-// too, any unit, or empty. The result depends on the points smoothly but where the nearest solid of
-// one changes. Costs 3 ms a step for ten thousand points and some fifty solids; stops early when
-// cancelled. Adds the set's primitives to the meter in each step. The result is not feasible by
-// itself: at the last trust region's accuracy only.
-void Tighten(const PointGrid& points, std::span<const double> allowed_m,
-             std::span<const double> weights, double body_size_m, const TightenPhase& phase,
+// Points may be folded (PointGrid::Fold) where the set is its own mirror image. The result depends
+// on the points smoothly but where the nearest solid of one changes. Costs 3 ms a step for ten
+// thousand points and some fifty solids; stops early when cancelled. Adds the set's primitives to
+// the meter in each step. The result is not feasible by itself: at the last trust region's accuracy
+// only.
+void Tighten(std::span<const PointsToHold> points, double body_size_m, const TightenPhase& phase,
              std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
              capsule::PrimitiveSet& set);
 

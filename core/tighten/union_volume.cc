@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "core/base/random.h"
@@ -66,61 +65,14 @@ struct Samples {
   }
 };
 
-// Which sphere and which solid is the mirror image of each. Where the whole set is its own image,
-// half of it tells all.
-struct Images {
-  Images(const capsule::PrimitiveSet& set, const std::vector<Solid>& solids)
-      : sphere(set.spheres.size()), solid(solids.size()) {
-    std::iota(sphere.begin(), sphere.end(), std::size_t{0});
-    std::iota(solid.begin(), solid.end(), std::size_t{0});
-    if (!FindAll(set, solids)) {
-      std::iota(sphere.begin(), sphere.end(), std::size_t{0});
-      std::iota(solid.begin(), solid.end(), std::size_t{0});
-    }
-  }
-
-  std::vector<std::size_t> sphere;
-  std::vector<std::size_t> solid;
-
- private:
-  bool FindAll(const capsule::PrimitiveSet& set, const std::vector<Solid>& solids) {
-    for (std::size_t i = 0; i < sphere.size(); ++i) {
-      const int image = set.origins[i].mirror;
-      if (image < 0) return false;
-      sphere[i] = static_cast<std::size_t>(image);
-      const Sphere& a = set.spheres[i];
-      const Sphere& b = set.spheres[sphere[i]];
-      if (a.radius_m != b.radius_m || a.center_m.x() != -b.center_m.x() ||
-          a.center_m.tail<2>() != b.center_m.tail<2>()) {
-        return false;
-      }
-    }
-    std::vector<std::pair<std::array<int, 2>, std::size_t>> by_ends;
-    for (std::size_t k = 0; k < solid.size(); ++k) by_ends.emplace_back(solids[k].ends, k);
-    std::sort(by_ends.begin(), by_ends.end());
-    for (std::size_t k = 0; k < solid.size(); ++k) {
-      std::array<int, 2> ends{};
-      for (std::size_t e = 0; e < 2; ++e) {
-        ends[e] = set.origins[static_cast<std::size_t>(solids[k].ends[e])].mirror;
-      }
-      std::sort(ends.begin(), ends.end());
-      const auto found =
-          std::lower_bound(by_ends.begin(), by_ends.end(), std::pair(ends, k),
-                           [](const auto& x, const auto& y) { return x.first < y.first; });
-      if (found == by_ends.end() || found->first != ends) return false;
-      solid[k] = found->second;
-    }
-    return true;
-  }
-};
-
 class Sampler {
  public:
-  Sampler(const capsule::PrimitiveSet& set, const std::vector<Solid>& solids, double spacing_m,
+  Sampler(const capsule::PrimitiveSet& set, const SetVariables& variables, double spacing_m,
           std::uint64_t seed)
       : set_(set),
-        solids_(solids),
-        shapes_(ShapesOf(solids, set)),
+        variables_(variables),
+        solids_(variables.solids()),
+        shapes_(ShapesOf(solids_, set)),
         kernels_(shapes_.begin(), shapes_.end()),
         spacing_(spacing_m),
         fade_(kFade * spacing_m),
@@ -178,8 +130,7 @@ class Sampler {
   }
 
   // `slants` and `caps` of what is no image of an earlier one.
-  VolumeGradient Combine(const Images& images, const std::vector<Share>& slants,
-                         const std::vector<Share>& caps) const {
+  VolumeGradient Combine(const std::vector<Share>& slants, const std::vector<Share>& caps) const {
     VolumeGradient result;
     result.by_sphere.assign(set_.spheres.size(), Eigen::Vector4d::Zero());
     const auto add = [&](const Share& share) {
@@ -190,7 +141,7 @@ class Sampler {
       const auto [a, b] = solids_[k].ends;
       const auto first = static_cast<std::size_t>(a);
       const auto second = static_cast<std::size_t>(b);
-      const std::size_t image = images.solid[k];
+      const std::size_t image = variables_.image_of_solid(k);
       const Share& share = slants[std::min(k, image)];
       add(share);
       if (image >= k) {
@@ -198,13 +149,13 @@ class Sampler {
         result.by_sphere[second] += share.b;
       } else {
         const bool in_order =
-            images.sphere[static_cast<std::size_t>(solids_[image].ends[0])] == first;
+            variables_.image_of_sphere(static_cast<std::size_t>(solids_[image].ends[0])) == first;
         result.by_sphere[first] += Mirrored(in_order ? share.a : share.b);
         result.by_sphere[second] += Mirrored(in_order ? share.b : share.a);
       }
     }
     for (std::size_t i = 0; i < caps.size(); ++i) {
-      const std::size_t image = images.sphere[i];
+      const std::size_t image = variables_.image_of_sphere(i);
       const Share& share = caps[std::min(i, image)];
       add(share);
       result.by_sphere[i] += image >= i ? share.a : Mirrored(share.a);
@@ -366,6 +317,7 @@ class Sampler {
   }
 
   const capsule::PrimitiveSet& set_;
+  const SetVariables& variables_;
   const std::vector<Solid>& solids_;
   std::vector<TaperedCapsule> shapes_;
   std::vector<DistanceKernel> kernels_;  // of the same solids
@@ -382,21 +334,20 @@ class Sampler {
 
 }  // namespace
 
-VolumeGradient UnionVolumeGradient(const capsule::PrimitiveSet& set,
-                                   const std::vector<Solid>& solids, double spacing_m,
-                                   std::uint64_t seed, const ThreadPool& pool) {
-  const Sampler sampler(set, solids, spacing_m, seed);
-  const Images images(set, solids);
-  std::vector<Share> slants(solids.size());
+VolumeGradient UnionVolumeGradient(const capsule::PrimitiveSet& set, const SetVariables& variables,
+                                   double spacing_m, std::uint64_t seed, const ThreadPool& pool) {
+  const Sampler sampler(set, variables, spacing_m, seed);
+  const std::size_t solids = variables.solids().size();
+  std::vector<Share> slants(solids);
   std::vector<Share> caps(set.spheres.size());
-  pool.ForEach(solids.size() + set.spheres.size(), [&](std::size_t i) {
-    if (i < solids.size()) {
-      if (images.solid[i] >= i) slants[i] = sampler.Slant(i);
-    } else if (const std::size_t k = i - solids.size(); images.sphere[k] >= k) {
+  pool.ForEach(solids + set.spheres.size(), [&](std::size_t i) {
+    if (i < solids) {
+      if (variables.image_of_solid(i) >= i) slants[i] = sampler.Slant(i);
+    } else if (const std::size_t k = i - solids; variables.image_of_sphere(k) >= k) {
       caps[k] = sampler.Caps(k);
     }
   });
-  return sampler.Combine(images, slants, caps);
+  return sampler.Combine(slants, caps);
 }
 
 }  // namespace capfit::tighten

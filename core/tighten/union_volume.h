@@ -27,8 +27,9 @@ struct VolumeGradient {
 // a tenth of the spacing to either side, so that the result follows the set smoothly. Sampled about
 // every `spacing_m` with rings turned by random angles from `seed`; solids and spheres in parallel.
 // Of a set that is its own mirror image one half is sampled.
+// `variables` must be the set's own.
 [[nodiscard]] VolumeGradient UnionVolumeGradient(const capsule::PrimitiveSet& set,
-                                                 const std::vector<Solid>& solids, double spacing_m,
+                                                 const SetVariables& variables, double spacing_m,
                                                  std::uint64_t seed, const ThreadPool& pool);
 
 }  // namespace capfit::tighten

@@ -1,9 +1,11 @@
 // Median time of each stage of a fit, for several numbers of threads in the same run.
 //
-//   fit_times BODY [--primitives 64] [--quality paper|tight] [--fit enclose|best] [--threads 1 2]
+//   fit_times BODY... [--primitives 64...] [--quality paper|tight] [--fit enclose|best]
+//             [--threads 1 2] [--runs 9] [--parts all|chains]
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -34,8 +36,7 @@ double Median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-void Print(const std::string& title, const std::vector<FitResult>& results) {
-  std::printf("%-10s", title.c_str());
+void Print(const std::vector<FitResult>& results) {
   for (std::size_t stage = 0; stage < capfit::kStageCount; ++stage) {
     std::vector<double> ms;
     for (const FitResult& result : results) ms.push_back(1e3 * result.stage_seconds[stage]);
@@ -47,49 +48,70 @@ void Print(const std::string& title, const std::vector<FitResult>& results) {
               1e3 * results[0].metrics.max_gap_m);
 }
 
+struct Task {
+  FitOptions options;
+  std::vector<int> threads;
+  int runs;
+};
+
+bool Run(const std::string& body, const Task& task) {
+  const capfit::formats::PolygonSoup soup = Read(body);
+  std::vector<std::vector<FitResult>> results(task.threads.size());
+  const int warm_up = task.runs > 1 ? 1 : 0;
+  for (int run = 0; run < task.runs + warm_up; ++run) {
+    for (std::size_t t = 0; t < task.threads.size(); ++t) {
+      const capfit::ThreadPool pool(task.threads[t]);
+      capfit::NullObserver observer;
+      auto result = capfit::pipeline::Fit(soup, task.options, pool, observer);
+      if (!result.ok()) {
+        std::fprintf(stderr, "%s\n", result.status().ToString().c_str());
+        return false;
+      }
+      if (run >= warm_up) results[t].push_back(*std::move(result));
+    }
+  }
+  const std::string name = std::filesystem::path(body).stem().string();
+  for (std::size_t t = 0; t < task.threads.size(); ++t) {
+    std::printf("%-42s %5d %2d", name.c_str(), *task.options.max_primitives, task.threads[t]);
+    Print(results[t]);
+  }
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Median time of each stage of a fit, in milliseconds"};
-  std::string body;
+  std::vector<std::string> bodies;
   std::string quality = "paper";
   std::string fit = "enclose";
-  std::vector<int> threads = {1, 2};
-  int primitives = 64;
-  int runs = 9;
-  FitOptions options;
-  app.add_option("body", body, "mesh file")->required();
+  std::string parts = "all";
+  std::vector<int> primitives = {64};
+  Task task{{}, {1, 2}, 9};
+  app.add_option("bodies", bodies, "mesh files")->required();
   app.add_option("--primitives", primitives);
   app.add_option("--quality", quality)->check(CLI::IsMember({"paper", "tight"}));
   app.add_option("--fit", fit)->check(CLI::IsMember({"enclose", "best"}));
-  app.add_option("--threads", threads);
-  app.add_option("--runs", runs);
-  app.add_flag("--grow-only", options.grows_only);
+  app.add_option("--parts", parts)->check(CLI::IsMember({"all", "chains"}));
+  app.add_option("--threads", task.threads);
+  app.add_option("--runs", task.runs);
+  app.add_flag("--grow-only", task.options.grows_only);
   CLI11_PARSE(app, argc, argv);
-  options.max_primitives = primitives;
-  options.parts = {true, true, true, true, true, true};
-  if (quality == "tight") options.quality = capfit::pipeline::Quality::kTight;
-  if (fit == "best") options.fit = capfit::pipeline::FitMode::kBestFit;
+  if (parts == "all") task.options.parts = {true, true, true, true, true, true};
+  if (quality == "tight") task.options.quality = capfit::pipeline::Quality::kTight;
+  if (fit == "best") task.options.fit = capfit::pipeline::FitMode::kBestFit;
 
-  const capfit::formats::PolygonSoup soup = Read(body);
-  std::printf("%-10s", "threads");
+  std::printf("%-42s %5s %2s", "ms", "n_p", "th");
   for (std::size_t stage = 0; stage < capfit::kStageCount; ++stage) {
     std::printf(" %8s", std::string(StageName(static_cast<capfit::Stage>(stage))).c_str());
   }
   std::printf(" %8s %8s %6s\n", "all", "E_r", "gap mm");
-  std::vector<std::vector<FitResult>> results(threads.size());
-  for (int run = 0; run <= runs; ++run) {
-    for (std::size_t t = 0; t < threads.size(); ++t) {
-      const capfit::ThreadPool pool(threads[t]);
-      capfit::NullObserver observer;
-      auto result = capfit::pipeline::Fit(soup, options, pool, observer);
-      if (!result.ok()) {
-        std::fprintf(stderr, "%s\n", result.status().ToString().c_str());
-        return 2;
-      }
-      if (run > 0) results[t].push_back(*std::move(result));  // the first warms up
+  bool is_well = true;
+  for (const std::string& body : bodies) {
+    for (const int count : primitives) {
+      task.options.max_primitives = count;
+      is_well = Run(body, task) && is_well;
     }
   }
-  for (std::size_t t = 0; t < threads.size(); ++t) Print(std::to_string(threads[t]), results[t]);
-  return 0;
+  return is_well ? 0 : 2;
 }

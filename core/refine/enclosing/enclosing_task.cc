@@ -54,15 +54,15 @@ class OutsidePoints {
  public:
   // Distances are in the grid's order, areas and allowances in the caller's.
   OutsidePoints(const tighten::PointGrid& grid, const std::vector<double>& distances_m,
-                const std::vector<double>& areas_m2, const std::vector<double>& allowed_m) {
+                const std::vector<double>& areas_m2, double allowed_m)
+      : allowed_m_(allowed_m) {
     for (std::size_t i = 0; i < grid.size(); ++i) {
       const std::uint32_t point = grid.order()[i];
-      if (distances_m[i] <= allowed_m[point]) continue;
+      if (distances_m[i] <= allowed_m) continue;
       const Vec3 p = grid.point(i);
       x_.push_back(p.x()), y_.push_back(p.y()), z_.push_back(p.z());
       area_.push_back(areas_m2[point]);
-      out_.push_back(distances_m[i] - allowed_m[point]);
-      allowed_.push_back(allowed_m[point]);
+      out_.push_back(distances_m[i] - allowed_m);
     }
   }
 
@@ -74,7 +74,7 @@ class OutsidePoints {
     for (std::size_t i = 0; i < x_.size(); ++i) {
       const double here = kernel.SignedDistance(x_[i], y_[i], z_[i]);
       const double there = kernel.SignedDistance(image * x_[i], y_[i], z_[i]);
-      double still_out = (here < there ? here : there) - allowed_[i];
+      double still_out = (here < there ? here : there) - allowed_m_;
       still_out = still_out > 0.0 ? still_out : 0.0;
       const double won = out_[i] - still_out;
       sum += won > 0.0 ? area_[i] * won : 0.0;
@@ -83,7 +83,8 @@ class OutsidePoints {
   }
 
  private:
-  std::vector<double> x_, y_, z_, area_, out_, allowed_;
+  double allowed_m_;
+  std::vector<double> x_, y_, z_, area_, out_;
 };
 
 // How much of the capsule between its end spheres is in no other shape.
@@ -286,14 +287,15 @@ EnclosingTask::EnclosingTask(const tighten::CoverTarget& target, bool symmetric,
 EnclosingTask::EnclosingTask(Thinned thinned, double tolerance_m)
     : size_m_(thinned.size_m),
       areas_m2_(std::move(thinned.areas_m2)),
-      allowed_m_(thinned.points_m.size(), tolerance_m),
+      tolerance_m_(tolerance_m),
       grid_(thinned.points_m) {}
 
 void EnclosingTask::Settle(const tighten::TightenPhase& phase, std::uint64_t seed,
                            const ThreadPool& pool, const WorkMeter& meter,
                            CapsuleGraph& graph) const {
   capsule::PrimitiveSet set = SetOf(graph);
-  tighten::Tighten(grid_, allowed_m_, areas_m2_, size_m_, phase, seed, pool, meter, set);
+  const std::array<tighten::PointsToHold, 1> points = {{{grid_, tolerance_m_, areas_m2_}}};
+  tighten::Tighten(points, size_m_, phase, seed, pool, meter, set);
   for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
     graph.nodes[v].center_m = set.spheres[v].center_m;
     graph.nodes[v].radius_m = set.spheres[v].radius_m;
@@ -334,7 +336,7 @@ std::vector<Vec3> EnclosingTask::WorstPoints(const CapsuleGraph& graph, int coun
           .distance_m;
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < distances.size(); ++i) {
-    if (distances[i] > allowed_m_[grid_.order()[i]]) order.push_back(i);
+    if (distances[i] > tolerance_m_) order.push_back(i);
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return distances[a] > distances[b]; });
@@ -357,7 +359,7 @@ std::vector<double> EnclosingTask::GainsOf(const CapsuleGraph& graph,
   const std::vector<tighten::Solid> solids = tighten::SetVariables(set).solids();
   const std::vector<TaperedCapsule> shapes = tighten::ShapesOf(solids, set);
   const tighten::UnionDistances at = grid_.DistancesTo(shapes, -kFurthestGrowth * size_m_, pool);
-  const OutsidePoints outside(grid_, at.distance_m, areas_m2_, allowed_m_);
+  const OutsidePoints outside(grid_, at.distance_m, areas_m2_, tolerance_m_);
   std::vector<double> gains(additions.size(), 0.0);
   pool.ForEach(additions.size(), [&](std::size_t k) {
     const Edit& edit = additions[k];
@@ -375,18 +377,18 @@ std::vector<double> EnclosingTask::GainsOf(const CapsuleGraph& graph,
 
 double EnclosingTask::Value(const CapsuleGraph& graph, const ThreadPool& pool) const {
   capsule::PrimitiveSet set = SetOf(graph);
-  const std::vector<tighten::Solid> solids = tighten::SetVariables(set).solids();
-  const tighten::UnionDistances at =
-      grid_.DistancesTo(tighten::ShapesOf(solids, set), -kFurthestGrowth * size_m_, pool);
+  const tighten::SetVariables variables(set);
+  const tighten::UnionDistances at = grid_.DistancesTo(tighten::ShapesOf(variables.solids(), set),
+                                                       -kFurthestGrowth * size_m_, pool);
   double outside = 0.0;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
     const std::uint32_t point = grid_.order()[i];
-    outside += areas_m2_[point] * std::max(0.0, at.distance_m[i] - allowed_m_[point]);
+    outside += areas_m2_[point] * std::max(0.0, at.distance_m[i] - tolerance_m_);
   }
   const double primitives = std::max(1, graph.primitive_count());
   const double spacing_m = size_m_ * std::clamp(kSampleSpacing / std::sqrt(primitives),
                                                 kLeastSampleSpacing, kMostSampleSpacing);
-  return tighten::UnionVolumeGradient(set, solids, spacing_m, /*seed=*/7, pool).volume_m3 +
+  return tighten::UnionVolumeGradient(set, variables, spacing_m, /*seed=*/7, pool).volume_m3 +
          kOutsidePrice * outside;
 }
 

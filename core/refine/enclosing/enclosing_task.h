@@ -75,7 +75,7 @@ class EnclosingTask {
 
   double size_m_ = 0.0;           // of the body, the square root of its surface area
   std::vector<double> areas_m2_;  // that each point stands for, both halves
-  std::vector<double> allowed_m_;
+  double tolerance_m_ = 0.0;      // how far each may stick out
   tighten::PointGrid grid_;
 };
 

@@ -52,9 +52,8 @@ double FurthestSample(const tighten::CoverTarget& target, const capsule::Primiti
 
 double VolumeOf(capsule::PrimitiveSet set) {
   const ThreadPool pool(1);
-  std::vector<tighten::Solid> solids;
-  for (const capsule::CapsuleEnds& ends : set.capsules) solids.push_back({ends});
-  return tighten::UnionVolumeGradient(set, solids, 0.005, 1, pool).volume_m3;
+  const tighten::SetVariables variables(set);
+  return tighten::UnionVolumeGradient(set, variables, 0.005, 1, pool).volume_m3;
 }
 
 class CoverBodyTest : public testing::TestWithParam<int> {};

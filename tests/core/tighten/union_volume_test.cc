@@ -44,8 +44,7 @@ TEST(UnionVolumeTest, OneBallInClosedForm) {
   set.spheres = {{{0.3, 1.0, -0.2}, 0.25}};
   set.origins.resize(1);
   const SetVariables variables(set);
-  const VolumeGradient gradient =
-      UnionVolumeGradient(set, variables.solids(), 0.01, 1, ThreadPool(1));
+  const VolumeGradient gradient = UnionVolumeGradient(set, variables, 0.01, 1, ThreadPool(1));
   EXPECT_NEAR(gradient.volume_m3, 4.0 / 3.0 * kPi * 0.015625, 1e-9);
   EXPECT_NEAR(gradient.area_m2, 4.0 * kPi * 0.0625, 1e-9);
   EXPECT_NEAR(gradient.by_sphere[0].w(), 4.0 * kPi * 0.0625, 1e-9);
@@ -57,8 +56,7 @@ TEST(UnionVolumeTest, AHiddenBallDoesNotCount) {
   set.spheres = {{{0, 1, 0}, 0.3}, {{0.1, 1, 0}, 0.1}};
   set.origins.resize(2);
   const SetVariables variables(set);
-  const VolumeGradient gradient =
-      UnionVolumeGradient(set, variables.solids(), 0.01, 1, ThreadPool(1));
+  const VolumeGradient gradient = UnionVolumeGradient(set, variables, 0.01, 1, ThreadPool(1));
   EXPECT_EQ(gradient.by_sphere[1].norm(), 0.0);
   EXPECT_NEAR(gradient.volume_m3, 4.0 / 3.0 * kPi * 0.027, 1e-6);  // sampled
 }
@@ -69,8 +67,7 @@ TEST(UnionVolumeTest, ACapsuleHasItsVolumeAndItsLengthsDerivative) {
   set.origins.resize(2);
   set.capsules = {{0, 1}};
   const SetVariables variables(set);
-  const VolumeGradient gradient =
-      UnionVolumeGradient(set, variables.solids(), 0.004, 1, ThreadPool(1));
+  const VolumeGradient gradient = UnionVolumeGradient(set, variables, 0.004, 1, ThreadPool(1));
   EXPECT_NEAR(gradient.volume_m3, set.Capsule(0).Volume_m3(), 2e-3 * gradient.volume_m3);
   EXPECT_NEAR(gradient.by_sphere[1].y(), kPi * 0.01, 1e-3);  // pi r^2 per metre of length
   EXPECT_NEAR(gradient.by_sphere[0].y(), -kPi * 0.01, 1e-3);
@@ -80,8 +77,7 @@ TEST(UnionVolumeTest, GradientMatchesDifferencesOfTheVolume) {
   const TubeBody body = MakeTubeBody(5, 0.0);
   capsule::PrimitiveSet set = body.set;
   const SetVariables variables(set);
-  const VolumeGradient gradient =
-      UnionVolumeGradient(set, variables.solids(), 0.003, 1, ThreadPool(2));
+  const VolumeGradient gradient = UnionVolumeGradient(set, variables, 0.003, 1, ThreadPool(2));
   EXPECT_NEAR(gradient.volume_m3, ColumnVolume(set, 0.004), 0.01 * gradient.volume_m3);
   const double step = 2e-3;
   for (const std::size_t sphere : {std::size_t{0}, std::size_t{2}, std::size_t{8}}) {
@@ -117,11 +113,10 @@ capsule::PrimitiveSet MirroredSet() {
 TEST(UnionVolumeTest, HalfOfAMirroredSetTellsAll) {
   capsule::PrimitiveSet set = MirroredSet();
   const SetVariables variables(set);
-  const VolumeGradient half = UnionVolumeGradient(set, variables.solids(), 0.004, 1, ThreadPool(1));
+  const VolumeGradient half = UnionVolumeGradient(set, variables, 0.004, 1, ThreadPool(1));
   capsule::PrimitiveSet plain = set;
   for (capsule::SphereOrigin& origin : plain.origins) origin.mirror = -1;
-  const VolumeGradient whole =
-      UnionVolumeGradient(plain, variables.solids(), 0.004, 1, ThreadPool(1));
+  const VolumeGradient whole = UnionVolumeGradient(plain, variables, 0.004, 1, ThreadPool(1));
   EXPECT_NEAR(half.volume_m3, whole.volume_m3, 2e-3 * whole.volume_m3);
   EXPECT_NEAR(half.volume_m3, ColumnVolume(set, 0.004), 0.01 * half.volume_m3);
   EXPECT_NEAR(half.area_m2, whole.area_m2, 5e-3 * whole.area_m2);
@@ -164,8 +159,7 @@ TEST(UnionVolumeTest, CoarseSamplesTellTheVolumeWhereCapsulesShareSpheres) {
   const double volume = ColumnVolume(set, 0.004);
   double mean = 0.0;
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
-    const double sampled =
-        UnionVolumeGradient(set, variables.solids(), 0.02, seed, ThreadPool(1)).volume_m3;
+    const double sampled = UnionVolumeGradient(set, variables, 0.02, seed, ThreadPool(1)).volume_m3;
     EXPECT_NEAR(sampled, volume, 0.03 * volume) << seed;
     mean += sampled / 16.0;
   }
@@ -177,20 +171,16 @@ TEST(UnionVolumeTest, TheVolumeIsTheSameFarFromTheOrigin) {
   capsule::PrimitiveSet moved = set;
   for (geometry::Sphere& sphere : moved.spheres) sphere.center_m += Eigen::Vector3d(3, -2, 5);
   const SetVariables variables(set);
-  const double here =
-      UnionVolumeGradient(set, variables.solids(), 0.01, 1, ThreadPool(1)).volume_m3;
-  const double there =
-      UnionVolumeGradient(moved, variables.solids(), 0.01, 1, ThreadPool(1)).volume_m3;
+  const double here = UnionVolumeGradient(set, variables, 0.01, 1, ThreadPool(1)).volume_m3;
+  const double there = UnionVolumeGradient(moved, variables, 0.01, 1, ThreadPool(1)).volume_m3;
   EXPECT_NEAR(here, there, 1e-9 * here);
 }
 
 TEST(UnionVolumeTest, SameBitsForAnyNumberOfThreads) {
   TubeBody body = MakeTubeBody(6, 0.0);
   const SetVariables variables(body.set);
-  const VolumeGradient one =
-      UnionVolumeGradient(body.set, variables.solids(), 0.01, 3, ThreadPool(1));
-  const VolumeGradient seven =
-      UnionVolumeGradient(body.set, variables.solids(), 0.01, 3, ThreadPool(7));
+  const VolumeGradient one = UnionVolumeGradient(body.set, variables, 0.01, 3, ThreadPool(1));
+  const VolumeGradient seven = UnionVolumeGradient(body.set, variables, 0.01, 3, ThreadPool(7));
   EXPECT_EQ(one.volume_m3, seven.volume_m3);
   for (std::size_t i = 0; i < one.by_sphere.size(); ++i) {
     EXPECT_EQ(one.by_sphere[i], seven.by_sphere[i]);
