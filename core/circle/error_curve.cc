@@ -1,6 +1,7 @@
 #include "core/circle/error_curve.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 
 namespace capfit::circle {
@@ -20,36 +21,61 @@ PolygonApproximation Mirrored(const PolygonApproximation& approximation) {
 
 struct ErrorCurves::Entry {
   std::once_flag once;
+  std::atomic<bool> is_known = false;
   PolygonApproximation approximation;
 };
 
 ErrorCurves::ErrorCurves(std::span<const section::FeaturePolygon> polygons, int max_circles,
-                         const CircleOptions& options, const FitObserver& observer)
+                         const CircleOptions& options, const ThreadPool& pool,
+                         const FitObserver& observer)
     : polygons_(polygons),
       max_circles_(std::max(1, max_circles)),
       options_(options),
+      pool_(pool),
       observer_(observer),
-      entries_(new Entry[polygons.size() * static_cast<std::size_t>(max_circles_)]) {}
+      entries_(new Entry[polygons.size() * static_cast<std::size_t>(max_circles_)]),
+      asked_(new std::atomic<int>[polygons.size()]) {}
 
 ErrorCurves::~ErrorCurves() = default;
+
+ErrorCurves::Entry& ErrorCurves::EntryOf(int polygon_index, int circle_count) const {
+  return entries_[static_cast<std::size_t>(polygon_index) * static_cast<std::size_t>(max_circles_) +
+                  static_cast<std::size_t>(std::clamp(circle_count, 1, max_circles_) - 1)];
+}
 
 const PolygonApproximation& ErrorCurves::Compute(int polygon_index, int circle_count) const {
   const auto index = static_cast<std::size_t>(polygon_index);
   const int count = std::clamp(circle_count, 1, max_circles_);
-  Entry& entry = entries_[index * static_cast<std::size_t>(max_circles_) +
-                          static_cast<std::size_t>(count - 1)];
+  Entry& entry = EntryOf(polygon_index, count);
   std::call_once(entry.once, [&] {
     const section::FeaturePolygon& polygon = polygons_[index];
     if (polygon.mirror >= 0 && polygon.mirror < polygon_index) {
       entry.approximation = Mirrored(Compute(polygon.mirror, count));
-      return;
+    } else {
+      CircleOptions options = options_;
+      options.symmetric = polygon.mirror == polygon_index;
+      options.seed = options_.seed + index * 1024 + static_cast<std::size_t>(count);
+      entry.approximation = ApproximatePolygon(polygon, count, options, observer_);
     }
-    CircleOptions options = options_;
-    options.symmetric = polygon.mirror == polygon_index;
-    options.seed = options_.seed + index * 1024 + static_cast<std::size_t>(count);
-    entry.approximation = ApproximatePolygon(polygon, count, options, observer_);
+    entry.is_known = true;
   });
   return entry.approximation;
+}
+
+// Who asks for one polygon will soon ask for those that have been asked for nearly as often.
+void ErrorCurves::ComputeTogether(int polygon_index, int circle_count) const {
+  const auto source = [this](std::size_t i) {  // what the polygon's circles follow from
+    const int mirror = polygons_[i].mirror;
+    return mirror >= 0 ? std::min(i, static_cast<std::size_t>(mirror)) : i;
+  };
+  std::atomic<int>& asked = asked_[source(static_cast<std::size_t>(polygon_index))];
+  asked = std::max(asked.load(), circle_count);
+  if (EntryOf(polygon_index, circle_count).is_known) return;
+  pool_.ForEach(polygons_.size(), [&](std::size_t i) {
+    if (source(i) == i && asked_[i] >= circle_count - 1) {
+      (void)Compute(static_cast<int>(i), circle_count);
+    }
+  });
 }
 
 const PolygonApproximation& ErrorCurves::Approximation(int polygon_index, int circle_count) const {
@@ -59,15 +85,16 @@ const PolygonApproximation& ErrorCurves::Approximation(int polygon_index, int ci
 double ErrorCurves::BestAreaM2(int polygon_index, int circle_count) const {
   double least = Compute(polygon_index, 1).outside_area_m2;
   for (int count = 2; count <= std::min(circle_count, max_circles_); ++count) {
+    ComputeTogether(polygon_index, count);
     least = std::min(least, Compute(polygon_index, count).outside_area_m2);
   }
   return least;
 }
 
-void ErrorCurves::Prepare(int circle_count, const ThreadPool& pool) const {
+void ErrorCurves::Prepare(int circle_count) const {
   const auto counts = static_cast<std::size_t>(std::clamp(circle_count, 1, max_circles_));
   // The largest counts take longest, so they start first.
-  pool.ForEach(polygons_.size() * counts, [&](std::size_t job) {
+  pool_.ForEach(polygons_.size() * counts, [&](std::size_t job) {
     const auto polygon = static_cast<int>(job % polygons_.size());
     if (polygons_[static_cast<std::size_t>(polygon)].mirror >= 0 &&
         polygons_[static_cast<std::size_t>(polygon)].mirror < polygon) {

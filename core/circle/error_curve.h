@@ -2,6 +2,7 @@
 #ifndef CAPFIT_CORE_CIRCLE_ERROR_CURVE_H_
 #define CAPFIT_CORE_CIRCLE_ERROR_CURVE_H_
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -22,14 +23,14 @@ using ErrorOf = std::function<double(int polygon_index, int circle_count)>;
 // The error curves E_j(c) of all polygons with their circles. Safe to use from several threads; an
 // approximation is computed once, by whoever asks first. Mirrored polygons share one computation:
 // the one with the lower index is fitted, the other gets its mirror image, exact to the bit. Trunk
-// polygons that are their own image are fitted symmetrically. The polygons and the observer must
-// outlive the curves.
+// polygons that are their own image are fitted symmetrically. The polygons, the pool and the
+// observer must outlive the curves.
 //
 // What is returned does not depend on the order of the questions, only on polygons and options.
 class ErrorCurves {
  public:
   ErrorCurves(std::span<const section::FeaturePolygon> polygons, int max_circles,
-              const CircleOptions& options, const FitObserver& observer);
+              const CircleOptions& options, const ThreadPool& pool, const FitObserver& observer);
   ~ErrorCurves();
   ErrorCurves(const ErrorCurves&) = delete;
   ErrorCurves& operator=(const ErrorCurves&) = delete;
@@ -50,17 +51,21 @@ class ErrorCurves {
 
   // Computes 1 to `circle_count` circles for every polygon in parallel: what an allocation will
   // surely ask for.
-  void Prepare(int circle_count, const ThreadPool& pool) const;
+  void Prepare(int circle_count) const;
 
  private:
   struct Entry;
+  [[nodiscard]] Entry& EntryOf(int polygon_index, int circle_count) const;
   const PolygonApproximation& Compute(int polygon_index, int circle_count) const;
+  void ComputeTogether(int polygon_index, int circle_count) const;
 
   std::span<const section::FeaturePolygon> polygons_;
   int max_circles_;
   CircleOptions options_;
+  const ThreadPool& pool_;
   const FitObserver& observer_;
-  std::unique_ptr<Entry[]> entries_;  // polygon-major
+  std::unique_ptr<Entry[]> entries_;           // polygon-major
+  std::unique_ptr<std::atomic<int>[]> asked_;  // by polygon: the largest count so far
 };
 
 }  // namespace capfit::circle

@@ -13,8 +13,9 @@ namespace capfit::circle {
 namespace {
 
 // Radii in a table, evenly spaced up to the farthest point. Costs only rank circles against each
-// other; halving the spacing changes no result noticeably, and each entry costs one exact area.
-constexpr int kTableRadii = 20;
+// other; half the spacing or twice changes no result noticeably, and each entry costs an exact
+// area.
+constexpr int kTableRadii = 10;
 
 double Rounded(double value, double quantum) { return std::round(value / quantum) * quantum; }
 

@@ -22,6 +22,7 @@ constexpr int kFinalSteps = 24;
 constexpr double kSignificantGain = 2e-3;
 // Outlines with fewer vertices are not thinned out.
 constexpr std::size_t kLeastForCoarse = 64;
+constexpr std::size_t kCoarseStep = 4;
 // Rounds without improvement that make a local minimum.
 constexpr int kIdleRounds = 2;
 
@@ -286,13 +287,13 @@ Region CoarseRegion(const Region& region) {
   return coarse;
 }
 
-// Every other vertex, from the first on: a mirrored outline with its first vertex on the axis and
-// a multiple of four vertices stays mirrored.
+// Every fourth vertex, from the first on: a mirrored outline with its first vertex on the axis and
+// a multiple of eight vertices stays mirrored.
 section::Polygon CoarseOutline(const section::Polygon& outline) {
   const std::span<const Eigen::Vector2d> vertices = outline.vertices();
   if (vertices.size() < kLeastForCoarse) return outline;
   std::vector<Eigen::Vector2d> coarse;
-  for (std::size_t i = 0; i < vertices.size(); i += 2) coarse.push_back(vertices[i]);
+  for (std::size_t i = 0; i < vertices.size(); i += kCoarseStep) coarse.push_back(vertices[i]);
   absl::StatusOr<section::Polygon> polygon = section::Polygon::Create(std::move(coarse));
   return polygon.ok() ? *std::move(polygon) : outline;
 }
@@ -317,7 +318,7 @@ Region MakeRegion(Region::Kind kind, std::span<const Eigen::Vector2d> boundary_m
     if (kind == Region::Kind::kWhole || m.point.x() >= 0.0) marked.push_back(m);
   };
   for (std::size_t i = 0; i < boundary_m.size(); ++i) {
-    add({boundary_m[i], false, i % 2 == 0 || i + 1 == boundary_m.size()});
+    add({boundary_m[i], false, i % kCoarseStep == 0 || i + 1 == boundary_m.size()});
   }
   for (const Eigen::Vector2d& p : interior_m) add({p, true, true});
   std::sort(marked.begin(), marked.end(), [](const Marked& a, const Marked& b) {

@@ -131,8 +131,8 @@ class BodyFit {
     circle::CircleOptions circle_options;
     circle_options.seed = options_.seed;
     const circle::ErrorCurves curves(features.polygons, kMaxCirclesPerPolygon, circle_options,
-                                     clock_);
-    curves.Prepare(kCirclesFittedAhead, pool_);
+                                     pool_, clock_);
+    curves.Prepare(kCirclesFittedAhead);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
 
     clock_.Begin(Stage::kCapsule);
@@ -238,8 +238,8 @@ class BodyFit {
   }
 
   static constexpr int kMaxCirclesPerPolygon = 8;
-  // Most polygons end up with at most this many circles; the rest is fitted when asked for.
-  static constexpr int kCirclesFittedAhead = 4;
+  // Every polygon's share is weighed with at least so many; the rest is fitted when asked for.
+  static constexpr int kCirclesFittedAhead = 2;
   static constexpr int kFewPrimitives = 48;
   static constexpr double kGapAccuracyM = 1e-3;  // of the best fit's certificate
 

@@ -26,7 +26,8 @@ std::vector<section::FeaturePolygon> ThreePolygons() {
 
 TEST(ErrorCurvesTest, BestAreaNeverRises) {
   const auto polygons = ThreePolygons();
-  const ErrorCurves curves(polygons, 6, {}, kSilent);
+  const ThreadPool pool(1);
+  const ErrorCurves curves(polygons, 6, {}, pool, kSilent);
   for (int p = 0; p < 3; ++p) {
     for (int c = 1; c < 6; ++c) EXPECT_LE(curves.BestAreaM2(p, c + 1), curves.BestAreaM2(p, c));
     EXPECT_LT(curves.BestAreaM2(p, 6), 0.8 * curves.BestAreaM2(p, 1));
@@ -35,7 +36,8 @@ TEST(ErrorCurvesTest, BestAreaNeverRises) {
 
 TEST(ErrorCurvesTest, ImagesMirrorToTheBit) {
   const auto polygons = ThreePolygons();
-  const ErrorCurves curves(polygons, 4, {}, kSilent);
+  const ThreadPool pool(2);
+  const ErrorCurves curves(polygons, 4, {}, pool, kSilent);
   for (int c = 1; c <= 4; ++c) {
     const PolygonApproximation& left = curves.Approximation(1, c);
     const PolygonApproximation& right = curves.Approximation(2, c);
@@ -53,8 +55,9 @@ TEST(ErrorCurvesTest, SameBitsForAnyThreadsAndOrder) {
   const auto polygons = ThreePolygons();
   const ErrorCurves alone(polygons, 5, {}, kSilent);
   for (const int threads : {1, 2, 7}) {
-    const ErrorCurves curves(polygons, 5, {}, kSilent);
-    curves.Prepare(5, ThreadPool(threads));
+    const ThreadPool pool(threads);
+    const ErrorCurves curves(polygons, 5, {}, pool, kSilent);
+    curves.Prepare(5);
     for (int p = 2; p >= 0; --p) {
       for (int c = 5; c >= 1; --c) {
         const PolygonApproximation& a = alone.Approximation(p, c);
