@@ -22,7 +22,12 @@ constexpr int kFinalSteps = 24;
 constexpr double kSignificantGain = 2e-3;
 // Outlines with fewer vertices are not thinned out.
 constexpr std::size_t kLeastForCoarse = 64;
-constexpr std::size_t kCoarseStep = 4;
+// The search looks at every so many of the outline's vertices: few circles show where they belong
+// on few.
+constexpr std::size_t kLeastCoarse = 32;  // vertices that are left
+constexpr int kFewCircles = 3;
+constexpr int kStepOfFew = 4;
+constexpr int kStepOfMany = 2;
 // Rounds without improvement that make a local minimum.
 constexpr int kIdleRounds = 2;
 
@@ -257,7 +262,7 @@ class Search {
     double least = std::numeric_limits<double>::infinity();
     bool found_interior = false;
     for (const int p : cluster.points) {
-      const bool is_interior = region_.is_interior[static_cast<std::size_t>(p)] != 0;
+      const bool is_interior = region_.place_on_boundary[static_cast<std::size_t>(p)] < 0;
       if (found_interior && !is_interior) continue;
       const Eigen::Vector2d& point = region_.points_m[static_cast<std::size_t>(p)];
       const double distance = (point - place).squaredNorm();
@@ -276,24 +281,27 @@ class Search {
   Random random_;
 };
 
-Region CoarseRegion(const Region& region) {
+Region CoarseRegion(const Region& region, int step) {
   Region coarse;
   coarse.kind = region.kind;
   for (std::size_t i = 0; i < region.points_m.size(); ++i) {
-    if (!region.is_coarse[i]) continue;
+    const int place = region.place_on_boundary[i];
+    if (place >= 0 && place % step != 0 && place != region.last_on_boundary) continue;
     coarse.points_m.push_back(region.points_m[i]);
-    coarse.is_interior.push_back(region.is_interior[i]);
+    coarse.place_on_boundary.push_back(place);
   }
   return coarse;
 }
 
-// Every fourth vertex, from the first on: a mirrored outline with its first vertex on the axis and
-// a multiple of eight vertices stays mirrored.
-section::Polygon CoarseOutline(const section::Polygon& outline) {
+// Every so many vertices, from the first on: a mirrored outline with its first vertex on the axis
+// and a multiple of twice so many vertices stays mirrored.
+section::Polygon CoarseOutline(const section::Polygon& outline, int step) {
   const std::span<const Eigen::Vector2d> vertices = outline.vertices();
   if (vertices.size() < kLeastForCoarse) return outline;
   std::vector<Eigen::Vector2d> coarse;
-  for (std::size_t i = 0; i < vertices.size(); i += kCoarseStep) coarse.push_back(vertices[i]);
+  for (std::size_t i = 0; i < vertices.size(); i += static_cast<std::size_t>(step)) {
+    coarse.push_back(vertices[i]);
+  }
   absl::StatusOr<section::Polygon> polygon = section::Polygon::Create(std::move(coarse));
   return polygon.ok() ? *std::move(polygon) : outline;
 }
@@ -310,26 +318,25 @@ Region MakeRegion(Region::Kind kind, std::span<const Eigen::Vector2d> boundary_m
                   std::span<const Eigen::Vector2d> interior_m) {
   struct Marked {
     Eigen::Vector2d point;
-    bool is_interior;
-    bool is_coarse;
+    int place;  // on the boundary, or -1
   };
   std::vector<Marked> marked;
   const auto add = [&](const Marked& m) {
     if (kind == Region::Kind::kWhole || m.point.x() >= 0.0) marked.push_back(m);
   };
   for (std::size_t i = 0; i < boundary_m.size(); ++i) {
-    add({boundary_m[i], false, i % kCoarseStep == 0 || i + 1 == boundary_m.size()});
+    add({boundary_m[i], static_cast<int>(i)});
   }
-  for (const Eigen::Vector2d& p : interior_m) add({p, true, true});
+  for (const Eigen::Vector2d& p : interior_m) add({p, -1});
   std::sort(marked.begin(), marked.end(), [](const Marked& a, const Marked& b) {
     return a.point.x() != b.point.x() ? a.point.x() < b.point.x() : a.point.y() < b.point.y();
   });
   Region region;
   region.kind = kind;
+  region.last_on_boundary = static_cast<int>(boundary_m.size()) - 1;
   for (const Marked& m : marked) {
     region.points_m.push_back(m.point);
-    region.is_interior.push_back(m.is_interior);
-    region.is_coarse.push_back(m.is_coarse);
+    region.place_on_boundary.push_back(m.place);
   }
   return region;
 }
@@ -337,8 +344,11 @@ Region MakeRegion(Region::Kind kind, std::span<const Eigen::Vector2d> boundary_m
 std::vector<Cluster> SearchClusters(const Region& region, const section::Polygon& outline,
                                     int circle_count, const CircleOptions& options,
                                     const FitObserver& observer) {
-  const Region coarse = CoarseRegion(region);
-  const section::Polygon coarse_outline = CoarseOutline(outline);
+  const bool is_few =
+      circle_count <= kFewCircles && outline.vertices().size() >= kStepOfFew * kLeastCoarse;
+  const int step = is_few ? kStepOfFew : kStepOfMany;
+  const Region coarse = CoarseRegion(region, step);
+  const section::Polygon coarse_outline = CoarseOutline(outline, step);
   Search search(coarse, coarse_outline, options, observer);
   std::vector<Cluster> best;
   if (region.kind != Region::Kind::kFolded) {

@@ -22,8 +22,9 @@ struct Region {
   };
   Kind kind = Kind::kWhole;
   std::vector<Eigen::Vector2d> points_m;  // sorted by x, then y
-  std::vector<bool> is_interior;          // same size
-  std::vector<bool> is_coarse;  // same size: every other boundary point, and all of the interior
+  // Same size: which of the boundary's points each is, -1 for points of the interior.
+  std::vector<int> place_on_boundary;
+  int last_on_boundary = -1;
 };
 
 // Keeps the points that `region.kind` asks for and sorts them.
@@ -31,10 +32,10 @@ struct Region {
                                 std::span<const Eigen::Vector2d> interior_m);
 
 // Covers the region's points with `circle_count` circles (kHalf: an even number). Outside areas are
-// those of the whole `outline`. All but the last round works on coarse points and every other
-// vertex of the outline, which is as good a guide and takes half the time. Every cluster has a
-// point unless there are fewer points than circles. Deterministic for options.seed; stops early
-// when the observer says so.
+// those of the whole `outline`. All but the last round works on every fourth point and vertex
+// of the outline, of more than three circles every other, which is as good a guide. Every cluster
+// has a point unless there are fewer points than circles. Deterministic for options.seed; stops
+// early when the observer says so.
 [[nodiscard]] std::vector<Cluster> SearchClusters(const Region& region,
                                                   const section::Polygon& outline, int circle_count,
                                                   const CircleOptions& options,

@@ -24,7 +24,7 @@ namespace {
 constexpr double kVertexDepth = 1e-6;
 // Points this far apart, relative to the body's size, are enough to find the shape by. All have
 // their say in the second phase.
-constexpr double kSparseSpacing = 0.018;
+constexpr double kSparseSpacing = 0.024;
 
 // Where all must come in one row for each cell of this size and solid is as good as one for each
 // vertex: twice as large a cell changed no volume by a thousandth either.
@@ -34,15 +34,17 @@ constexpr double kRowSpacing = 0.015;
 // Starting with a low price matters most (a fifth of E_r): where everything must be inside from the
 // start, each sphere is caught in the circle it came with.
 constexpr tighten::TightenPhase kLoosePhase{.steps = 12,
-                                            .first_trust = 0.012,
+                                            .first_trust = 0.02,
                                             .last_trust = 0.006,
-                                            .first_penalty = 1.6,
-                                            .last_penalty = 32.0};
+                                            .first_penalty = 1.3,
+                                            .last_penalty = 8.0,
+                                            .relative_gap = 1e-2};
 constexpr tighten::TightenPhase kTightPhase{.steps = 3,
                                             .first_trust = 0.004,
                                             .last_trust = 0.001,
                                             .first_penalty = 0.4,
                                             .last_penalty = 0.4,
+                                            .relative_gap = 1e-3,
                                             .row_spacing = kRowSpacing};
 // Once more, with what was found to stick out between vertices.
 constexpr tighten::TightenPhase kLastPhase{.steps = 2,
@@ -50,6 +52,7 @@ constexpr tighten::TightenPhase kLastPhase{.steps = 2,
                                            .last_trust = 0.0005,
                                            .first_penalty = 0.4,
                                            .last_penalty = 0.4,
+                                           .relative_gap = 1e-3,
                                            .row_spacing = kRowSpacing};
 // A set that tightening leaves so much larger than it came is compared with the paper's growing
 // alone; on sound layouts tightening has won by far wherever the two were compared.

@@ -53,7 +53,8 @@ TEST(ErrorCurvesTest, ImagesMirrorToTheBit) {
 
 TEST(ErrorCurvesTest, SameBitsForAnyThreadsAndOrder) {
   const auto polygons = ThreePolygons();
-  const ErrorCurves alone(polygons, 5, {}, kSilent);
+  const ThreadPool one(1);
+  const ErrorCurves alone(polygons, 5, {}, one, kSilent);
   for (const int threads : {1, 2, 7}) {
     const ThreadPool pool(threads);
     const ErrorCurves curves(polygons, 5, {}, pool, kSilent);
