@@ -34,17 +34,15 @@ constexpr double kRowSpacing = 0.015;
 // Starting with a low price matters most (a fifth of E_r): where everything must be inside from the
 // start, each sphere is caught in the circle it came with.
 constexpr tighten::TightenPhase kLoosePhase{.steps = 12,
-                                            .first_trust = 0.02,
+                                            .first_trust = 0.012,
                                             .last_trust = 0.006,
                                             .first_penalty = 1.3,
-                                            .last_penalty = 8.0,
-                                            .relative_gap = 1e-2};
+                                            .last_penalty = 8.0};
 constexpr tighten::TightenPhase kTightPhase{.steps = 3,
                                             .first_trust = 0.004,
                                             .last_trust = 0.001,
                                             .first_penalty = 0.4,
                                             .last_penalty = 0.4,
-                                            .relative_gap = 1e-3,
                                             .row_spacing = kRowSpacing};
 // Once more, with what was found to stick out between vertices.
 constexpr tighten::TightenPhase kLastPhase{.steps = 2,
@@ -52,7 +50,6 @@ constexpr tighten::TightenPhase kLastPhase{.steps = 2,
                                            .last_trust = 0.0005,
                                            .first_penalty = 0.4,
                                            .last_penalty = 0.4,
-                                           .relative_gap = 1e-3,
                                            .row_spacing = kRowSpacing};
 // A set that tightening leaves so much larger than it came is compared with the paper's growing
 // alone; on sound layouts tightening has won by far wherever the two were compared.

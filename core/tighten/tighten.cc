@@ -29,6 +29,10 @@ constexpr double kDepthOfInterest = 1.5;
 constexpr double kIdleCurvature = 1e-3;
 
 constexpr std::size_t kBlocksAtOnce = 32;
+// Points this near to equally far out are taken in the caller's order, whatever rounding says.
+constexpr double kEqualM = 1e-6;
+// Cells do not begin where the coordinates of made meshes like to lie.
+constexpr double kCellOffset = 0.3819;
 
 double Between(double first, double last, int step, int steps) {
   if (steps <= 1) return last;
@@ -175,14 +179,15 @@ class Tightener {
     const PointGrid::Block& block = points.points.blocks()[b];
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
       if (distances.distance_m[i] - points.allowed_m <= -depth_m) continue;
-      const Eigen::Array3i place = (points.points.point(i).array() / spacing_m).floor().cast<int>();
+      const Eigen::Array3i place =
+          (points.points.point(i).array() / spacing_m + kCellOffset).floor().cast<int>();
       const auto own = static_cast<std::size_t>(distances.solid[i]);
       const std::size_t solid = std::min(own, variables_.image_of_solid(own));
       std::size_t c = 0;
       while (c < count && !(cells[c].solid == solid && (cells[c].place == place).all())) ++c;
       if (c == count) {
         cells[count++] = {place, solid, i};
-      } else if (distances.distance_m[i] > distances.distance_m[cells[c].point]) {
+      } else if (distances.distance_m[i] > distances.distance_m[cells[c].point] + kEqualM) {
         cells[c].point = i;
       }
     }
