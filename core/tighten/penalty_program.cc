@@ -1,11 +1,14 @@
 #include "core/tighten/penalty_program.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/tighten/normal_matrix.h"
 
 namespace capfit::tighten {
 namespace {
@@ -24,6 +27,8 @@ struct RowGroup {
   Eigen::Index end = 0;
   int first_a = 0;
   int first_b = -1;
+  // Its blocks of the normal matrix; the last where there is a second.
+  NormalMatrix::Slot a, b, across;
 };
 
 // The rows with their coefficients apart, group by group. Groups are filled up to whole lanes with
@@ -31,10 +36,7 @@ struct RowGroup {
 struct RowTable {
   explicit RowTable(const PenaltyProgram& program) {
     const std::vector<PenaltyRow>& rows = program.rows;
-    std::vector<std::size_t> order(rows.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t i, std::size_t j) { return rows[i].first < rows[j].first; });
+    const std::vector<std::size_t> order = OrderOf(rows, program.gradient.size() / 4);
     const auto most = static_cast<Eigen::Index>(rows.size() + kLane * CountGroups(rows, order));
     coefficients.setZero(most, 8);
     value = Eigen::ArrayXd::Constant(most, -(program.upper - program.lower).maxCoeff());
@@ -50,6 +52,23 @@ struct RowTable {
   Eigen::Index count = 0;  // of rows in use
 
  private:
+  // Indices of the rows, those of one group together, in the order in which they come: a counting
+  // sort, as groups are few.
+  static std::vector<std::size_t> OrderOf(const std::vector<PenaltyRow>& rows,
+                                          Eigen::Index variable_groups) {
+    const auto width = static_cast<std::size_t>(variable_groups) + 1;
+    const auto key = [width](const PenaltyRow& row) {
+      const int b = row.first[1] < 0 ? 0 : row.first[1] / 4 + 1;
+      return static_cast<std::size_t>(row.first[0] / 4) * width + static_cast<std::size_t>(b);
+    };
+    std::vector<std::uint32_t> begin(width * width + 1, 0);
+    for (const PenaltyRow& row : rows) ++begin[key(row) + 1];
+    for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
+    std::vector<std::size_t> order(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) order[begin[key(rows[i])]++] = i;
+    return order;
+  }
+
   static std::size_t CountGroups(const std::vector<PenaltyRow>& rows,
                                  const std::vector<std::size_t>& order) {
     std::size_t groups = 1;
@@ -63,7 +82,7 @@ struct RowTable {
     if (groups.empty() || groups.back().first_a != row.first[0] ||
         groups.back().first_b != row.first[1]) {
       CloseGroup();
-      groups.push_back({next_, next_, row.first[0], row.first[1]});
+      groups.push_back({next_, next_, row.first[0], row.first[1], {}, {}, {}});
     }
     for (Eigen::Index c = 0; c < 8; ++c) {
       coefficients(next_, c) = row.coefficients[static_cast<std::size_t>(c)];
@@ -96,7 +115,17 @@ double WorstRatio(const Eigen::ArrayXd& value, const Eigen::ArrayXd& change) {
 class InteriorPoint {
  public:
   explicit InteriorPoint(const PenaltyProgram& program)
-      : program_(program), variables_(program.gradient.size()), rows_(program) {
+      : program_(program),
+        variables_(program.gradient.size()),
+        rows_(program),
+        matrix_(variables_, TiedGroups()) {
+    for (RowGroup& group : rows_.groups) {
+      group.a = matrix_.SlotOf(group.first_a, group.first_a);
+      if (group.first_b < 0) continue;
+      group.b = matrix_.SlotOf(group.first_b, group.first_b);
+      group.across = matrix_.SlotOf(std::max(group.first_a, group.first_b),
+                                    std::min(group.first_a, group.first_b));
+    }
     width_ = (program_.upper - program_.lower).maxCoeff();
     Start();
   }
@@ -107,6 +136,14 @@ class InteriorPoint {
   }
 
  private:
+  std::vector<std::pair<int, int>> TiedGroups() const {
+    std::vector<std::pair<int, int>> pairs;
+    for (const RowGroup& group : rows_.groups) {
+      if (group.first_b >= 0) pairs.emplace_back(group.first_a, group.first_b);
+    }
+    return pairs;
+  }
+
   // Changes of d and of the bounds' multipliers; those of the rows are in dt_, ds_ and drow_.
   struct Step {
     Eigen::VectorXd d;
@@ -175,9 +212,7 @@ class InteriorPoint {
 
   // The normal matrix: everything but d eliminated. Lower half.
   void Factorise() {
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(variables_, variables_);
-    matrix.diagonal() = program_.hessian;
-    matrix.diagonal().array() += low_ / LowGap() + high_ / HighGap();
+    matrix_.Reset((program_.hessian.array() + low_ / LowGap() + high_ / HighGap()).matrix());
     for (const RowGroup& group : rows_.groups) {
       for (Eigen::Index k = group.begin; k < group.end; k += kLane) {
         const Lane inverse_row = At(row_, k).inverse();
@@ -186,21 +221,18 @@ class InteriorPoint {
         inverse_slack_.segment<kLane>(k) = inverse_slack;
         weight_.segment<kLane>(k) = (At(t_, k) * inverse_row + At(s_, k) * inverse_slack).inverse();
       }
-      AddBlock(group, 0, 0, group.first_a, group.first_a, matrix);
+      AddBlock(group, 0, 0, group.a);
       if (group.first_b < 0) continue;
-      AddBlock(group, 4, 4, group.first_b, group.first_b, matrix);
-      if (group.first_b > group.first_a) {
-        AddBlock(group, 4, 0, group.first_b, group.first_a, matrix);
-      } else {
-        AddBlock(group, 0, 4, group.first_a, group.first_b, matrix);
-      }
+      AddBlock(group, 4, 4, group.b);
+      const bool is_b_below = group.first_b > group.first_a;
+      AddBlock(group, is_b_below ? 4 : 0, is_b_below ? 0 : 4, group.across);
     }
-    factor_.compute(matrix);
+    matrix_.Factorise();
   }
 
   // Weighted products of four columns of coefficients with four others, summed over a group.
-  void AddBlock(const RowGroup& group, Eigen::Index left, Eigen::Index right, int at_left,
-                int at_right, Eigen::MatrixXd& matrix) const {
+  void AddBlock(const RowGroup& group, Eigen::Index left, Eigen::Index right,
+                const NormalMatrix::Slot& slot) {
     for (Eigen::Index i = 0; i < 4; ++i) {
       std::array<Lane, 4> sums;
       sums.fill(Lane::Zero());
@@ -211,7 +243,7 @@ class InteriorPoint {
         }
       }
       for (Eigen::Index j = 0; j < 4; ++j) {
-        matrix(at_left + i, at_right + j) += sums[static_cast<std::size_t>(j)].sum();
+        matrix_.At(slot, i, j) += sums[static_cast<std::size_t>(j)].sum();
       }
     }
   }
@@ -262,7 +294,7 @@ class InteriorPoint {
     Eigen::VectorXd right = -residual_ - row_sums;
     right.array() += low_target / low_gap - high_target / high_gap;
     Step step;
-    step.d = factor_.solve(right);
+    step.d = matrix_.Solve(right);
     step.low = (low_target - low_ * step.d.array()) / low_gap;
     step.high = (high_target + high_ * step.d.array()) / high_gap;
     double primal =
@@ -365,11 +397,11 @@ class InteriorPoint {
   const PenaltyProgram& program_;
   Eigen::Index variables_;
   RowTable rows_;
+  NormalMatrix matrix_;
   double width_ = 0.0;
   Eigen::VectorXd d_, residual_;
   Eigen::ArrayXd t_, s_, row_, low_, high_;
   Eigen::ArrayXd weight_, inverse_row_, inverse_slack_, s_target_, shift_, dt_, ds_, drow_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
   double start_excess_ = 0.0;
   double row_complementarity_ = 0.0;
   double excess_ = 0.0;  // what the rows' slacks cost
