@@ -209,7 +209,7 @@ def paragraphs(text):
     done, in_code = [], False
     for block in re.sub(r"\n{3,}", "\n\n", text).split("\n\n"):
         first = block.lstrip("\n")[:1]
-        in_code = in_code or block.lstrip().startswith("```")
+        in_code = in_code or re.search(r"^```", block, re.MULTILINE) is not None
         keep = in_code or first in "|#!" or "\n|" in block
         if block.rstrip().endswith("```"):
             in_code = False
