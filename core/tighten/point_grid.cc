@@ -79,22 +79,26 @@ struct BlockKernel {
     radius_slope = static_cast<float>(growth);
   }
 
-  // Lowers `best` and sets `index` where this solid is nearer. Free of branches, so that it
-  // vectorises.
+  // Free of branches, so that loops over it vectorise.
+  [[nodiscard]] float SignedDistance(float x, float y, float z) const {
+    const float dx = x - ox;
+    const float dy = y - oy;
+    const float dz = z - oz;
+    const float axial = dx * ux + dy * uy + dz * uz;
+    const float rest = dx * dx + dy * dy + dz * dz - axial * axial;
+    const float squared = rest > 0.0f ? rest : 0.0f;
+    float foot = axial - std::sqrt(squared) * foot_slope;
+    foot = foot > lowest ? foot : lowest;
+    foot = foot < highest ? foot : highest;
+    const float off = axial - foot;
+    return std::sqrt(squared + off * off) - (radius + radius_slope * foot);
+  }
+
+  // Lowers `best` and sets `index` where this solid is nearer.
   void Lower(std::int32_t own_index, const float* x, const float* y, const float* z, int count,
              float* best, std::int32_t* index) const {
     for (int i = 0; i < count; ++i) {
-      const float dx = x[i] - ox;
-      const float dy = y[i] - oy;
-      const float dz = z[i] - oz;
-      const float axial = dx * ux + dy * uy + dz * uz;
-      const float rest = dx * dx + dy * dy + dz * dz - axial * axial;
-      const float squared = rest > 0.0f ? rest : 0.0f;
-      float foot = axial - std::sqrt(squared) * foot_slope;
-      foot = foot > lowest ? foot : lowest;
-      foot = foot < highest ? foot : highest;
-      const float off = axial - foot;
-      const float distance = std::sqrt(squared + off * off) - (radius + radius_slope * foot);
+      const float distance = SignedDistance(x[i], y[i], z[i]);
       index[i] = distance < best[i] ? own_index : index[i];
       best[i] = distance < best[i] ? distance : best[i];
     }
@@ -200,6 +204,16 @@ UnionDistances PointGrid::DistancesTo(const std::vector<TaperedCapsule>& solids,
     }
   });
   return result;
+}
+
+void PointGrid::BlockDistances(const Block& block, const TaperedCapsule& solid,
+                               float* distance_m) const {
+  const BlockKernel kernel(DistanceKernel(solid), block.center);
+  const float* const x = x_m_.data() + block.begin;
+  const float* const y = y_m_.data() + block.begin;
+  const float* const z = z_m_.data() + block.begin;
+  const int count = static_cast<int>(block.end - block.begin);
+  for (int i = 0; i < count; ++i) distance_m[i] = kernel.SignedDistance(x[i], y[i], z[i]);
 }
 
 }  // namespace capfit::tighten

@@ -52,6 +52,10 @@ class PointGrid {
   [[nodiscard]] UnionDistances DistancesTo(const std::vector<geometry::TaperedCapsule>& solids,
                                            double ignore_below_m, const ThreadPool& pool) const;
 
+  // The distances of one block's points to one solid, as exact, to distance_m[0, block's size).
+  void BlockDistances(const Block& block, const geometry::TaperedCapsule& solid,
+                      float* distance_m) const;
+
  private:
   void MakeBlocks(const std::vector<std::uint32_t>& cell_ends);
 

@@ -175,54 +175,82 @@ class Weigher {
     worth_.node_loss.assign(graph.nodes.size(), 0.0);
   }
 
-  // What comes next is about points near here.
-  void Approach(const Vec3& center, double reach_m) {
-    near_.clear();
-    std::vector<double> at_center(shapes_.size());
-    double least = std::numeric_limits<double>::max();
-    for (std::size_t k = 0; k < shapes_.size(); ++k) {
-      at_center[k] = shapes_[k].SignedDistance(center);
-      least = std::min(least, at_center[k]);
+  // All points of a block of the grid. `areas_m2` by the caller's index.
+  void Add(const tighten::PointGrid& grid, const tighten::PointGrid::Block& block,
+           const std::vector<double>& areas_m2) {
+    Approach(grid, block);
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+      AddPoint(i - block.begin, grid.point(i), areas_m2[grid.order()[i]]);
     }
-    for (std::size_t k = 0; k < shapes_.size(); ++k) {
-      if (at_center[k] <= least + 2.0 * reach_m + furthest_m_) near_.push_back(k);
-    }
-    distances_.resize(near_.size());
-  }
-
-  void Add(const Vec3& point, double area_m2) {
-    std::size_t nearest = 0;
-    for (std::size_t k = 0; k < near_.size(); ++k) {
-      distances_[k] = shapes_[near_[k]].SignedDistance(point);
-      if (distances_[k] < distances_[nearest]) nearest = k;
-    }
-    const std::size_t solid = near_[nearest];
-    if (solid < worth_.edge_gap.size()) {
-      worth_.edge_gap[solid] += area_m2 * std::max(0.0, -distances_[nearest]);
-      worth_.edge_loss[solid] +=
-          area_m2 * MissingWithout([&](std::size_t k) { return k == solid; });
-    }
-    const std::array<int, 2> ends = solids_[solid].ends;
-    AddDissolved(ends[0], point, area_m2);
-    if (ends[1] != ends[0]) AddDissolved(ends[1], point, area_m2);
   }
 
   [[nodiscard]] const GraphWorth& worth() const { return worth_; }
 
  private:
-  // How far the nearest of the others has to grow.
-  template <class IsGone>
-  [[nodiscard]] double MissingWithout(const IsGone& is_gone) const {
-    double least = furthest_m_;
-    for (std::size_t k = 0; k < near_.size(); ++k) {
-      if (!is_gone(near_[k])) least = std::min(least, distances_[k]);
+  // The solids that the block's points may be told by, their distances, and for each point the two
+  // nearest of them.
+  void Approach(const tighten::PointGrid& grid, const tighten::PointGrid::Block& block) {
+    at_center_.resize(shapes_.size());
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      at_center_[k] = shapes_[k].SignedDistance(block.center);
+      least = std::min(least, at_center_[k]);
     }
-    return std::max(0.0, least);
+    near_.clear();
+    for (std::size_t k = 0; k < shapes_.size(); ++k) {
+      if (at_center_[k] <= least + 2.0 * block.reach + furthest_m_) near_.push_back(k);
+    }
+    count_ = block.end - block.begin;
+    distances_.resize(near_.size() * count_);
+    first_.assign(count_, {});
+    second_.assign(count_, {});
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      float* const own = distances_.data() + k * count_;
+      grid.BlockDistances(block, shapes_[near_[k]], own);
+      for (std::size_t i = 0; i < count_; ++i) {
+        if (own[i] >= second_[i].distance_m) continue;
+        second_[i] = {own[i], k};
+        if (own[i] < first_[i].distance_m) std::swap(first_[i], second_[i]);
+      }
+    }
   }
 
-  void AddDissolved(int node, const Vec3& point, double area_m2) {
-    double missing = MissingWithout(
-        [&](std::size_t k) { return solids_[k].ends[0] == node || solids_[k].ends[1] == node; });
+  void AddPoint(std::size_t i, const Vec3& point, double area_m2) {
+    const std::size_t solid = near_[first_[i].place];
+    if (solid < worth_.edge_gap.size()) {
+      worth_.edge_gap[solid] += area_m2 * std::max(0.0, -double{first_[i].distance_m});
+      worth_.edge_loss[solid] += area_m2 * Missing(second_[i].distance_m);
+    }
+    const std::array<int, 2> ends = solids_[solid].ends;
+    AddDissolved(ends[0], i, point, area_m2);
+    if (ends[1] != ends[0]) AddDissolved(ends[1], i, point, area_m2);
+  }
+
+  // How far a solid at that distance has to grow.
+  [[nodiscard]] double Missing(double distance_m) const {
+    return std::clamp(distance_m, 0.0, furthest_m_);
+  }
+
+  [[nodiscard]] bool IsAt(std::size_t place, int node) const {
+    const std::array<int, 2>& ends = solids_[near_[place]].ends;
+    return ends[0] == node || ends[1] == node;
+  }
+
+  // The distance of the nearest solid that is not at the node.
+  [[nodiscard]] double DistanceWithout(int node, std::size_t i) const {
+    if (second_[i].distance_m > furthest_m_ || !IsAt(second_[i].place, node)) {
+      return second_[i].distance_m;
+    }
+    double least = furthest_m_;
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      const double distance = distances_[k * count_ + i];
+      if (distance < least && !IsAt(k, node)) least = distance;
+    }
+    return least;
+  }
+
+  void AddDissolved(int node, std::size_t i, const Vec3& point, double area_m2) {
+    double missing = Missing(DistanceWithout(node, i));
     const std::optional<TaperedCapsule>& bridge = bridges_[U(node)];
     if (missing > 0.0 && bridge) {
       missing = std::clamp(bridge->SignedDistance(point), 0.0, missing);
@@ -230,12 +258,20 @@ class Weigher {
     worth_.node_loss[U(node)] += area_m2 * missing;
   }
 
+  struct Nearest {
+    float distance_m = std::numeric_limits<float>::infinity();
+    std::size_t place = 0;  // in near_
+  };
+
   double furthest_m_;
   std::vector<std::optional<TaperedCapsule>> bridges_;  // by node
   std::vector<tighten::Solid> solids_;
   std::vector<TaperedCapsule> shapes_;
+  std::vector<double> at_center_;
   std::vector<std::size_t> near_;
-  std::vector<double> distances_;
+  std::size_t count_ = 0;         // of the block's points
+  std::vector<float> distances_;  // by place in near_, then point
+  std::vector<Nearest> first_, second_;
   GraphWorth worth_;
 };
 
@@ -395,10 +431,7 @@ double EnclosingTask::Value(const CapsuleGraph& graph, const ThreadPool& pool) c
 GraphWorth EnclosingTask::Weigh(const CapsuleGraph& graph) const {
   Weigher weigher(graph, kFurthestGrowth * size_m_);
   for (const tighten::PointGrid::Block& block : grid_.blocks()) {
-    weigher.Approach(block.center, block.reach);
-    for (std::uint32_t i = block.begin; i < block.end; ++i) {
-      weigher.Add(grid_.point(i), areas_m2_[grid_.order()[i]]);
-    }
+    weigher.Add(grid_, block, areas_m2_);
   }
   GraphWorth worth = weigher.worth();
   AddUpPairs(graph, worth);
