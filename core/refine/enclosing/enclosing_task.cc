@@ -56,13 +56,18 @@ class OutsidePoints {
   OutsidePoints(const tighten::PointGrid& grid, const std::vector<double>& distances_m,
                 const std::vector<double>& areas_m2, double allowed_m)
       : allowed_m_(allowed_m) {
-    for (std::size_t i = 0; i < grid.size(); ++i) {
-      const std::uint32_t point = grid.order()[i];
-      if (distances_m[i] <= allowed_m) continue;
-      const Vec3 p = grid.point(i);
-      x_.push_back(p.x()), y_.push_back(p.y()), z_.push_back(p.z());
-      area_.push_back(areas_m2[point]);
-      out_.push_back(distances_m[i] - allowed_m);
+    for (const tighten::PointGrid::Block& block : grid.blocks()) {
+      Run run{x_.size(), 0, block.center, block.reach, 0.0};
+      for (std::uint32_t i = block.begin; i < block.end; ++i) {
+        if (distances_m[i] <= allowed_m) continue;
+        const Vec3& p = grid.point(i);
+        x_.push_back(p.x()), y_.push_back(p.y()), z_.push_back(p.z());
+        area_.push_back(areas_m2[grid.order()[i]]);
+        out_.push_back(distances_m[i] - allowed_m);
+        run.furthest_m = std::max(run.furthest_m, distances_m[i]);
+      }
+      run.end = x_.size();
+      if (run.end > run.begin) runs_.push_back(run);
     }
   }
 
@@ -71,7 +76,29 @@ class OutsidePoints {
     const tighten::DistanceKernel kernel(capsule);
     const double image = with_image ? -1.0 : 1.0;
     double sum = 0.0;
-    for (std::size_t i = 0; i < x_.size(); ++i) {
+    for (const Run& run : runs_) {
+      const Vec3& c = run.center;
+      const double here = kernel.SignedDistance(c.x(), c.y(), c.z());
+      const double there = kernel.SignedDistance(image * c.x(), c.y(), c.z());
+      if (std::min(here, there) - run.reach >= run.furthest_m) continue;  // nearer to others
+      sum += TakenInBy(kernel, image, run);
+    }
+    return sum;
+  }
+
+ private:
+  // The points of one block.
+  struct Run {
+    std::size_t begin, end;
+    Vec3 center;
+    double reach;
+    double furthest_m;  // that one of them is from the set
+  };
+
+  [[nodiscard]] double TakenInBy(const tighten::DistanceKernel& kernel, double image,
+                                 const Run& run) const {
+    double sum = 0.0;
+    for (std::size_t i = run.begin; i < run.end; ++i) {
       const double here = kernel.SignedDistance(x_[i], y_[i], z_[i]);
       const double there = kernel.SignedDistance(image * x_[i], y_[i], z_[i]);
       double still_out = (here < there ? here : there) - allowed_m_;
@@ -82,9 +109,9 @@ class OutsidePoints {
     return sum;
   }
 
- private:
   double allowed_m_;
   std::vector<double> x_, y_, z_, area_, out_;
+  std::vector<Run> runs_;
 };
 
 // How much of the capsule between its end spheres is in no other shape.
