@@ -98,9 +98,10 @@ class Sampler {
         0.5 * capsule.length_m() + std::max(capsule.a().radius_m, capsule.b().radius_m), index);
     const double slant_length = capsule.length_m() * capsule.cos_half_angle();
     const int rings = CountFor(slant_length, spacing_, kMinRings);
+    Hiding hiding;
     for (int ring = 0; ring < rings; ++ring) {
       const double t = (ring + random.NextUnit()) / rings;
-      Ring(capsule, t, slant_length / rings, random.NextUnit(), others, share);
+      Ring(capsule, t, slant_length / rings, random.NextUnit(), others, hiding, share);
     }
     return share;
   }
@@ -174,6 +175,16 @@ class Sampler {
     double way = 0.0;      // 1 or -1: to where on that axis; 0: no shared sphere
   };
 
+  // What may hide parts of a ring; kept from ring to ring for its memory.
+  struct Hiding {
+    std::vector<const DistanceKernel*> near;
+    std::vector<const Neighbour*> joined;
+  };
+
+  double DistanceOf(std::size_t solid, const Eigen::Vector3d& point) const {
+    return kernels_[solid].SignedDistance(point.x(), point.y(), point.z());
+  }
+
   // A capsule hides the part of its end sphere beyond the circle where they touch: there both run
   // on smoothly, so that their distance tells nothing.
   struct Cut {
@@ -201,7 +212,7 @@ class Sampler {
         // Swallowed by this sphere: nothing else is there.
         if (std::max(shape.a().radius_m, shape.b().radius_m) <= sphere.radius_m) continue;
       }
-      if (shape.SignedDistance(sphere.center_m) < sphere.radius_m + fade_) {
+      if (DistanceOf(k, sphere.center_m) < sphere.radius_m + fade_) {
         around.others.push_back(&kernels_[k]);
       }
     }
@@ -222,7 +233,7 @@ class Sampler {
     const std::array<int, 2>& own = solids_[self].ends;
     std::vector<Neighbour> near;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
-      if (k == self || shapes_[k].SignedDistance(center) >= reach + fade_) continue;
+      if (k == self || DistanceOf(k, center) >= reach + fade_) continue;
       const auto is_shared = [&own](int end) { return end == own[0] || end == own[1]; };
       const bool shares_a = is_shared(solids_[k].ends[0]);
       const bool shares_b = is_shared(solids_[k].ends[1]);
@@ -241,13 +252,15 @@ class Sampler {
   }
 
   void Ring(const TaperedCapsule& capsule, double t, double width, double turn,
-            const std::vector<Neighbour>& others, Share& share) const {
+            const std::vector<Neighbour>& others, Hiding& hiding, Share& share) const {
     const Eigen::Vector3d center = (1 - t) * capsule.a().center_m + t * capsule.b().center_m;
     const double radius = (1 - t) * capsule.a().radius_m + t * capsule.b().radius_m;
-    std::vector<const DistanceKernel*> near;
-    std::vector<const Neighbour*> joined;
+    std::vector<const DistanceKernel*>& near = hiding.near;
+    std::vector<const Neighbour*>& joined = hiding.joined;
+    near.clear();
+    joined.clear();
     for (const Neighbour& other : others) {
-      const double distance = shapes_[other.solid].SignedDistance(center);
+      const double distance = DistanceOf(other.solid, center);
       if (distance < -radius - fade_) return;  // hides the ring
       if (distance >= radius + fade_) continue;
       if (other.way == 0.0) {
