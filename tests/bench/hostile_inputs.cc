@@ -46,8 +46,10 @@ double MegabytesOf(const std::string& field) {
 }
 
 std::string OutcomeOf(const absl::Status& status) {
-  return ReasonOf(status).value_or(absl::StatusCodeToString(status.code())) + ": " +
-         std::string(status.message()).substr(0, 110);
+  const auto reason = ReasonOf(status);
+  const std::string name =
+      reason ? std::string(ErrorReasonName(*reason)) : absl::StatusCodeToString(status.code());
+  return name + ": " + std::string(status.message()).substr(0, 110);
 }
 
 struct Measured {
