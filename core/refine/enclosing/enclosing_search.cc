@@ -47,8 +47,8 @@ struct Renewal {
   double tie_share;  // part of those that goes into ties and leaves
 };
 constexpr std::array<Renewal, 4> kRenewals = {{{0.06, 0.5}, {0.12, 1.0}, {0.12, 0.5}, {0.24, 1.0}}};
-constexpr int kPrimitivesPerRound = 80;  // one round of renewals for each so many
-constexpr int kMostRounds = 3;
+constexpr int kPrimitivesPerRound = 45;  // one round of renewals for each so many
+constexpr int kMostRounds = 5;
 
 // How much of the time of refining has gone by at the end of each part, as measured; the rest is
 // left to the last steps after the search.
