@@ -5,38 +5,26 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <span>
 
-#include "core/base/random.h"
+#include "core/mesh/surface_sums.h"
 #include "core/metrics/boundary_distance.h"
 #include "core/metrics/fitted_surface.h"
-#include "core/metrics/union_distance.h"
 #include "core/metrics/volumes.h"
+#include "core/tighten/point_grid.h"
 
 namespace capfit::metrics {
 namespace {
 
-constexpr std::uint64_t kSurfaceSeed = 20'180'001;
-constexpr std::size_t kPointsPerChunk = 512;
+constexpr std::size_t kAreasPerChunk = 8192;
+// Distances by tighten::PointGrid are good to this.
+constexpr double kGridErrorM = 1e-7;
 // A vertex counts as out when it is further out than this, in metres: what the paper's pictures, a
 // cloth engine's thickness and float rounding cannot tell from touching.
 constexpr double kOutM = 1e-4;
-// Cells of the distance grid along the body: 4 to 5 cm, where a cell keeps a few candidates.
-constexpr int kDistanceCells = 40;
-// Points at which the solids' surfaces are looked at for creases: 1 to 2 cm apart on a body. Twenty
-// times as many change E_M by less than 0.1 % of itself.
-constexpr int kCreaseGridPoints = 16'000;
-
-UnionDistance DistanceTo(const body::Body& body, const capsule::PrimitiveSet& set,
-                         const ThreadPool& pool) {
-  Eigen::AlignedBox3d box(body.mesh.box_min(), body.mesh.box_max());
-  for (const geometry::Sphere& sphere : set.spheres) {
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(sphere.radius_m);
-    box.extend(Eigen::Vector3d(sphere.center_m - reach));
-    box.extend(Eigen::Vector3d(sphere.center_m + reach));
-  }
-  return {capsule::Solids(set), box, kDistanceCells, pool};
-}
+// Points at which the solids' surfaces are looked at for creases: 2 to 3 cm apart on a body.
+constexpr int kCreaseGridPoints = 6'000;
 
 template <typename AnyMetrics>
 void PutVolumeRatios(const PartVolumes& volumes, AnyMetrics& metrics) {
@@ -83,29 +71,37 @@ struct SurfaceSamples {
   std::vector<body::Part> parts;
 };
 
-// Points spread evenly over the area of the triangles: one in each of `count` equal shares of it,
-// taken in the order of the triangles, at a random place.
-SurfaceSamples SampleSurface(const FittedSurface& surface, int count) {
+// The next of a row of numbers in [0, 1) that fill it evenly, however many are taken.
+double NextEven(double step, double& at) {
+  at += step;
+  if (at >= 1.0) at -= 1.0;
+  return at;
+}
+
+// Points spread evenly over the area of the triangles: one in the middle of each of `count` equal
+// shares of it, taken in the order of the triangles.
+SurfaceSamples SampleSurface(const FittedSurface& surface, int count, const ThreadPool& pool) {
+  // The plane's counterpart of the golden ratio: the pairs fill the unit square evenly.
+  constexpr double kStepU = 0.7548776662466927;
+  constexpr double kStepV = 0.5698402909980532;
   const std::span<const mesh::Triangle> triangles = surface.skin();
   const std::vector<Eigen::Vector3d>& points = surface.points_m;
-  std::vector<double> area_up_to;
-  area_up_to.reserve(triangles.size());
-  double area = 0.0;
-  for (const mesh::Triangle& t : triangles) {
-    const Eigen::Vector3d& a = points[t[0]];
-    area += 0.5 * (points[t[1]] - a).cross(points[t[2]] - a).norm();
-    area_up_to.push_back(area);
-  }
+  std::vector<double> area_up_to(triangles.size());
+  pool.ForChunks(triangles.size(), kAreasPerChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) area_up_to[t] = mesh::Area(points, triangles[t]);
+  });
+  std::partial_sum(area_up_to.begin(), area_up_to.end(), area_up_to.begin());
   SurfaceSamples samples;
   samples.points_m.reserve(static_cast<std::size_t>(count));
   samples.parts.reserve(static_cast<std::size_t>(count));
-  Random random(kSurfaceSeed);
+  double at_u = 0.0;
+  double at_v = 0.0;
   std::size_t at = 0;
   for (int i = 0; i < count; ++i) {
-    const double target = area * (i + random.NextUnit()) / count;
+    const double target = area_up_to.back() * (i + 0.5) / count;
     while (at + 1 < triangles.size() && area_up_to[at] <= target) ++at;
-    double u = random.NextUnit();
-    double v = random.NextUnit();
+    double u = NextEven(kStepU, at_u);
+    double v = NextEven(kStepV, at_v);
     if (u + v > 1.0) {
       u = 1.0 - u;
       v = 1.0 - v;
@@ -113,19 +109,9 @@ SurfaceSamples SampleSurface(const FittedSurface& surface, int count) {
     const Eigen::Vector3d& a = points[triangles[at][0]];
     samples.points_m.emplace_back(a + u * (points[triangles[at][1]] - a) +
                                   v * (points[triangles[at][2]] - a));
-    samples.parts.push_back(surface.parts[at]);
+    samples.parts.push_back(surface.parts[surface.skin_begin + at]);
   }
   return samples;
-}
-
-std::vector<double> SignedDistances(const BoundaryDistance& boundary,
-                                    std::span<const Eigen::Vector3d> points_m,
-                                    const ThreadPool& pool) {
-  std::vector<double> distances(points_m.size());
-  pool.ForChunks(points_m.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) distances[i] = boundary.SignedAt(points_m[i]);
-  });
-  return distances;
 }
 
 // `signed_m` in any order; is reordered.
@@ -146,11 +132,12 @@ void PutGaps(double diagonal_m, std::vector<double>& signed_m, AnyMetrics& metri
   metrics.E_M = 100.0 * metrics.gap.mean_m / diagonal_m;
 }
 
-void PutSurfaceDistances(const FittedSurface& fitted, const UnionDistance& distance,
+void PutSurfaceDistances(const FittedSurface& fitted,
+                         const std::vector<geometry::TaperedCapsule>& solids,
                          const MeasureOptions& options, const ThreadPool& pool, Metrics& metrics) {
-  const BoundaryDistance boundary(distance, kCreaseGridPoints, pool);
-  const SurfaceSamples samples = SampleSurface(fitted, options.surface_samples);
-  std::vector<double> signed_m = SignedDistances(boundary, samples.points_m, pool);
+  const BoundaryDistance boundary(solids, kCreaseGridPoints, pool);
+  const SurfaceSamples samples = SampleSurface(fitted, options.surface_samples, pool);
+  std::vector<double> signed_m = boundary.SignedAt(samples.points_m, pool);
   const double diagonal_m = fitted.box.diagonal().norm();
   std::array<std::vector<double>, body::kPartCount> by_part;
   for (std::size_t i = 0; i < signed_m.size(); ++i) {
@@ -163,23 +150,26 @@ void PutSurfaceDistances(const FittedSurface& fitted, const UnionDistance& dista
   metrics.hausdorff = 100.0 * metrics.gap.max_m / diagonal_m;
 }
 
-void PutVertices(const body::Body& body, const FittedSurface& fitted, const UnionDistance& distance,
-                 const ThreadPool& pool, Metrics& metrics) {
-  std::vector<double> gaps(fitted.vertices.size());
-  pool.ForChunks(gaps.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      // How deep a covered vertex is does not matter here.
-      gaps[i] = distance.At(body.mesh.vertices()[fitted.vertices[i]], 0.0).distance_m;
-    }
-  });
+void PutVertices(const body::Body& body, const FittedSurface& fitted,
+                 const std::vector<geometry::TaperedCapsule>& solids, const ThreadPool& pool,
+                 Metrics& metrics) {
+  std::vector<Eigen::Vector3d> points_m;
+  points_m.reserve(fitted.vertices.size());
+  for (const std::uint32_t v : fitted.vertices) points_m.push_back(body.mesh.vertices()[v]);
+  const tighten::PointGrid grid(points_m);
+  const tighten::UnionDistances nearest = grid.DistancesTo(solids, /*ignore_below_m=*/0.0, pool);
   const auto count = [](double gap, auto& its) {
     its.vertices_out += gap > kOutM ? 1 : 0;
     its.max_out_m = std::max(its.max_out_m, gap);
   };
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    count(gaps[i], metrics);
-    const body::Part part = body::PartOf(body.vertex_segments[fitted.vertices[i]]);
-    if (PartMetrics* const its = PartOf(part, metrics)) count(gaps[i], *its);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (nearest.distance_m[i] < -kGridErrorM) continue;
+    const double gap =
+        solids[static_cast<std::size_t>(nearest.solid[i])].SignedDistance(grid.point(i));
+    count(gap, metrics);
+    const std::uint32_t vertex = fitted.vertices[grid.order()[i]];
+    PartMetrics* const its = PartOf(body::PartOf(body.vertex_segments[vertex]), metrics);
+    if (its != nullptr) count(gap, *its);
   }
 }
 
@@ -194,23 +184,29 @@ Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
     if (fitted.has_part[p]) metrics.parts[p].emplace();
   }
   PutCounts(set, metrics);
-  const UnionDistance distance = DistanceTo(body, set, pool);
-  if (observer.IsCancelled()) return metrics;
-  PutVolumes(MeasureVolumes(body.mesh, fitted, distance.solids(), PartsOfSolids(set),
-                            options.columns, pool),
-             metrics);
-  if (set.spheres.empty() || fitted.skin_count == 0 || observer.IsCancelled()) return metrics;
-  PutSurfaceDistances(fitted, distance, options, pool, metrics);
-  if (observer.IsCancelled()) return metrics;
-  PutVertices(body, fitted, distance, pool, metrics);
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set);
+  const bool has_gaps = !solids.empty() && fitted.skin_begin < fitted.skin_end;
+  // Side by side: what one of them cannot share out, the others fill.
+  pool.ForEach(has_gaps ? 3 : 1, [&](std::size_t which) {
+    if (observer.IsCancelled()) return;
+    if (which == 0) {
+      PutVolumes(
+          MeasureVolumes(body.mesh, fitted, solids, PartsOfSolids(set), options.columns, pool),
+          metrics);
+    } else if (which == 1) {
+      PutSurfaceDistances(fitted, solids, options, pool, metrics);
+    } else {
+      PutVertices(body, fitted, solids, pool, metrics);
+    }
+  });
   return metrics;
 }
 
 std::vector<double> SignedGaps(const body::Body& body, const capsule::PrimitiveSet& set,
                                const body::PartSelection& parts, const ThreadPool& pool) {
-  const UnionDistance distance = DistanceTo(body, set, pool);
-  const BoundaryDistance boundary(distance, kCreaseGridPoints, pool);
-  std::vector<double> gaps = SignedDistances(boundary, body.mesh.vertices(), pool);
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set);
+  const BoundaryDistance boundary(solids, kCreaseGridPoints, pool);
+  std::vector<double> gaps = boundary.SignedAt(body.mesh.vertices(), pool);
   for (std::size_t v = 0; v < gaps.size(); ++v) {
     if (parts.Includes(body::PartOf(body.vertex_segments[v]))) continue;
     gaps[v] = std::numeric_limits<double>::quiet_NaN();

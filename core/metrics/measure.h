@@ -14,9 +14,9 @@
 namespace capfit::metrics {
 
 struct MeasureOptions {
-  int columns = 240;             // per axis: volumes are cut exactly along each column; >= 2
-  int surface_samples = 20'000;  // >= 1
-  body::PartSelection parts;     // what the set is meant to cover
+  int columns = 240;            // per axis: volumes are cut exactly along each column; >= 2
+  int surface_samples = 8'000;  // >= 1
+  body::PartSelection parts;    // what the set is meant to cover
 };
 
 // How far the surface of the fitted parts is from the boundary of the set's union, whether the set

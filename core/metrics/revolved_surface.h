@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_METRICS_REVOLVED_SURFACE_H_
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "core/geometry/tapered_capsule.h"
 
@@ -16,7 +17,21 @@ class RevolvedSurface {
 
   [[nodiscard]] double profile_length_m() const { return slant_end_ + arc_b_; }
   [[nodiscard]] double largest_radius_m() const;
-  [[nodiscard]] Eigen::Vector3d At(double arc_length_m, double angle_rad) const;
+  [[nodiscard]] Eigen::Vector3d At(double arc_length_m, double angle_rad) const {
+    const Ring ring = RingAt(arc_length_m);
+    return ring.center_m + ring.radius_m * Outward(angle_rad);
+  }
+
+  // All points at one arc length.
+  struct Ring {
+    Eigen::Vector3d center_m;
+    double radius_m;
+  };
+  [[nodiscard]] Ring RingAt(double arc_length_m) const;
+  // Unit vector off the axis.
+  [[nodiscard]] Eigen::Vector3d Outward(double angle_rad) const {
+    return std::cos(angle_rad) * across_ + std::sin(angle_rad) * third_;
+  }
 
  private:
   geometry::Sphere a_;

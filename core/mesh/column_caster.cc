@@ -1,0 +1,155 @@
+#include "core/mesh/column_caster.h"
+
+#include <cmath>
+#include <utility>
+
+namespace capfit::mesh {
+namespace {
+
+constexpr std::size_t kTrianglesPerChunk = 8192;
+constexpr std::size_t kPointsPerChunk = 8192;
+
+// Index of the first of the places (one in each cell) that is >= at.
+std::size_t FirstAt(const std::vector<double>& places, double low, double step, double at) {
+  const double cell = std::floor((at - low) / step);
+  if (cell < 0.0) return 0;
+  if (cell >= static_cast<double>(places.size())) return places.size();
+  auto first = static_cast<std::size_t>(cell);
+  // Rounding may have named the cell before or after.
+  while (first > 0 && places[first - 1] >= at) --first;
+  while (first < places.size() && places[first] < at) ++first;
+  return first;
+}
+
+// The first column and row that are not below a point: what lies between which columns is told by
+// comparing these, without the coordinates.
+struct GridPlace {
+  std::uint32_t column = 0;
+  std::uint32_t row = 0;
+};
+
+// Where a triangle's edge passes a row.
+struct EdgeCrossing {
+  double x = 0.0;
+  double along = 0.0;
+};
+
+class TriangleCaster {
+ public:
+  TriangleCaster(std::span<const Eigen::Vector3d> points, const ColumnGrid& grid,
+                 const ColumnCaster::Axes& axes, const ThreadPool& pool)
+      : points_(points), grid_(grid), axes_(axes), places_(points.size()) {
+    pool.ForChunks(points.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        places_[i] = {static_cast<std::uint32_t>(grid.FirstColumn(points[i][axes[0]])),
+                      static_cast<std::uint32_t>(grid.FirstRow(points[i][axes[1]]))};
+      }
+    });
+  }
+
+  // Appends all crossings of the triangle.
+  void Cross(std::uint32_t index, const Triangle& triangle,
+             std::vector<ColumnCrossing>& crossings) const {
+    const GridPlace a = places_[triangle[0]];
+    const GridPlace b = places_[triangle[1]];
+    const GridPlace c = places_[triangle[2]];
+    const std::uint32_t top = std::max({a.row, b.row, c.row});
+    if (std::min({a.column, b.column, c.column}) == std::max({a.column, b.column, c.column})) {
+      return;  // between two columns
+    }
+    for (std::uint32_t row = std::min({a.row, b.row, c.row}); row < top; ++row) {
+      CrossRow(index, triangle, row, crossings);
+    }
+  }
+
+ private:
+  // The same bits from both triangles at the edge: the end with the lower index comes first.
+  [[nodiscard]] EdgeCrossing CrossEdge(std::uint32_t from, std::uint32_t to, double y) const {
+    const Eigen::Vector3d& a = points_[std::min(from, to)];
+    const Eigen::Vector3d& b = points_[std::max(from, to)];
+    const double t = (y - a[axes_[1]]) / (b[axes_[1]] - a[axes_[1]]);
+    const double x = a[axes_[0]] + t * (b[axes_[0]] - a[axes_[0]]);
+    // Rounding must not carry it past a column that the ends do not reach.
+    const auto [low, high] = std::minmax(a[axes_[0]], b[axes_[0]]);
+    return {std::clamp(x, low, high), a[axes_[2]] + t * (b[axes_[2]] - a[axes_[2]])};
+  }
+
+  void CrossRow(std::uint32_t index, const Triangle& triangle, std::uint32_t row,
+                std::vector<ColumnCrossing>& crossings) const {
+    EdgeCrossing up;
+    EdgeCrossing down;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = triangle[k];
+      const std::uint32_t to = triangle[(k + 1) % 3];
+      // A row at the height of a point takes it for below.
+      const bool is_from_above = row < places_[from].row;
+      const bool is_to_above = row < places_[to].row;
+      if (is_from_above == is_to_above) continue;
+      (is_to_above ? up : down) = CrossEdge(from, to, grid_.y[row]);
+    }
+    // Counter-clockwise as seen from beyond: the upward edge is on the right, the normal faces
+    // along the columns, and they leave the body there.
+    const bool faces_up = down.x < up.x;
+    const EdgeCrossing& left = faces_up ? down : up;
+    const EdgeCrossing& right = faces_up ? up : down;
+    const double slope = right.x > left.x ? (right.along - left.along) / (right.x - left.x) : 0.0;
+    for (std::size_t i = grid_.FirstColumn(left.x); i < grid_.x.size() && grid_.x[i] < right.x;
+         ++i) {
+      crossings.push_back({row, static_cast<std::uint32_t>(i), index, faces_up ? -1 : 1,
+                           left.along + slope * (grid_.x[i] - left.x)});
+    }
+  }
+
+  std::span<const Eigen::Vector3d> points_;
+  const ColumnGrid& grid_;
+  const ColumnCaster::Axes& axes_;
+  std::vector<GridPlace> places_;
+};
+
+}  // namespace
+
+std::size_t ColumnGrid::FirstColumn(double at) const { return FirstAt(x, low_x, step_x, at); }
+std::size_t ColumnGrid::FirstRow(double at) const { return FirstAt(y, low_y, step_y, at); }
+
+ColumnCaster::ColumnCaster(std::span<const Eigen::Vector3d> points,
+                           std::span<const Triangle> triangles, const ColumnGrid& grid,
+                           const Axes& axes, const ThreadPool& pool)
+    : chunks_((triangles.size() + kTrianglesPerChunk - 1) / kTrianglesPerChunk),
+      columns_(grid.x.size()) {
+  const TriangleCaster caster(points, grid, axes, pool);
+  pool.ForChunks(triangles.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<ColumnCrossing> found;
+    for (std::size_t t = begin; t < end; ++t) {
+      caster.Cross(static_cast<std::uint32_t>(t), triangles[t], found);
+    }
+    Chunk& chunk = chunks_[begin / kTrianglesPerChunk];
+    chunk.begin.assign(grid.y.size() + 1, 0);
+    for (const ColumnCrossing& crossing : found) ++chunk.begin[crossing.row + 1];
+    for (std::size_t row = 0; row < grid.y.size(); ++row) chunk.begin[row + 1] += chunk.begin[row];
+    std::vector<std::uint32_t> next(chunk.begin.begin(), chunk.begin.end() - 1);
+    chunk.crossings.resize(found.size());
+    for (const ColumnCrossing& crossing : found) chunk.crossings[next[crossing.row]++] = crossing;
+  });
+}
+
+std::vector<ColumnCrossing> ColumnCaster::Row(std::size_t row) const {
+  std::vector<ColumnCrossing> crossings;
+  for (const Chunk& chunk : chunks_) {
+    crossings.insert(crossings.end(), chunk.crossings.begin() + chunk.begin[row],
+                     chunk.crossings.begin() + chunk.begin[row + 1]);
+  }
+  const auto is_before = [](const ColumnCrossing& a, const ColumnCrossing& b) {
+    if (a.along != b.along) return a.along < b.along;
+    return a.turn != b.turn ? a.turn > b.turn : a.triangle < b.triangle;
+  };
+  SortByColumn(columns_, is_before, crossings);
+  return crossings;
+}
+
+std::size_t ColumnCaster::crossing_count() const {
+  std::size_t count = 0;
+  for (const Chunk& chunk : chunks_) count += chunk.crossings.size();
+  return count;
+}
+
+}  // namespace capfit::mesh
