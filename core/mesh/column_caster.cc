@@ -74,30 +74,44 @@ class TriangleCaster {
     return {std::clamp(x, low, high), a[axes_[2]] + t * (b[axes_[2]] - a[axes_[2]])};
   }
 
+  // One corner is on one side of the row, two are on the other; the edges beside the lone one cross
+  // it. Which one it is comes from a table: branches would be guessed wrong half of the time.
   void CrossRow(std::uint32_t index, const Triangle& triangle, std::uint32_t row,
                 std::vector<ColumnCrossing>& crossings) const {
-    EdgeCrossing up;
-    EdgeCrossing down;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = triangle[k];
-      const std::uint32_t to = triangle[(k + 1) % 3];
-      // A row at the height of a point takes it for below.
-      const bool is_from_above = row < places_[from].row;
-      const bool is_to_above = row < places_[to].row;
-      if (is_from_above == is_to_above) continue;
-      (is_to_above ? up : down) = CrossEdge(from, to, grid_.y[row]);
-    }
-    // Counter-clockwise as seen from beyond: the upward edge is on the right, the normal faces
-    // along the columns, and they leave the body there.
-    const bool faces_up = down.x < up.x;
-    const EdgeCrossing& left = faces_up ? down : up;
-    const EdgeCrossing& right = faces_up ? up : down;
+    constexpr std::array<std::uint8_t, 8> kLone = {0, 0, 1, 2, 2, 1, 0, 0};  // by corners above
+    std::size_t above = 0;
+    // A row at the height of a point takes it for below.
+    for (std::size_t k = 0; k < 3; ++k) above |= (row < places_[triangle[k]].row ? 1u : 0u) << k;
+    const std::size_t lone = kLone[above];
+    const std::uint32_t corner = triangle[lone];
+    const double y = grid_.y[row];
+    const EdgeCrossing after = CrossEdge(corner, triangle[(lone + 1) % 3], y);
+    const EdgeCrossing before = CrossEdge(corner, triangle[(lone + 2) % 3], y);
+    // The boundary runs counter-clockwise as seen from beyond where its upward edge is on the
+    // right: then the normal faces along the columns, and they leave the body there.
+    const bool is_lone_above = (above >> lone & 1u) != 0;
+    const bool is_before_right = after.x < before.x;
+    const bool faces_up = is_lone_above ? is_before_right : before.x < after.x;
+    const EdgeCrossing& left = is_before_right ? after : before;
+    const EdgeCrossing& right = is_before_right ? before : after;
     const double slope = right.x > left.x ? (right.along - left.along) / (right.x - left.x) : 0.0;
-    for (std::size_t i = grid_.FirstColumn(left.x); i < grid_.x.size() && grid_.x[i] < right.x;
+    for (std::size_t i = FirstColumn(triangle, left.x); i < grid_.x.size() && grid_.x[i] < right.x;
          ++i) {
       crossings.push_back({row, static_cast<std::uint32_t>(i), index, faces_up ? -1 : 1,
                            left.along + slope * (grid_.x[i] - left.x)});
     }
+  }
+
+  // The first column that is not left of x, which lies within the triangle: few steps from its
+  // left.
+  [[nodiscard]] std::size_t FirstColumn(const Triangle& triangle, double x) const {
+    constexpr std::size_t kFew = 8;
+    std::size_t column = std::min(
+        {places_[triangle[0]].column, places_[triangle[1]].column, places_[triangle[2]].column});
+    for (std::size_t i = 0; i < kFew; ++i, ++column) {
+      if (column == grid_.x.size() || grid_.x[column] >= x) return column;
+    }
+    return grid_.FirstColumn(x);
   }
 
   std::span<const Eigen::Vector3d> points_;

@@ -40,18 +40,29 @@ struct ColumnCrossing {
   double along = 0.0;     // on the axis that the columns run along
 };
 
-// Sorts by column, then by `is_before`. O(items + columns) where no column has many.
+// Sorts by column, then by `is_before`, stable. O(items + columns) where no column has many.
 template <typename Item, typename IsBefore>
 void SortByColumn(std::size_t columns, const IsBefore& is_before, std::vector<Item>& items) {
+  constexpr std::ptrdiff_t kMany = 24;
   std::vector<std::uint32_t> begin(columns + 1, 0);
   for (const Item& item : items) ++begin[item.column + 1];
   for (std::size_t i = 0; i < columns; ++i) begin[i + 1] += begin[i];
   std::vector<Item> sorted(items.size());
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (const Item& item : items) sorted[next[item.column]++] = item;
+  std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
+  for (const Item& item : items) sorted[end[item.column]++] = item;
   for (std::size_t i = 0; i < columns; ++i) {
-    if (begin[i + 1] - begin[i] < 2) continue;
-    std::sort(sorted.begin() + begin[i], sorted.begin() + begin[i + 1], is_before);
+    const auto first = sorted.begin() + begin[i];
+    const auto last = sorted.begin() + begin[i + 1];
+    if (last - first > kMany) {
+      std::stable_sort(first, last, is_before);
+      continue;
+    }
+    for (auto next = first; next < last; ++next) {
+      const Item item = *next;
+      auto place = next;
+      for (; place > first && is_before(item, place[-1]); --place) *place = place[-1];
+      *place = item;
+    }
   }
   items.swap(sorted);
 }

@@ -21,15 +21,16 @@ namespace capfit::mesh {
   return AreaVector(points, t).norm();
 }
 
+[[nodiscard]] inline Eigen::Vector3d Middle(std::span<const Eigen::Vector3d> points,
+                                            const Triangle& t) {
+  return (points[t[0]] + points[t[1]] + points[t[2]]) / 3.0;
+}
+
 // Between the triangle and the plane z = 0, negative for a triangle that faces down. Over a closed
 // surface the sum is the volume.
 [[nodiscard]] inline double VolumeBelow(std::span<const Eigen::Vector3d> points,
                                         const Triangle& t) {
-  const Eigen::Vector3d& a = points[t[0]];
-  const Eigen::Vector3d& b = points[t[1]];
-  const Eigen::Vector3d& c = points[t[2]];
-  return ((b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x())) *
-         (a.z() + b.z() + c.z()) / 6.0;
+  return AreaVector(points, t).z() * Middle(points, t).z();
 }
 
 }  // namespace capfit::mesh

@@ -51,6 +51,21 @@ Eigen::Vector3d OnBoth(const TaperedCapsule& first, const TaperedCapsule& second
   return point;
 }
 
+// A solid is all balls along its axis. Between the balls looked at, neither their depth in the
+// other solid nor their radius can change by more than the way to them.
+bool MayTouch(const TaperedCapsule& solid, const TaperedCapsule& other) {
+  constexpr int kSteps = 6;
+  const Eigen::Vector3d way = solid.b().center_m - solid.a().center_m;
+  const double widening = solid.b().radius_m - solid.a().radius_m;
+  const double slack = (way.norm() + std::abs(widening)) / (2 * kSteps);
+  for (int step = 0; step <= kSteps; ++step) {
+    const double t = static_cast<double>(step) / kSteps;
+    const double radius = solid.a().radius_m + t * widening;
+    if (other.SignedDistance(solid.a().center_m + t * way) <= radius + slack) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Eigen::AlignedBox3d BoxOf(const TaperedCapsule& solid) {
@@ -79,7 +94,7 @@ struct BoundaryDistance::SurfaceGrid {
 BoundaryDistance::BoundaryDistance(const std::vector<TaperedCapsule>& solids, int grid_points,
                                    const ThreadPool& pool)
     : solids_(solids), tolerance_m_(kHiddenShare * SizeOf(solids)) {
-  FindNeighbours();
+  FindNeighbours(pool);
   double area = 0.0;
   for (const TaperedCapsule& solid : solids_) area += GridArea(solid);
   const double spacing_m = std::sqrt(area / grid_points);
@@ -92,16 +107,14 @@ BoundaryDistance::BoundaryDistance(const std::vector<TaperedCapsule>& solids, in
   Sort(0, creases_.size());
 }
 
-void BoundaryDistance::FindNeighbours() {
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (const TaperedCapsule& solid : solids_) boxes.push_back(BoxOf(solid));
+void BoundaryDistance::FindNeighbours(const ThreadPool& pool) {
   neighbours_.resize(solids_.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t k = 0; k < boxes.size(); ++k) {
-      if (k == i || !boxes[i].intersects(boxes[k])) continue;
+  pool.ForEach(solids_.size(), [&](std::size_t i) {
+    for (std::size_t k = 0; k < solids_.size(); ++k) {
+      if (k == i || !MayTouch(solids_[i], solids_[k])) continue;
       neighbours_[i].push_back(static_cast<std::int32_t>(k));
     }
-  }
+  });
 }
 
 bool BoundaryDistance::IsExposed(const Eigen::Vector3d& point_m, std::int32_t solid) const {
@@ -220,30 +233,39 @@ BoundaryDistance::CreasePoint BoundaryDistance::Between(const CreasePoint& expos
 
 std::vector<double> BoundaryDistance::SignedAt(std::span<const Eigen::Vector3d> points_m,
                                                const ThreadPool& pool) const {
-  const tighten::PointGrid grid(points_m);
-  const tighten::UnionDistances nearest =
-      grid.DistancesTo(solids_, -std::numeric_limits<double>::infinity(), pool);
+  constexpr double kAnyDepth = -std::numeric_limits<double>::infinity();
   std::vector<double> distances(points_m.size(), std::numeric_limits<double>::infinity());
   if (solids_.empty()) return distances;
+  const tighten::PointGrid grid(points_m);
+  const tighten::UnionDistances nearest = grid.DistancesTo(solids_, kAnyDepth, pool);
+  // The nearest points of the solids that are nearest, in the grid's order.
+  std::vector<Eigen::Vector3d> feet_m(grid.size());
   pool.ForChunks(grid.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t index = grid.order()[i];
-      distances[index] = SignedAt(points_m[index], nearest.solid[i]);
+      const geometry::CapsuleDistance at =
+          solids_[static_cast<std::size_t>(nearest.solid[i])].Locate(grid.point(i));
+      distances[grid.order()[i]] = at.distance_m;
+      feet_m[i] = grid.point(i) - at.distance_m * at.normal;
+    }
+  });
+  if (creases_.empty()) return distances;
+  const tighten::PointGrid feet(feet_m);
+  const tighten::UnionDistances depths = feet.DistancesTo(solids_, -tolerance_m_, pool);
+  pool.ForChunks(feet.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t index = grid.order()[feet.order()[i]];
+      if (depths.distance_m[i] >= -tolerance_m_ || distances[index] >= 0.0) continue;
+      distances[index] = std::min(distances[index], -ToCrease(points_m[index]));
     }
   });
   return distances;
 }
 
-double BoundaryDistance::SignedAt(const Eigen::Vector3d& point_m, std::int32_t solid) const {
-  const geometry::CapsuleDistance nearest =
-      solids_[static_cast<std::size_t>(solid)].Locate(point_m);
-  if (nearest.distance_m >= 0.0 || creases_.empty()) return nearest.distance_m;
-  const double depth = -nearest.distance_m;
-  if (IsExposed(point_m + depth * nearest.normal, solid)) return -depth;
+double BoundaryDistance::ToCrease(const Eigen::Vector3d& point_m) const {
   double squared_best = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
   Search(point_m, 0, creases_.size(), squared_best, best);
-  return -std::max(depth, Slide(point_m, creases_[best]));
+  return Slide(point_m, creases_[best]);
 }
 
 double BoundaryDistance::Slide(const Eigen::Vector3d& point_m, const CreasePoint& start) const {

@@ -44,8 +44,8 @@ class BoundaryDistance {
   // A grid over the surface of a solid, rows of rings, with the depth of each point in the others.
   struct SurfaceGrid;
 
-  [[nodiscard]] double SignedAt(const Eigen::Vector3d& point_m, std::int32_t nearest_solid) const;
-  void FindNeighbours();
+  [[nodiscard]] double ToCrease(const Eigen::Vector3d& point_m) const;
+  void FindNeighbours(const ThreadPool& pool);
   // Whether no other solid holds a point on the surface of `solid`.
   [[nodiscard]] bool IsExposed(const Eigen::Vector3d& point_m, std::int32_t solid) const;
   [[nodiscard]] SurfaceGrid MakeGrid(std::size_t solid, double spacing_m) const;

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <tuple>
 
 #include "core/base/random.h"
-#include "core/mesh/surface_sums.h"
 
 namespace capfit::metrics {
 namespace {
@@ -20,7 +18,6 @@ constexpr std::uint64_t kColumnSeed = 20'180'000;
 // shapes five to ten times more exactly than random places; this much chance breaks the beat with
 // meshes whose vertices lie in rows, and costs no exactness that can be seen.
 constexpr double kJitter = 0.05;
-constexpr std::size_t kTrianglesPerChunk = 8192;
 
 // Adds an interval; two halves where its ends have different labels.
 void AddPiece(std::uint32_t column, const Interval& interval, std::int32_t begin_label,
@@ -136,28 +133,10 @@ BodyRows::Cuts BodyRows::Cut(std::size_t row) const {
             Inside(crossings, parts, surface_.skin_begin, parts.size(), columns_)};
   for (const mesh::ColumnCrossing& crossing : crossings) {
     if (crossing.triangle < surface_.skin_begin) continue;
-    cuts.fitted_flux[static_cast<std::size_t>(parts[crossing.triangle])] -=
-        crossing.turn * crossing.along;
+    const auto part = static_cast<std::size_t>(parts[crossing.triangle]);
+    cuts.fitted_flux[part] -= crossing.turn * (crossing.along - surface_.middle_z[part]);
   }
   return cuts;
-}
-
-PartNumbers FittedFlux(const FittedSurface& surface, const ThreadPool& pool) {
-  const std::span<const mesh::Triangle> triangles = surface.fitted();
-  std::vector<PartNumbers> chunks((triangles.size() + kTrianglesPerChunk - 1) / kTrianglesPerChunk);
-  pool.ForChunks(triangles.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
-    PartNumbers& flux = chunks[begin / kTrianglesPerChunk];
-    flux.fill(0.0);
-    for (std::size_t t = begin; t < end; ++t) {
-      flux[static_cast<std::size_t>(surface.parts[surface.skin_begin + t])] +=
-          mesh::VolumeBelow(surface.points_m, triangles[t]);
-    }
-  });
-  PartNumbers total{};
-  for (const PartNumbers& chunk : chunks) {
-    for (std::size_t p = 0; p < total.size(); ++p) total[p] += chunk[p];
-  }
-  return total;
 }
 
 struct SolidRows::Shape {
@@ -262,11 +241,11 @@ void SolidRows::CutOne(std::size_t index, std::size_t row,
 RowIntervals SolidRows::Cut(std::size_t row) const {
   std::vector<RowIntervals::Piece> pieces;
   for (std::size_t index = 0; index < shapes_.size(); ++index) CutOne(index, row, pieces);
+  // Stable: of solids entered at one place the first comes first.
   mesh::SortByColumn(
       grid_.x.size(),
       [](const RowIntervals::Piece& a, const RowIntervals::Piece& b) {
-        return std::tie(a.interval.begin, a.interval.end, a.label) <
-               std::tie(b.interval.begin, b.interval.end, b.label);
+        return a.interval.begin < b.interval.begin;
       },
       pieces);
   return {MakeDisjoint(pieces), grid_.x.size()};

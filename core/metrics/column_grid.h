@@ -53,9 +53,6 @@ class RowIntervals {
 [[nodiscard]] double CommonLength(std::span<const geometry::Interval> a,
                                   std::span<const geometry::Interval> b);
 
-// One number for each part of the body.
-using PartNumbers = std::array<double, body::kPartCount>;
-
 // Where the columns run through a body.
 class BodyRows {
  public:
@@ -70,7 +67,7 @@ class BodyRows {
   struct Cuts {
     RowIntervals body;
     RowIntervals fitted;
-    PartNumbers fitted_flux{};  // by part of the fitted surface: z where left less z where entered
+    PartNumbers fitted_flux{};  // as FittedSurface::flux, in lengths
   };
   [[nodiscard]] Cuts Cut(std::size_t row) const;
 
@@ -79,10 +76,6 @@ class BodyRows {
   std::size_t columns_;
   mesh::ColumnCaster caster_;
 };
-
-// The integral of z over the fitted surface as seen along z, by part: what the sums of fitted_flux
-// over all rows times the cells' area come near to. All parts together: the volume, by signs.
-[[nodiscard]] PartNumbers FittedFlux(const FittedSurface& surface, const ThreadPool& pool);
 
 // Where the columns run through the union of solids.
 class SolidRows {

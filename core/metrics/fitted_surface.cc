@@ -5,10 +5,14 @@
 #include <map>
 #include <utility>
 
+#include "core/mesh/surface_sums.h"
+
 namespace capfit::metrics {
 namespace {
 
 using body::Part;
+
+constexpr std::size_t kTrianglesPerChunk = 8192;
 
 Part MostOf(Part a, Part b, Part c) {
   if (b == c) return b;
@@ -80,12 +84,45 @@ void CloseCuts(const body::Body& body, const std::vector<Edge>& edges, FittedSur
   }
 }
 
+// The first corner met of each part is near enough to the others.
+void FindMiddles(FittedSurface& surface) {
+  std::array<bool, body::kPartCount> is_found{};
+  const std::span<const mesh::Triangle> triangles = surface.fitted();
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto part = static_cast<std::size_t>(surface.parts[surface.skin_begin + t]);
+    if (std::exchange(is_found[part], true)) continue;
+    surface.middle_z[part] = surface.points_m[triangles[t][0]].z();
+  }
+}
+
+void SumUp(const ThreadPool& pool, FittedSurface& surface) {
+  const std::span<const mesh::Triangle> triangles = surface.fitted();
+  surface.skin_areas_m2.resize(triangles.size());
+  std::vector<PartNumbers> chunks((triangles.size() + kTrianglesPerChunk - 1) / kTrianglesPerChunk);
+  pool.ForChunks(triangles.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
+    PartNumbers flux{};
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto part = static_cast<std::size_t>(surface.parts[surface.skin_begin + t]);
+      const Eigen::Vector3d area = mesh::AreaVector(surface.points_m, triangles[t]);
+      surface.skin_areas_m2[t] = area.norm();
+      flux[part] +=
+          area.z() * (mesh::Middle(surface.points_m, triangles[t]).z() - surface.middle_z[part]);
+    }
+    chunks[begin / kTrianglesPerChunk] = flux;
+  });
+  surface.skin_areas_m2.resize(surface.skin().size());
+  for (const PartNumbers& chunk : chunks) {
+    for (std::size_t p = 0; p < chunk.size(); ++p) surface.flux[p] += chunk[p];
+  }
+}
+
 // A selected vertex that a triangle of the skin has for a corner.
 constexpr std::uint8_t kInSkin = 2;
 
 }  // namespace
 
-FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelection& parts) {
+FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelection& parts,
+                                const ThreadPool& pool) {
   const std::span<const mesh::Triangle> triangles = body.mesh.triangles();
   FittedSurface surface;
   surface.points_m.assign(body.mesh.vertices().begin(), body.mesh.vertices().end());
@@ -124,6 +161,8 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
     if (selected[v] == kInSkin) surface.box.extend(surface.points_m[v]);
   }
   if (!surface.is_whole()) CloseCuts(body, cut, surface);
+  FindMiddles(surface);
+  SumUp(pool, surface);
   return surface;
 }
 

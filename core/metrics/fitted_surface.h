@@ -10,11 +10,15 @@
 #include <span>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/body/anatomy.h"
 #include "core/body/body.h"
 #include "core/mesh/body_mesh.h"
 
 namespace capfit::metrics {
+
+// One number for each part of the body.
+using PartNumbers = std::array<double, body::kPartCount>;
 
 // The triangles whose three corners belong to selected parts, closed by a flat fan over each cut.
 // The part of a triangle is that of most of its corners (all different: the first in the list of
@@ -28,6 +32,11 @@ struct FittedSurface {
   std::array<bool, body::kPartCount> has_part{};  // there is skin of this part
   std::vector<std::uint32_t> vertices;            // mesh vertices of the selected parts
   Eigen::AlignedBox3d box;                        // of the skin; empty when there is none
+  std::vector<double> skin_areas_m2;              // of each triangle of the skin
+  // By part of the fitted surface, the volume between its triangles and the plane at the height
+  // middle_z, an arbitrary one near them, by signs. Of a closed part it is the volume.
+  PartNumbers flux{};
+  PartNumbers middle_z{};
 
   [[nodiscard]] std::span<const mesh::Triangle> skin() const {
     return std::span(triangles).subspan(skin_begin, skin_end - skin_begin);
@@ -39,9 +48,10 @@ struct FittedSurface {
   [[nodiscard]] bool is_whole() const { return skin_begin == 0; }
 };
 
-// O(n).
+// O(n); the sums in parallel.
 [[nodiscard]] FittedSurface MakeFittedSurface(const body::Body& body,
-                                              const body::PartSelection& parts);
+                                              const body::PartSelection& parts,
+                                              const ThreadPool& pool);
 
 }  // namespace capfit::metrics
 

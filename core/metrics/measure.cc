@@ -8,7 +8,6 @@
 #include <numeric>
 #include <span>
 
-#include "core/mesh/surface_sums.h"
 #include "core/metrics/boundary_distance.h"
 #include "core/metrics/fitted_surface.h"
 #include "core/metrics/volumes.h"
@@ -17,7 +16,6 @@
 namespace capfit::metrics {
 namespace {
 
-constexpr std::size_t kAreasPerChunk = 8192;
 // Distances by tighten::PointGrid are good to this.
 constexpr double kGridErrorM = 1e-7;
 // A vertex counts as out when it is further out than this, in metres: what the paper's pictures, a
@@ -80,26 +78,26 @@ double NextEven(double step, double& at) {
 
 // Points spread evenly over the area of the triangles: one in the middle of each of `count` equal
 // shares of it, taken in the order of the triangles.
-SurfaceSamples SampleSurface(const FittedSurface& surface, int count, const ThreadPool& pool) {
+SurfaceSamples SampleSurface(const FittedSurface& surface, int count) {
   // The plane's counterpart of the golden ratio: the pairs fill the unit square evenly.
   constexpr double kStepU = 0.7548776662466927;
   constexpr double kStepV = 0.5698402909980532;
   const std::span<const mesh::Triangle> triangles = surface.skin();
   const std::vector<Eigen::Vector3d>& points = surface.points_m;
-  std::vector<double> area_up_to(triangles.size());
-  pool.ForChunks(triangles.size(), kAreasPerChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) area_up_to[t] = mesh::Area(points, triangles[t]);
-  });
-  std::partial_sum(area_up_to.begin(), area_up_to.end(), area_up_to.begin());
+  const double step_m2 =
+      std::accumulate(surface.skin_areas_m2.begin(), surface.skin_areas_m2.end(), 0.0) / count;
   SurfaceSamples samples;
   samples.points_m.reserve(static_cast<std::size_t>(count));
   samples.parts.reserve(static_cast<std::size_t>(count));
   double at_u = 0.0;
   double at_v = 0.0;
   std::size_t at = 0;
+  double area_up_to = surface.skin_areas_m2[0];
   for (int i = 0; i < count; ++i) {
-    const double target = area_up_to.back() * (i + 0.5) / count;
-    while (at + 1 < triangles.size() && area_up_to[at] <= target) ++at;
+    const double target = step_m2 * (i + 0.5);
+    while (at + 1 < triangles.size() && area_up_to <= target) {
+      area_up_to += surface.skin_areas_m2[++at];
+    }
     double u = NextEven(kStepU, at_u);
     double v = NextEven(kStepV, at_v);
     if (u + v > 1.0) {
@@ -136,7 +134,7 @@ void PutSurfaceDistances(const FittedSurface& fitted,
                          const std::vector<geometry::TaperedCapsule>& solids,
                          const MeasureOptions& options, const ThreadPool& pool, Metrics& metrics) {
   const BoundaryDistance boundary(solids, kCreaseGridPoints, pool);
-  const SurfaceSamples samples = SampleSurface(fitted, options.surface_samples, pool);
+  const SurfaceSamples samples = SampleSurface(fitted, options.surface_samples);
   std::vector<double> signed_m = boundary.SignedAt(samples.points_m, pool);
   const double diagonal_m = fitted.box.diagonal().norm();
   std::array<std::vector<double>, body::kPartCount> by_part;
@@ -179,7 +177,7 @@ Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                 const MeasureOptions& options, const ThreadPool& pool,
                 const FitObserver& observer) {
   Metrics metrics;
-  const FittedSurface fitted = MakeFittedSurface(body, options.parts);
+  const FittedSurface fitted = MakeFittedSurface(body, options.parts, pool);
   for (std::size_t p = 0; p < metrics.parts.size(); ++p) {
     if (fitted.has_part[p]) metrics.parts[p].emplace();
   }

@@ -65,7 +65,7 @@ Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
       by_row[row] = lengths.OfRow(row, body_rows.Cut(row), solid_rows.Cut(row));
     }
   });
-  const PartNumbers exact_flux = lengths.ByHome(FittedFlux(fitted, pool));
+  const PartNumbers exact_flux = lengths.ByHome(fitted.flux);
   Volumes total;
   for (const Volumes& row : by_row) {
     for (std::size_t p = 0; p < total.parts.size(); ++p) {
