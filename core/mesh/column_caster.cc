@@ -21,9 +21,12 @@ std::size_t FirstAt(const std::vector<double>& places, double low, double step, 
   return first;
 }
 
-// The first column and row that are not below a point: what lies between which columns is told by
-// comparing these, without the coordinates.
-struct GridPlace {
+// A point as the columns see it. The first column and row that are not below it tell what lies
+// between which of them without the coordinates.
+struct GridPoint {
+  double x = 0.0;
+  double y = 0.0;
+  double along = 0.0;
   std::uint32_t column = 0;
   std::uint32_t row = 0;
 };
@@ -38,11 +41,13 @@ class TriangleCaster {
  public:
   TriangleCaster(std::span<const Eigen::Vector3d> points, const ColumnGrid& grid,
                  const ColumnCaster::Axes& axes, const ThreadPool& pool)
-      : points_(points), grid_(grid), axes_(axes), places_(points.size()) {
+      : grid_(grid), points_(points.size()) {
     pool.ForChunks(points.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        places_[i] = {static_cast<std::uint32_t>(grid.FirstColumn(points[i][axes[0]])),
-                      static_cast<std::uint32_t>(grid.FirstRow(points[i][axes[1]]))};
+        const double x = points[i][axes[0]];
+        const double y = points[i][axes[1]];
+        points_[i] = {x, y, points[i][axes[2]], static_cast<std::uint32_t>(grid.FirstColumn(x)),
+                      static_cast<std::uint32_t>(grid.FirstRow(y))};
       }
     });
   }
@@ -50,38 +55,36 @@ class TriangleCaster {
   // Appends all crossings of the triangle.
   void Cross(std::uint32_t index, const Triangle& triangle,
              std::vector<ColumnCrossing>& crossings) const {
-    const GridPlace a = places_[triangle[0]];
-    const GridPlace b = places_[triangle[1]];
-    const GridPlace c = places_[triangle[2]];
+    const GridPoint& a = points_[triangle[0]];
+    const GridPoint& b = points_[triangle[1]];
+    const GridPoint& c = points_[triangle[2]];
+    const std::uint32_t left = std::min({a.column, b.column, c.column});
+    if (left == std::max({a.column, b.column, c.column})) return;  // between two columns
     const std::uint32_t top = std::max({a.row, b.row, c.row});
-    if (std::min({a.column, b.column, c.column}) == std::max({a.column, b.column, c.column})) {
-      return;  // between two columns
-    }
     for (std::uint32_t row = std::min({a.row, b.row, c.row}); row < top; ++row) {
-      CrossRow(index, triangle, row, crossings);
+      CrossRow(index, triangle, left, row, crossings);
     }
   }
 
  private:
   // The same bits from both triangles at the edge: the end with the lower index comes first.
   [[nodiscard]] EdgeCrossing CrossEdge(std::uint32_t from, std::uint32_t to, double y) const {
-    const Eigen::Vector3d& a = points_[std::min(from, to)];
-    const Eigen::Vector3d& b = points_[std::max(from, to)];
-    const double t = (y - a[axes_[1]]) / (b[axes_[1]] - a[axes_[1]]);
-    const double x = a[axes_[0]] + t * (b[axes_[0]] - a[axes_[0]]);
+    const GridPoint& a = points_[std::min(from, to)];
+    const GridPoint& b = points_[std::max(from, to)];
+    const double t = (y - a.y) / (b.y - a.y);
     // Rounding must not carry it past a column that the ends do not reach.
-    const auto [low, high] = std::minmax(a[axes_[0]], b[axes_[0]]);
-    return {std::clamp(x, low, high), a[axes_[2]] + t * (b[axes_[2]] - a[axes_[2]])};
+    const double x = std::clamp(a.x + t * (b.x - a.x), std::min(a.x, b.x), std::max(a.x, b.x));
+    return {x, a.along + t * (b.along - a.along)};
   }
 
   // One corner is on one side of the row, two are on the other; the edges beside the lone one cross
   // it. Which one it is comes from a table: branches would be guessed wrong half of the time.
-  void CrossRow(std::uint32_t index, const Triangle& triangle, std::uint32_t row,
-                std::vector<ColumnCrossing>& crossings) const {
+  void CrossRow(std::uint32_t index, const Triangle& triangle, std::uint32_t first_column,
+                std::uint32_t row, std::vector<ColumnCrossing>& crossings) const {
     constexpr std::array<std::uint8_t, 8> kLone = {0, 0, 1, 2, 2, 1, 0, 0};  // by corners above
     std::size_t above = 0;
     // A row at the height of a point takes it for below.
-    for (std::size_t k = 0; k < 3; ++k) above |= (row < places_[triangle[k]].row ? 1u : 0u) << k;
+    for (std::size_t k = 0; k < 3; ++k) above |= (row < points_[triangle[k]].row ? 1u : 0u) << k;
     const std::size_t lone = kLone[above];
     const std::uint32_t corner = triangle[lone];
     const double y = grid_.y[row];
@@ -94,30 +97,27 @@ class TriangleCaster {
     const bool faces_up = is_lone_above ? is_before_right : before.x < after.x;
     const EdgeCrossing& left = is_before_right ? after : before;
     const EdgeCrossing& right = is_before_right ? before : after;
-    const double slope = right.x > left.x ? (right.along - left.along) / (right.x - left.x) : 0.0;
-    for (std::size_t i = FirstColumn(triangle, left.x); i < grid_.x.size() && grid_.x[i] < right.x;
-         ++i) {
-      crossings.push_back({row, static_cast<std::uint32_t>(i), index, faces_up ? -1 : 1,
-                           left.along + slope * (grid_.x[i] - left.x)});
+    const std::size_t columns = grid_.x.size();
+    std::size_t column = FirstColumn(first_column, left.x);
+    if (column == columns || grid_.x[column] >= right.x) return;
+    const double slope = (right.along - left.along) / (right.x - left.x);
+    for (; column < columns && grid_.x[column] < right.x; ++column) {
+      crossings.push_back({row, static_cast<std::uint32_t>(column), index, faces_up ? -1 : 1,
+                           left.along + slope * (grid_.x[column] - left.x)});
     }
   }
 
-  // The first column that is not left of x, which lies within the triangle: few steps from its
-  // left.
-  [[nodiscard]] std::size_t FirstColumn(const Triangle& triangle, double x) const {
+  // The first column that is not left of x; few steps from the first that may be.
+  [[nodiscard]] std::size_t FirstColumn(std::size_t column, double x) const {
     constexpr std::size_t kFew = 8;
-    std::size_t column = std::min(
-        {places_[triangle[0]].column, places_[triangle[1]].column, places_[triangle[2]].column});
-    for (std::size_t i = 0; i < kFew; ++i, ++column) {
+    for (std::size_t step = 0; step < kFew; ++step, ++column) {
       if (column == grid_.x.size() || grid_.x[column] >= x) return column;
     }
     return grid_.FirstColumn(x);
   }
 
-  std::span<const Eigen::Vector3d> points_;
   const ColumnGrid& grid_;
-  const ColumnCaster::Axes& axes_;
-  std::vector<GridPlace> places_;
+  std::vector<GridPoint> points_;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace capfit::metrics {
 
 struct MeasureOptions {
-  int columns = 240;            // per axis: volumes are cut exactly along each column; >= 2
+  int columns = 200;            // per axis: volumes are cut exactly along each column; >= 2
   int surface_samples = 6'000;  // >= 1
   body::PartSelection parts;    // what the set is meant to cover
 };
