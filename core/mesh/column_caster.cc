@@ -8,13 +8,15 @@ namespace {
 
 constexpr std::size_t kTrianglesPerChunk = 8192;
 constexpr std::size_t kPointsPerChunk = 8192;
+constexpr std::size_t kFewColumns = 8;
 
 // Index of the first of the places (one in each cell) that is >= at.
-std::size_t FirstAt(const std::vector<double>& places, double low, double step, double at) {
+inline std::size_t FirstAt(const std::vector<double>& places, double low, double step, double at) {
   const double cell = std::floor((at - low) / step);
   if (cell < 0.0) return 0;
   if (cell >= static_cast<double>(places.size())) return places.size();
   auto first = static_cast<std::size_t>(cell);
+  first += places[first] < at ? 1 : 0;  // as good as chance: no branch
   // Rounding may have named the cell before or after.
   while (first > 0 && places[first - 1] >= at) --first;
   while (first < places.size() && places[first] < at) ++first;
@@ -52,21 +54,46 @@ class TriangleCaster {
     });
   }
 
-  // Appends all crossings of the triangle.
-  void Cross(std::uint32_t index, const Triangle& triangle,
-             std::vector<ColumnCrossing>& crossings) const {
-    const GridPoint& a = points_[triangle[0]];
-    const GridPoint& b = points_[triangle[1]];
-    const GridPoint& c = points_[triangle[2]];
-    const std::uint32_t left = std::min({a.column, b.column, c.column});
-    if (left == std::max({a.column, b.column, c.column})) return;  // between two columns
-    const std::uint32_t top = std::max({a.row, b.row, c.row});
-    for (std::uint32_t row = std::min({a.row, b.row, c.row}); row < top; ++row) {
-      CrossRow(index, triangle, left, row, crossings);
+  // All crossings of the triangles [begin, end). What a small triangle meets is as good as chance,
+  // so that branches would be guessed wrong half of the time: there are none but for the loops.
+  std::vector<ColumnCrossing> Cross(std::span<const Triangle> triangles, std::size_t begin,
+                                    std::size_t end) const {
+    std::vector<Range> ranges(end - begin);
+    std::size_t count = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const GridPoint& a = points_[triangles[t][0]];
+      const GridPoint& b = points_[triangles[t][1]];
+      const GridPoint& c = points_[triangles[t][2]];
+      const Range range = {static_cast<std::uint32_t>(t), std::min({a.row, b.row, c.row}),
+                           std::max({a.row, b.row, c.row}),
+                           std::min({a.column, b.column, c.column}),
+                           std::max({a.column, b.column, c.column})};
+      ranges[count] = range;
+      count += (range.low_row < range.high_row) & (range.left < range.right) ? 1 : 0;
     }
+    Crossings found;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::uint32_t row = ranges[i].low_row; row < ranges[i].high_row; ++row) {
+        CrossRow(triangles[ranges[i].triangle], ranges[i], row, found);
+      }
+    }
+    found.list.resize(found.count);
+    return std::move(found.list);
   }
 
  private:
+  // The rows and columns that run through a triangle's box.
+  struct Range {
+    std::uint32_t triangle;
+    std::uint32_t low_row, high_row;
+    std::uint32_t left, right;
+  };
+  // With room at the end.
+  struct Crossings {
+    std::vector<ColumnCrossing> list;
+    std::size_t count = 0;
+  };
+
   // The same bits from both triangles at the edge: the end with the lower index comes first.
   [[nodiscard]] EdgeCrossing CrossEdge(std::uint32_t from, std::uint32_t to, double y) const {
     const GridPoint& a = points_[std::min(from, to)];
@@ -78,9 +105,9 @@ class TriangleCaster {
   }
 
   // One corner is on one side of the row, two are on the other; the edges beside the lone one cross
-  // it. Which one it is comes from a table: branches would be guessed wrong half of the time.
-  void CrossRow(std::uint32_t index, const Triangle& triangle, std::uint32_t first_column,
-                std::uint32_t row, std::vector<ColumnCrossing>& crossings) const {
+  // it.
+  void CrossRow(const Triangle& triangle, const Range& range, std::uint32_t row,
+                Crossings& found) const {
     constexpr std::array<std::uint8_t, 8> kLone = {0, 0, 1, 2, 2, 1, 0, 0};  // by corners above
     std::size_t above = 0;
     // A row at the height of a point takes it for below.
@@ -97,23 +124,22 @@ class TriangleCaster {
     const bool faces_up = is_lone_above ? is_before_right : before.x < after.x;
     const EdgeCrossing& left = is_before_right ? after : before;
     const EdgeCrossing& right = is_before_right ? before : after;
-    const std::size_t columns = grid_.x.size();
-    std::size_t column = FirstColumn(first_column, left.x);
-    if (column == columns || grid_.x[column] >= right.x) return;
-    const double slope = (right.along - left.along) / (right.x - left.x);
-    for (; column < columns && grid_.x[column] < right.x; ++column) {
-      crossings.push_back({row, static_cast<std::uint32_t>(column), index, faces_up ? -1 : 1,
-                           left.along + slope * (grid_.x[column] - left.x)});
+    const double slope = right.x > left.x ? (right.along - left.along) / (right.x - left.x) : 0.0;
+    std::size_t first = range.left;
+    std::size_t last = range.right;
+    if (last - first > kFewColumns) {
+      first = grid_.FirstColumn(left.x);
+      last = grid_.FirstColumn(right.x);
     }
-  }
-
-  // The first column that is not left of x; few steps from the first that may be.
-  [[nodiscard]] std::size_t FirstColumn(std::size_t column, double x) const {
-    constexpr std::size_t kFew = 8;
-    for (std::size_t step = 0; step < kFew; ++step, ++column) {
-      if (column == grid_.x.size() || grid_.x[column] >= x) return column;
+    if (found.list.size() < found.count + (last - first)) {
+      found.list.resize(2 * found.list.size() + (last - first));
     }
-    return grid_.FirstColumn(x);
+    for (std::size_t i = first; i < last; ++i) {
+      const double x = grid_.x[i];
+      found.list[found.count] = {row, static_cast<std::uint32_t>(i), range.triangle,
+                                 faces_up ? -1 : 1, left.along + slope * (x - left.x)};
+      found.count += (left.x <= x) & (x < right.x) ? 1 : 0;
+    }
   }
 
   const ColumnGrid& grid_;
@@ -132,10 +158,7 @@ ColumnCaster::ColumnCaster(std::span<const Eigen::Vector3d> points,
       columns_(grid.x.size()) {
   const TriangleCaster caster(points, grid, axes, pool);
   pool.ForChunks(triangles.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
-    std::vector<ColumnCrossing> found;
-    for (std::size_t t = begin; t < end; ++t) {
-      caster.Cross(static_cast<std::uint32_t>(t), triangles[t], found);
-    }
+    const std::vector<ColumnCrossing> found = caster.Cross(triangles, begin, end);
     Chunk& chunk = chunks_[begin / kTrianglesPerChunk];
     chunk.begin.assign(grid.y.size() + 1, 0);
     for (const ColumnCrossing& crossing : found) ++chunk.begin[crossing.row + 1];

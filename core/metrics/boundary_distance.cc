@@ -285,7 +285,7 @@ double BoundaryDistance::Slide(const Eigen::Vector3d& point_m, const CreasePoint
       share *= 0.4;
       continue;
     }
-    const bool is_settled = distance > best - 0.1 * tolerance_m_;
+    const bool is_settled = distance > best - tolerance_m_;
     at = next;
     best = distance;
     if (is_settled) break;

@@ -24,7 +24,7 @@ constexpr double kGridErrorM = 1e-7;
 // cloth engine's thickness and float rounding cannot tell from touching.
 constexpr double kOutM = 1e-4;
 // Points at which the solids' surfaces are looked at for creases: 2 to 3 cm apart on a body.
-constexpr int kCreaseGridPoints = 5'000;
+constexpr int kCreaseGridPoints = 4'000;
 
 template <typename AnyMetrics>
 void PutVolumeRatios(const PartVolumes& volumes, AnyMetrics& metrics) {

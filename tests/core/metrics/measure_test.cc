@@ -177,10 +177,14 @@ TEST(MeasurePartsTest, OnlyTheFittedSurfaceAndVerticesCount) {
   EXPECT_GT(m.hausdorff, 100 * (1.4 - 0.5) / diagonal - 0.5);
 }
 
+mesh::BodyMesh ClosedMesh(const FittedSurface& surface) {
+  return test_shapes::MeshOf(surface.points_m, {surface.fitted().begin(), surface.fitted().end()});
+}
+
 TEST(FittedSurfaceTest, IsClosedByAFanOverEachCut) {
-  const FittedSurface surface = MakeFittedSurface(Tower(), {});
-  EXPECT_FALSE(surface.is_whole);
-  const mesh::BodyMesh closed = test_shapes::MeshOf(surface.points_m, surface.triangles);
+  const FittedSurface surface = MakeFittedSurface(Tower(), {}, SingleThread());
+  EXPECT_FALSE(surface.is_whole());
+  const mesh::BodyMesh closed = ClosedMesh(surface);
   EXPECT_NEAR(closed.volume(), 2.0, 1e-12);
   EXPECT_NEAR(surface.box.diagonal().norm(), std::sqrt(6.0), 1e-12);
   EXPECT_NEAR(test_shapes::WindingNumber(closed, {0.1, 1.9, 0.2}), 1.0, 1e-9);
@@ -192,15 +196,15 @@ TEST(FittedSurfaceTest, TwoCutsHaveAFanEach) {
   for (std::size_t v = 0; v < body.vertex_segments.size(); ++v) {
     if (body.mesh.vertices()[v].y() < 0.5) body.vertex_segments[v] = Segment::kLeftFoot;
   }
-  const FittedSurface surface = MakeFittedSurface(body, {});
+  const FittedSurface surface = MakeFittedSurface(body, {}, SingleThread());
   EXPECT_EQ(surface.points_m.size(), body.mesh.vertices().size() + 2);
-  EXPECT_NEAR(test_shapes::MeshOf(surface.points_m, surface.triangles).volume(), 1.0, 1e-12);
+  EXPECT_NEAR(ClosedMesh(surface).volume(), 1.0, 1e-12);
 }
 
 TEST(FittedSurfaceTest, AllPartsAreTheWholeBody) {
-  const FittedSurface surface = MakeFittedSurface(Tower(), kAllParts);
-  EXPECT_TRUE(surface.is_whole);
-  EXPECT_EQ(surface.skin_count, surface.triangles.size());
+  const FittedSurface surface = MakeFittedSurface(Tower(), kAllParts, SingleThread());
+  EXPECT_TRUE(surface.is_whole());
+  EXPECT_EQ(surface.skin().size(), surface.triangles.size());
 }
 
 // Against points thrown at random, judged by solid angles and the solids' own distances.
