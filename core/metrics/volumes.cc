@@ -73,10 +73,14 @@ Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
     }
     total.mirror_xor += grid.cell_area() * row.mirror_xor;
   }
+  double set_by_columns = 0.0;
   for (std::size_t p = 0; p < total.parts.size(); ++p) {
+    set_by_columns += total.parts[p].set;
     Correct(exact_flux[p], total.parts[p]);
+    Add(total.parts[p], 1.0, total.all);
   }
-  for (const PartVolumes& part : total.parts) Add(part, 1.0, total.all);
+  // What columns miss of the set they miss of its image as well.
+  if (set_by_columns > 0.0) total.mirror_xor *= total.all.set / set_by_columns;
   return total;
 }
 
