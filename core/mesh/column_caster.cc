@@ -183,10 +183,4 @@ std::vector<ColumnCrossing> ColumnCaster::Row(std::size_t row) const {
   return crossings;
 }
 
-std::size_t ColumnCaster::crossing_count() const {
-  std::size_t count = 0;
-  for (const Chunk& chunk : chunks_) count += chunk.crossings.size();
-  return count;
-}
-
 }  // namespace capfit::mesh

@@ -83,7 +83,6 @@ class ColumnCaster {
   // The crossings of one row, by column, then along it; where several lie at one place, those into
   // the body come first.
   [[nodiscard]] std::vector<ColumnCrossing> Row(std::size_t row) const;
-  [[nodiscard]] std::size_t crossing_count() const;
 
  private:
   // The crossings of some triangles, by row.
