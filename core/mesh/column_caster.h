@@ -84,6 +84,14 @@ class ColumnCaster {
   // the body come first.
   [[nodiscard]] std::vector<ColumnCrossing> Row(std::size_t row) const;
 
+  // visit(crossing) for all crossings, in an order that is always the same.
+  template <typename Visit>
+  void ForEach(const Visit& visit) const {
+    for (const Chunk& chunk : chunks_) {
+      for (const ColumnCrossing& crossing : chunk.crossings) visit(crossing);
+    }
+  }
+
  private:
   // The crossings of some triangles, by row.
   struct Chunk {
