@@ -23,14 +23,18 @@ inline std::size_t FirstAt(const std::vector<double>& places, double low, double
   return first;
 }
 
-// A point as the columns see it. The first column and row that are not below it tell what lies
-// between which of them without the coordinates.
+// The first column and row that are not below a point: these tell what lies between which of them
+// without the coordinates.
+struct GridPlace {
+  std::uint32_t column = 0;
+  std::uint32_t row = 0;
+};
+
+// A point as the columns see it.
 struct GridPoint {
   double x = 0.0;
   double y = 0.0;
   double along = 0.0;
-  std::uint32_t column = 0;
-  std::uint32_t row = 0;
 };
 
 // Where a triangle's edge passes a row.
@@ -43,12 +47,13 @@ class TriangleCaster {
  public:
   TriangleCaster(std::span<const Eigen::Vector3d> points, const ColumnGrid& grid,
                  const ColumnCaster::Axes& axes, const ThreadPool& pool)
-      : grid_(grid), points_(points.size()) {
+      : grid_(grid), points_(points.size()), places_(points.size()) {
     pool.ForChunks(points.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const double x = points[i][axes[0]];
         const double y = points[i][axes[1]];
-        points_[i] = {x, y, points[i][axes[2]], static_cast<std::uint32_t>(grid.FirstColumn(x)),
+        points_[i] = {x, y, points[i][axes[2]]};
+        places_[i] = {static_cast<std::uint32_t>(grid.FirstColumn(x)),
                       static_cast<std::uint32_t>(grid.FirstRow(y))};
       }
     });
@@ -61,9 +66,9 @@ class TriangleCaster {
     std::vector<Range> ranges(end - begin);
     std::size_t count = 0;
     for (std::size_t t = begin; t < end; ++t) {
-      const GridPoint& a = points_[triangles[t][0]];
-      const GridPoint& b = points_[triangles[t][1]];
-      const GridPoint& c = points_[triangles[t][2]];
+      const GridPlace a = places_[triangles[t][0]];
+      const GridPlace b = places_[triangles[t][1]];
+      const GridPlace c = places_[triangles[t][2]];
       const Range range = {static_cast<std::uint32_t>(t), std::min({a.row, b.row, c.row}),
                            std::max({a.row, b.row, c.row}),
                            std::min({a.column, b.column, c.column}),
@@ -111,7 +116,7 @@ class TriangleCaster {
     constexpr std::array<std::uint8_t, 8> kLone = {0, 0, 1, 2, 2, 1, 0, 0};  // by corners above
     std::size_t above = 0;
     // A row at the height of a point takes it for below.
-    for (std::size_t k = 0; k < 3; ++k) above |= (row < points_[triangle[k]].row ? 1u : 0u) << k;
+    for (std::size_t k = 0; k < 3; ++k) above |= (row < places_[triangle[k]].row ? 1u : 0u) << k;
     const std::size_t lone = kLone[above];
     const std::uint32_t corner = triangle[lone];
     const double y = grid_.y[row];
@@ -144,6 +149,7 @@ class TriangleCaster {
 
   const ColumnGrid& grid_;
   std::vector<GridPoint> points_;
+  std::vector<GridPlace> places_;  // of each point
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ using geometry::TaperedCapsule;
 constexpr double kHiddenShare = 1e-6;
 // Halvings between a grid's exposed and hidden point: 10 mm become 0.04 mm.
 constexpr int kHalvings = 8;
-constexpr int kSlides = 10;
+constexpr int kSlides = 6;
 constexpr double kFewestAround = 12.0;
 constexpr double kFewestRings = 4.0;
 constexpr std::size_t kPointsPerChunk = 512;

@@ -128,9 +128,17 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
   surface.points_m.assign(body.mesh.vertices().begin(), body.mesh.vertices().end());
   std::vector<Part> part_of(surface.points_m.size());
   std::vector<std::uint8_t> selected(part_of.size());
+  std::array<Part, body::kSegmentCount> part_of_segment{};
+  std::array<std::uint8_t, body::kSegmentCount> is_selected{};
+  for (std::size_t s = 0; s < part_of_segment.size(); ++s) {
+    part_of_segment[s] = body::PartOf(static_cast<body::Segment>(s));
+    is_selected[s] = parts.Includes(part_of_segment[s]) ? 1 : 0;
+  }
+  surface.vertices.reserve(part_of.size());
   for (std::uint32_t v = 0; v < part_of.size(); ++v) {
-    part_of[v] = body::PartOf(body.vertex_segments[v]);
-    selected[v] = parts.Includes(part_of[v]) ? 1 : 0;
+    const auto segment = static_cast<std::size_t>(body.vertex_segments[v]);
+    part_of[v] = part_of_segment[segment];
+    selected[v] = is_selected[segment];
     if (selected[v] != 0) surface.vertices.push_back(v);
   }
   const auto is_skin = [&](const mesh::Triangle& t) {
