@@ -9,18 +9,14 @@
 
 namespace capfit::metrics {
 
-// A point of the surface by the arc length along its profile, from a's pole over the slant to b's,
-// and the angle around the axis.
+// Points of the surface by the arc length along its profile, from a's pole over the slant to b's,
+// and the angle around the axis: the ring's centre + its radius * Outward(angle).
 class RevolvedSurface {
  public:
   explicit RevolvedSurface(const geometry::TaperedCapsule& solid);
 
   [[nodiscard]] double profile_length_m() const { return slant_end_ + arc_b_; }
   [[nodiscard]] double largest_radius_m() const;
-  [[nodiscard]] Eigen::Vector3d At(double arc_length_m, double angle_rad) const {
-    const Ring ring = RingAt(arc_length_m);
-    return ring.center_m + ring.radius_m * Outward(angle_rad);
-  }
 
   // All points at one arc length.
   struct Ring {

@@ -24,6 +24,11 @@ double At(const BoundaryDistance& boundary, const Vector3d& point) {
   return std::abs(boundary.SignedAt({&point, 1}, OneThread())[0]);
 }
 
+Vector3d PointAt(const RevolvedSurface& surface, double arc_length, double angle) {
+  const RevolvedSurface::Ring ring = surface.RingAt(arc_length);
+  return ring.center_m + ring.radius_m * surface.Outward(angle);
+}
+
 double LeastDistance(const std::vector<TaperedCapsule>& solids, const Vector3d& point) {
   double least = std::numeric_limits<double>::infinity();
   for (const TaperedCapsule& solid : solids) {
@@ -54,11 +59,11 @@ TEST(RevolvedSurfaceTest, LiesOnTheSolidAndReachesItsPoles) {
                                       TaperedCapsule({{1, 2, 3}, 0.4}, {{1, 2, 3}, 0.4})}) {
     const RevolvedSurface surface(solid);
     for (int i = 0; i <= 40; ++i) {
-      const Vector3d point = surface.At(surface.profile_length_m() * i / 40, 0.7 * i);
+      const Vector3d point = PointAt(surface, surface.profile_length_m() * i / 40, 0.7 * i);
       EXPECT_NEAR(solid.SignedDistance(point), 0.0, 1e-12);
     }
-    const Vector3d first = surface.At(0, 0);
-    const Vector3d last = surface.At(surface.profile_length_m(), 0);
+    const Vector3d first = PointAt(surface, 0, 0);
+    const Vector3d last = PointAt(surface, surface.profile_length_m(), 0);
     EXPECT_GT((last - first).dot(solid.axis()), 0.0);
     EXPECT_NEAR((last - first).cross(solid.axis()).norm(), 0.0, 1e-12);
   }
@@ -102,7 +107,7 @@ TEST(BoundaryDistanceTest, AgreesWithADenseCloudOnRandomSets) {
       for (int row = 0; row < 300; ++row) {
         for (int column = 0; column < 300; ++column) {
           const Vector3d point =
-              surface.At(surface.profile_length_m() * (row + 0.5) / 300, 0.0209439 * column);
+              PointAt(surface, surface.profile_length_m() * (row + 0.5) / 300, 0.0209439 * column);
           if (LeastDistance(solids, point) >= -1e-6) cloud.push_back(point);
         }
       }
