@@ -7,37 +7,38 @@
 #include <numbers>
 
 #include "core/metrics/revolved_surface.h"
+#include "core/tighten/distance_kernel.h"
+#include "core/tighten/point_grid.h"
 
 namespace capfit::metrics {
 namespace {
+
+using geometry::TaperedCapsule;
 
 // A surface point counts as hidden when it is deeper in another solid than this share of the set's
 // size; far above rounding, far below what can be seen.
 constexpr double kHiddenShare = 1e-6;
 // Halvings between a grid's exposed and hidden point: 10 mm become 0.04 mm.
 constexpr int kHalvings = 8;
-constexpr int kSlides = 10;
-constexpr int kFewestAround = 12;
+constexpr int kSlides = 6;
+constexpr double kFewestAround = 12.0;
+constexpr double kFewestRings = 4.0;
+constexpr std::size_t kPointsPerChunk = 512;
 
-double SizeOf(std::span<const geometry::TaperedCapsule> solids) {
+double SizeOf(const std::vector<TaperedCapsule>& solids) {
   Eigen::AlignedBox3d box;
-  double radius = 0.0;
-  for (const geometry::TaperedCapsule& solid : solids) {
-    box.extend(solid.a().center_m);
-    box.extend(solid.b().center_m);
-    radius = std::max({radius, solid.a().radius_m, solid.b().radius_m});
-  }
-  return solids.empty() ? 0.0 : box.diagonal().norm() + 2.0 * radius;
+  for (const TaperedCapsule& solid : solids) box.extend(BoxOf(solid));
+  return solids.empty() ? 0.0 : box.diagonal().norm();
 }
 
-double GridArea(const geometry::TaperedCapsule& solid) {
+double GridArea(const TaperedCapsule& solid) {
   const RevolvedSurface surface(solid);
   return surface.profile_length_m() * 2.0 * std::numbers::pi * surface.largest_radius_m();
 }
 
 // The point near `start` that is on both surfaces: Newton, least movement.
-Eigen::Vector3d OnBoth(const geometry::TaperedCapsule& first,
-                       const geometry::TaperedCapsule& second, Eigen::Vector3d point) {
+Eigen::Vector3d OnBoth(const TaperedCapsule& first, const TaperedCapsule& second,
+                       Eigen::Vector3d point) {
   for (int step = 0; step < 3; ++step) {
     const geometry::CapsuleDistance a = first.Locate(point);
     const geometry::CapsuleDistance b = second.Locate(point);
@@ -50,15 +51,54 @@ Eigen::Vector3d OnBoth(const geometry::TaperedCapsule& first,
   return point;
 }
 
+// A solid is all balls along its axis. Between the balls looked at, neither their depth in the
+// other solid nor their radius can change by more than the way to them.
+bool MayTouch(const TaperedCapsule& solid, const TaperedCapsule& other) {
+  constexpr int kSteps = 6;
+  const Eigen::Vector3d way = solid.b().center_m - solid.a().center_m;
+  const double widening = solid.b().radius_m - solid.a().radius_m;
+  const double slack = (way.norm() + std::abs(widening)) / (2 * kSteps);
+  for (int step = 0; step <= kSteps; ++step) {
+    const double t = static_cast<double>(step) / kSteps;
+    const double radius = solid.a().radius_m + t * widening;
+    if (other.SignedDistance(solid.a().center_m + t * way) <= radius + slack) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-BoundaryDistance::BoundaryDistance(const UnionDistance& set, int grid_points,
+Eigen::AlignedBox3d BoxOf(const TaperedCapsule& solid) {
+  Eigen::AlignedBox3d box;
+  for (const geometry::Sphere& end : {solid.a(), solid.b()}) {
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(end.radius_m);
+    box.extend(Eigen::Vector3d(end.center_m - reach));
+    box.extend(Eigen::Vector3d(end.center_m + reach));
+  }
+  return box;
+}
+
+struct BoundaryDistance::SurfaceGrid {
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+  // By point, rows one after the other.
+  std::vector<double> x, y, z;
+  std::vector<double> depth;    // signed distance to the nearest of the other solids ...
+  std::vector<double> nearest;  // ... and its index
+
+  [[nodiscard]] Eigen::Vector3d point(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  // Takes in another solid.
+  void Lower(const tighten::DistanceKernel& solid, double index);
+};
+
+BoundaryDistance::BoundaryDistance(const std::vector<TaperedCapsule>& solids, int grid_points,
                                    const ThreadPool& pool)
-    : set_(set), tolerance_m_(kHiddenShare * SizeOf(set.solids())) {
+    : solids_(solids), tolerance_m_(kHiddenShare * SizeOf(solids)) {
+  FindNeighbours(pool);
   double area = 0.0;
-  for (const geometry::TaperedCapsule& solid : set_.solids()) area += GridArea(solid);
+  for (const TaperedCapsule& solid : solids_) area += GridArea(solid);
   const double spacing_m = std::sqrt(area / grid_points);
-  std::vector<std::vector<CreasePoint>> found(set_.solids().size());
+  std::vector<std::vector<CreasePoint>> found(solids_.size());
   pool.ForEach(found.size(), [&](std::size_t i) { FindCreases(i, spacing_m, found[i]); });
   for (const std::vector<CreasePoint>& points : found) {
     creases_.insert(creases_.end(), points.begin(), points.end());
@@ -67,76 +107,170 @@ BoundaryDistance::BoundaryDistance(const UnionDistance& set, int grid_points,
   Sort(0, creases_.size());
 }
 
-bool BoundaryDistance::IsExposed(const Eigen::Vector3d& point_m) const {
-  return set_.At(point_m, -tolerance_m_).distance_m >= -tolerance_m_;
+void BoundaryDistance::FindNeighbours(const ThreadPool& pool) {
+  neighbours_.resize(solids_.size());
+  pool.ForEach(solids_.size(), [&](std::size_t i) {
+    for (std::size_t k = 0; k < solids_.size(); ++k) {
+      if (k == i || !MayTouch(solids_[i], solids_[k])) continue;
+      neighbours_[i].push_back(static_cast<std::int32_t>(k));
+    }
+  });
+}
+
+bool BoundaryDistance::IsExposed(const Eigen::Vector3d& point_m, std::int32_t solid) const {
+  const std::vector<std::int32_t>& others = neighbours_[static_cast<std::size_t>(solid)];
+  return std::all_of(others.begin(), others.end(),
+                     [&](std::int32_t other) { return DepthAt(point_m, other) >= -tolerance_m_; });
+}
+
+double BoundaryDistance::DepthAt(const Eigen::Vector3d& point_m, std::int32_t solid) const {
+  return solids_[static_cast<std::size_t>(solid)].SignedDistance(point_m);
+}
+
+// Free of branches, so that it vectorises.
+void BoundaryDistance::SurfaceGrid::Lower(const tighten::DistanceKernel& solid, double index) {
+  double* const best = depth.data();
+  double* const which = nearest.data();
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const double distance = solid.SignedDistance(x[i], y[i], z[i]);
+    which[i] = distance < best[i] ? index : which[i];
+    best[i] = distance < best[i] ? distance : best[i];
+  }
+}
+
+BoundaryDistance::SurfaceGrid BoundaryDistance::MakeGrid(std::size_t solid,
+                                                         double spacing_m) const {
+  const RevolvedSurface surface(solids_[solid]);
+  const double around_m = 2.0 * std::numbers::pi * surface.largest_radius_m();
+  const auto steps = [spacing_m](double length, double least) {
+    return static_cast<std::size_t>(std::max(least, std::ceil(length / spacing_m)));
+  };
+  SurfaceGrid grid;
+  if (!(around_m > 0.0)) return grid;
+  grid.columns = steps(around_m, kFewestAround);
+  grid.rows = steps(surface.profile_length_m(), kFewestRings);
+  std::vector<Eigen::Vector3d> outward;
+  for (std::size_t k = 0; k < grid.columns; ++k) {
+    outward.push_back(surface.Outward(2.0 * std::numbers::pi * static_cast<double>(k) /
+                                      static_cast<double>(grid.columns)));
+  }
+  const std::size_t count = grid.rows * grid.columns;
+  for (std::vector<double>* axis : {&grid.x, &grid.y, &grid.z}) axis->reserve(count);
+  for (std::size_t row = 0; row < grid.rows; ++row) {
+    const RevolvedSurface::Ring ring =
+        surface.RingAt(surface.profile_length_m() * (static_cast<double>(row) + 0.5) /
+                       static_cast<double>(grid.rows));
+    for (const Eigen::Vector3d& direction : outward) {
+      const Eigen::Vector3d point = ring.center_m + ring.radius_m * direction;
+      grid.x.push_back(point.x());
+      grid.y.push_back(point.y());
+      grid.z.push_back(point.z());
+    }
+  }
+  grid.depth.assign(count, std::numeric_limits<double>::infinity());
+  grid.nearest.assign(count, -1.0);
+  for (const std::int32_t other : neighbours_[solid]) {
+    grid.Lower(tighten::DistanceKernel(solids_[static_cast<std::size_t>(other)]), other);
+  }
+  return grid;
 }
 
 void BoundaryDistance::FindCreases(std::size_t solid, double spacing_m,
                                    std::vector<CreasePoint>& found) const {
-  const RevolvedSurface surface(set_.solids()[solid]);
-  const double around_m = 2.0 * std::numbers::pi * surface.largest_radius_m();
-  if (!(around_m > 0.0)) return;
-  const int columns = std::max(kFewestAround, static_cast<int>(std::ceil(around_m / spacing_m)));
-  const int rows = std::max(4, static_cast<int>(std::ceil(surface.profile_length_m() / spacing_m)));
-  const auto place = [&](int row, int column) {
-    return Eigen::Vector2d(surface.profile_length_m() * (row + 0.5) / rows,
-                           2.0 * std::numbers::pi * column / columns);
+  const SurfaceGrid grid = MakeGrid(solid, spacing_m);
+  const auto is_exposed = [&](std::size_t i) { return grid.depth[i] >= -tolerance_m_; };
+  const auto visit = [&](std::size_t p, std::size_t q) {
+    if (is_exposed(p) == is_exposed(q)) return;
+    if (!is_exposed(p)) std::swap(p, q);
+    found.push_back(Between({grid.point(p), static_cast<std::int32_t>(solid),
+                             static_cast<std::int32_t>(grid.nearest[q])},
+                            grid.point(q)));
   };
-  std::vector<bool> above;
-  std::vector<bool> exposed(static_cast<std::size_t>(columns));
-  const auto visit = [&](const Eigen::Vector2d& p, bool is_p, const Eigen::Vector2d& q, bool is_q) {
-    if (is_p != is_q) found.push_back(is_p ? Bisect(solid, p, q) : Bisect(solid, q, p));
-  };
-  for (int row = 0; row < rows; ++row) {
-    for (int k = 0; k < columns; ++k) {
-      const Eigen::Vector2d at = place(row, k);
-      exposed[k] = IsExposed(surface.At(at.x(), at.y()));
+  for (std::size_t row = 0; row < grid.rows; ++row) {
+    for (std::size_t k = 0; k < grid.columns; ++k) {
+      const std::size_t at = row * grid.columns + k;
+      visit(at, row * grid.columns + (k + 1) % grid.columns);
+      if (row > 0) visit(at - grid.columns, at);
     }
-    for (int k = 0; k < columns; ++k) {
-      // The neighbour beyond the last column is the first, one turn further.
-      visit(place(row, k), exposed[k], place(row, k + 1), exposed[(k + 1) % columns]);
-      if (row > 0) visit(place(row - 1, k), above[k], place(row, k), exposed[k]);
-    }
-    above = exposed;
   }
 }
 
-BoundaryDistance::CreasePoint BoundaryDistance::Bisect(std::size_t solid, Eigen::Vector2d exposed,
-                                                       Eigen::Vector2d hidden) const {
-  const RevolvedSurface surface(set_.solids()[solid]);
-  CreasePoint result;
-  result.on = static_cast<std::int32_t>(solid);
-  result.under = set_.At(surface.At(hidden.x(), hidden.y())).solid;
+BoundaryDistance::CreasePoint BoundaryDistance::Between(const CreasePoint& exposed,
+                                                        Eigen::Vector3d hidden) const {
+  const TaperedCapsule& on = solids_[static_cast<std::size_t>(exposed.on)];
+  const TaperedCapsule& under = solids_[static_cast<std::size_t>(exposed.under)];
+  const double apart = (hidden - exposed.position_m).norm();
+  CreasePoint result = exposed;
+  result.position_m = OnBoth(on, under, 0.5 * (exposed.position_m + hidden));
+  if ((result.position_m - exposed.position_m).norm() < apart &&
+      std::abs(on.SignedDistance(result.position_m)) < tolerance_m_ &&
+      IsExposed(result.position_m, result.on)) {
+    return result;
+  }
+  // A third solid lies here, or the surfaces hardly cross: halve the way.
+  result = exposed;
   for (int i = 0; i < kHalvings; ++i) {
-    const Eigen::Vector2d middle = 0.5 * (exposed + hidden);
-    const UnionDistance::Nearest nearest = set_.At(surface.At(middle.x(), middle.y()));
-    if (nearest.distance_m >= -tolerance_m_) {
-      exposed = middle;
+    const Eigen::Vector3d between = 0.5 * (result.position_m + hidden);
+    const geometry::CapsuleDistance off = on.Locate(between);
+    const Eigen::Vector3d middle = between - off.distance_m * off.normal;
+    std::int32_t deepest = -1;
+    double depth = -tolerance_m_;
+    for (const std::int32_t other : neighbours_[static_cast<std::size_t>(exposed.on)]) {
+      const double here = DepthAt(middle, other);
+      if (here >= depth) continue;
+      depth = here;
+      deepest = other;
+    }
+    if (deepest < 0) {
+      result.position_m = middle;
     } else {
       hidden = middle;
-      result.under = nearest.solid;
+      result.under = deepest;
     }
   }
-  result.position_m = surface.At(exposed.x(), exposed.y());
   return result;
 }
 
-double BoundaryDistance::SignedAt(const Eigen::Vector3d& point_m) const {
-  const UnionDistance::Nearest nearest = set_.At(point_m);
-  if (nearest.distance_m >= 0.0) return nearest.distance_m;
-  const geometry::CapsuleDistance deepest = set_.solids()[nearest.solid].Locate(point_m);
-  const double depth = -nearest.distance_m;
-  const Eigen::Vector3d foot = point_m + depth * deepest.normal;
-  if (creases_.empty() || IsExposed(foot)) return -depth;
+std::vector<double> BoundaryDistance::SignedAt(std::span<const Eigen::Vector3d> points_m,
+                                               const ThreadPool& pool) const {
+  constexpr double kAnyDepth = -std::numeric_limits<double>::infinity();
+  std::vector<double> distances(points_m.size(), std::numeric_limits<double>::infinity());
+  if (solids_.empty()) return distances;
+  const tighten::PointGrid grid(points_m);
+  const tighten::UnionDistances nearest = grid.DistancesTo(solids_, kAnyDepth, pool);
+  // The nearest points of the solids that are nearest, in the grid's order.
+  std::vector<Eigen::Vector3d> feet_m(grid.size());
+  pool.ForChunks(grid.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const geometry::CapsuleDistance at =
+          solids_[static_cast<std::size_t>(nearest.solid[i])].Locate(grid.point(i));
+      distances[grid.order()[i]] = at.distance_m;
+      feet_m[i] = grid.point(i) - at.distance_m * at.normal;
+    }
+  });
+  if (creases_.empty()) return distances;
+  const tighten::PointGrid feet(feet_m);
+  const tighten::UnionDistances depths = feet.DistancesTo(solids_, -tolerance_m_, pool);
+  pool.ForChunks(feet.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t index = grid.order()[feet.order()[i]];
+      if (depths.distance_m[i] >= -tolerance_m_ || distances[index] >= 0.0) continue;
+      distances[index] = std::min(distances[index], -ToCrease(points_m[index]));
+    }
+  });
+  return distances;
+}
+
+double BoundaryDistance::ToCrease(const Eigen::Vector3d& point_m) const {
   double squared_best = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
   Search(point_m, 0, creases_.size(), squared_best, best);
-  return -std::max(depth, Slide(point_m, creases_[best]));
+  return Slide(point_m, creases_[best]);
 }
 
 double BoundaryDistance::Slide(const Eigen::Vector3d& point_m, const CreasePoint& start) const {
-  const geometry::TaperedCapsule& on = set_.solids()[start.on];
-  const geometry::TaperedCapsule& under = set_.solids()[start.under];
+  const TaperedCapsule& on = solids_[static_cast<std::size_t>(start.on)];
+  const TaperedCapsule& under = solids_[static_cast<std::size_t>(start.under)];
   Eigen::Vector3d at = start.position_m;
   double best = (point_m - at).norm();
   double share = 1.0;  // of the step to take; less after one that led off the boundary
@@ -147,11 +281,11 @@ double BoundaryDistance::Slide(const Eigen::Vector3d& point_m, const CreasePoint
     const Eigen::Vector3d next = OnBoth(on, under, at + step);
     const double distance = (point_m - next).norm();
     // Every step taken ends on the boundary, so the result is never too small.
-    if (distance >= best || !IsExposed(next)) {
+    if (distance >= best || !IsExposed(next, start.on)) {
       share *= 0.4;
       continue;
     }
-    const bool is_settled = distance > best - 0.1 * tolerance_m_;
+    const bool is_settled = distance > best - tolerance_m_;
     at = next;
     best = distance;
     if (is_settled) break;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <tuple>
 
 #include "core/base/random.h"
 
@@ -19,79 +19,6 @@ constexpr std::uint64_t kColumnSeed = 20'180'000;
 // meshes whose vertices lie in rows, and costs no exactness that can be seen.
 constexpr double kJitter = 0.05;
 
-// Index of the first of the places (one in each cell) that is >= at.
-std::size_t FirstAt(const std::vector<double>& places, double low, double step, double at) {
-  const double cell = std::floor((at - low) / step);
-  if (cell < 0.0) return 0;
-  if (cell >= static_cast<double>(places.size())) return places.size();
-  auto first = static_cast<std::size_t>(cell);
-  // Rounding may have named the cell before or after.
-  while (first > 0 && places[first - 1] >= at) --first;
-  while (first < places.size() && places[first] < at) ++first;
-  return first;
-}
-
-// Where a triangle's edge passes a row.
-struct EdgeCrossing {
-  double x = 0.0;
-  double z = 0.0;
-};
-
-// The same bits from both triangles at the edge: the end with the lower index comes first.
-EdgeCrossing CrossRow(std::span<const Eigen::Vector3d> points, std::uint32_t from, std::uint32_t to,
-                      double y) {
-  const Eigen::Vector3d& a = points[std::min(from, to)];
-  const Eigen::Vector3d& b = points[std::max(from, to)];
-  const double t = (y - a.y()) / (b.y() - a.y());
-  return {a.x() + t * (b.x() - a.x()), a.z() + t * (b.z() - a.z())};
-}
-
-// Where a column passes the surface.
-struct SurfaceCrossing {
-  std::uint32_t column = 0;
-  double z = 0.0;
-  std::int8_t turn = 0;  // what it adds to the winding number: +1 into the body, -1 out of it
-  std::uint8_t label = 0;
-  bool is_body = true;
-  bool is_fitted = true;
-};
-
-bool IsBelow(const SurfaceCrossing& a, const SurfaceCrossing& b) {
-  if (a.column != b.column) return a.column < b.column;
-  if (a.z != b.z) return a.z < b.z;
-  return a.turn != b.turn ? a.turn > b.turn : a.label < b.label;
-}
-
-// Appends the crossings of one row with the triangle; `crossing` tells its label and surfaces.
-void CrossTriangle(std::span<const Eigen::Vector3d> points, const mesh::Triangle& triangle,
-                   const ColumnGrid& grid, std::size_t row, SurfaceCrossing crossing,
-                   std::vector<SurfaceCrossing>& crossings) {
-  const double y = grid.y[row];
-  std::optional<EdgeCrossing> up;
-  std::optional<EdgeCrossing> down;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t from = triangle[k];
-    const std::uint32_t to = triangle[(k + 1) % 3];
-    const bool is_from_above = points[from].y() > y;
-    const bool is_to_above = points[to].y() > y;
-    if (is_from_above == is_to_above) continue;
-    (is_to_above ? up : down) = CrossRow(points, from, to, y);
-  }
-  if (!up || !down) return;
-  // Counter-clockwise as seen from +z: the upward edge is on the right, the normal faces +z, and a
-  // column that rises along z leaves the body there.
-  const bool faces_up = down->x < up->x;
-  const EdgeCrossing& left = faces_up ? *down : *up;
-  const EdgeCrossing& right = faces_up ? *up : *down;
-  const double slope = right.x > left.x ? (right.z - left.z) / (right.x - left.x) : 0.0;
-  crossing.turn = faces_up ? -1 : 1;
-  for (std::size_t i = grid.FirstColumn(left.x); i < grid.x.size() && grid.x[i] < right.x; ++i) {
-    crossing.column = static_cast<std::uint32_t>(i);
-    crossing.z = left.z + slope * (grid.x[i] - left.x);
-    crossings.push_back(crossing);
-  }
-}
-
 // Adds an interval; two halves where its ends have different labels.
 void AddPiece(std::uint32_t column, const Interval& interval, std::int32_t begin_label,
               std::int32_t end_label, std::vector<RowIntervals::Piece>& pieces) {
@@ -104,20 +31,23 @@ void AddPiece(std::uint32_t column, const Interval& interval, std::int32_t begin
   pieces.push_back({column, {middle, interval.end}, end_label});
 }
 
-// The intervals between sorted crossings of one of the two surfaces.
-RowIntervals Inside(const std::vector<SurfaceCrossing>& crossings, bool SurfaceCrossing::*is_on,
+// The intervals between sorted crossings, of those with the triangles [begin, end).
+RowIntervals Inside(const std::vector<mesh::ColumnCrossing>& crossings,
+                    const std::vector<body::Part>& parts, std::size_t begin, std::size_t end,
                     std::size_t columns) {
   std::vector<RowIntervals::Piece> pieces;
   pieces.reserve(crossings.size());
   int winding = 0;
-  const SurfaceCrossing* begin = nullptr;
-  for (const SurfaceCrossing& crossing : crossings) {
-    if (!(crossing.*is_on)) continue;
+  const mesh::ColumnCrossing* entered = nullptr;
+  for (const mesh::ColumnCrossing& crossing : crossings) {
+    if (crossing.triangle < begin || crossing.triangle >= end) continue;
     const int before = winding;
     winding += crossing.turn;  // back at 0 after the last crossing of each column: closed surface
-    if (before == 0) begin = &crossing;
+    if (before == 0) entered = &crossing;
     if (winding == 0) {
-      AddPiece(crossing.column, {begin->z, crossing.z}, begin->label, crossing.label, pieces);
+      AddPiece(crossing.column, {entered->along, crossing.along},
+               static_cast<std::int32_t>(parts[entered->triangle]),
+               static_cast<std::int32_t>(parts[crossing.triangle]), pieces);
     }
   }
   return {pieces, columns};
@@ -139,9 +69,6 @@ std::vector<RowIntervals::Piece> MakeDisjoint(const std::vector<RowIntervals::Pi
 }
 
 }  // namespace
-
-std::size_t ColumnGrid::FirstColumn(double at) const { return FirstAt(x, low_x, step_x, at); }
-std::size_t ColumnGrid::FirstRow(double at) const { return FirstAt(y, low_y, step_y, at); }
 
 ColumnGrid MakeColumnGrid(const Eigen::AlignedBox3d& box, int columns) {
   const auto count = static_cast<std::size_t>(columns + columns % 2);
@@ -199,77 +126,129 @@ double CommonLength(std::span<const Interval> a, std::span<const Interval> b) {
   return length;
 }
 
-TriangleRows::TriangleRows(std::span<const Eigen::Vector3d> points_m, const BodyTriangles& body,
-                           const ColumnGrid& grid)
-    : points_(points_m), body_(body), grid_(grid), begin_(grid.y.size() + 1, 0) {
-  const std::vector<mesh::Triangle>& triangles = body.triangles;
-  std::vector<std::uint32_t> first(triangles.size());
-  std::vector<std::uint32_t> last(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const double a = points_m[triangles[t][0]].y();
-    const double b = points_m[triangles[t][1]].y();
-    const double c = points_m[triangles[t][2]].y();
-    // A row at the height of a vertex takes it for below.
-    first[t] = static_cast<std::uint32_t>(grid.FirstRow(std::min({a, b, c})));
-    last[t] = first[t];
-    const double top = std::max({a, b, c});
-    while (last[t] < grid.y.size() && grid.y[last[t]] < top) ++begin_[++last[t]];
+BodyRows::Cuts BodyRows::Cut(std::size_t row) const {
+  const std::vector<mesh::ColumnCrossing> crossings = caster_.Row(row);
+  const std::vector<body::Part>& parts = surface_.parts;
+  Cuts cuts{Inside(crossings, parts, 0, surface_.skin_end, columns_),
+            Inside(crossings, parts, surface_.skin_begin, parts.size(), columns_)};
+  for (const mesh::ColumnCrossing& crossing : crossings) {
+    if (crossing.triangle < surface_.skin_begin) continue;
+    const auto part = static_cast<std::size_t>(parts[crossing.triangle]);
+    cuts.fitted_flux[part] -= crossing.turn * (crossing.along - surface_.middle_z[part]);
   }
-  for (std::size_t row = 0; row < grid.y.size(); ++row) begin_[row + 1] += begin_[row];
-  met_.resize(begin_.back());
-  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    for (std::uint32_t row = first[t]; row < last[t]; ++row) met_[next[row]++] = t;
-  }
+  return cuts;
 }
 
-TriangleRows::Cuts TriangleRows::Cut(std::size_t row) const {
-  std::vector<SurfaceCrossing> crossings;
-  crossings.reserve(2 * (begin_[row + 1] - begin_[row]));
-  for (std::uint32_t k = begin_[row]; k < begin_[row + 1]; ++k) {
-    const std::uint32_t t = met_[k];
-    SurfaceCrossing crossing;
-    crossing.label = body_.labels[t];
-    crossing.is_body = t < body_.body_end;
-    crossing.is_fitted = t >= body_.fitted_begin;
-    CrossTriangle(points_, body_.triangles[t], grid_, row, crossing, crossings);
+struct SolidRows::Shape {
+  explicit Shape(const TaperedCapsule& solid)
+      : seen_along_z(Flat(solid.a()), Flat(solid.b())),
+        a(solid.IsSphere() && solid.b().radius_m > solid.a().radius_m ? solid.b() : solid.a()),
+        b(solid.IsSphere() ? a : solid.b()) {
+    low_y = std::min(a.center_m.y() - a.radius_m, b.center_m.y() - b.radius_m);
+    high_y = std::max(a.center_m.y() + a.radius_m, b.center_m.y() + b.radius_m);
+    if (solid.IsSphere()) return;
+    axis = solid.axis();
+    tangent = solid.sin_half_angle() / solid.cos_half_angle();
+    rim = a.radius_m / solid.cos_half_angle();
+    first_axial = a.radius_m * solid.sin_half_angle();
+    last_axial = solid.length_m() + b.radius_m * solid.sin_half_angle();
   }
-  std::sort(crossings.begin(), crossings.end(), IsBelow);
-  return {Inside(crossings, &SurfaceCrossing::is_body, grid_.x.size()),
-          Inside(crossings, &SurfaceCrossing::is_fitted, grid_.x.size())};
-}
 
-RowIntervals CutSolids(std::span<const TaperedCapsule> solids, const ColumnGrid& grid,
-                       std::size_t row) {
-  const double y = grid.y[row];
-  std::vector<RowIntervals::Piece> pieces;
-  for (std::size_t index = 0; index < solids.size(); ++index) {
-    const TaperedCapsule& solid = solids[index];
-    const double low = std::min(solid.a().center_m.y() - solid.a().radius_m,
-                                solid.b().center_m.y() - solid.b().radius_m);
-    const double high = std::max(solid.a().center_m.y() + solid.a().radius_m,
-                                 solid.b().center_m.y() + solid.b().radius_m);
-    if (y <= low || y >= high) continue;
-    // Seen along z, the hull of two balls is the hull of their discs: a capsule in the plane.
-    const auto flat = [](const geometry::Sphere& s) {
-      return geometry::Sphere{{s.center_m.x(), s.center_m.y(), 0.0}, s.radius_m};
-    };
-    const std::optional<Interval> shadow = TaperedCapsule(flat(solid.a()), flat(solid.b()))
-                                               .Intersect({0.0, y, 0.0}, Eigen::Vector3d::UnitX());
-    if (!shadow) continue;
-    for (std::size_t i = grid.FirstColumn(shadow->begin);
-         i < grid.x.size() && grid.x[i] < shadow->end; ++i) {
-      const auto inside = solid.Intersect({grid.x[i], y, 0.0}, Eigen::Vector3d::UnitZ());
-      if (!inside) continue;
-      pieces.push_back({static_cast<std::uint32_t>(i), *inside, static_cast<std::int32_t>(index)});
+  // Seen along z, the hull of two balls is the hull of their discs: a capsule in the plane.
+  static geometry::Sphere Flat(const geometry::Sphere& s) {
+    return {{s.center_m.x(), s.center_m.y(), 0.0}, s.radius_m};
+  }
+
+  // Where columns run inside: the hull of the stretches in either ball and of where they meet the
+  // cone between its tangent circles. begin > end where they miss. Free of branches, so that it
+  // vectorises; a root that does not exist is infinite or not a number, which no comparison takes.
+  void Cut(const double* x, double y, std::size_t count, double* begin, double* end) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const double rate = -tangent * axis.z();  // of the cone's radius along the column
+    const double square = 1.0 - axis.z() * axis.z() - rate * rate;
+    const double ay = y - a.center_m.y();
+    const double by = y - b.center_m.y();
+    for (std::size_t i = 0; i < count; ++i) {
+      const double ax = x[i] - a.center_m.x();
+      const double bx = x[i] - b.center_m.x();
+      const double rest_a = a.radius_m * a.radius_m - ax * ax - ay * ay;
+      const double rest_b = b.radius_m * b.radius_m - bx * bx - by * by;
+      const double half_a = rest_a >= 0.0 ? std::sqrt(rest_a) : -kInfinity;
+      const double half_b = rest_b >= 0.0 ? std::sqrt(rest_b) : -kInfinity;
+      double low = std::min(a.center_m.z() - half_a, b.center_m.z() - half_b);
+      double high = std::max(a.center_m.z() + half_a, b.center_m.z() + half_b);
+      const double axial = ax * axis.x() + ay * axis.y();
+      const double radius = rim - tangent * axial;
+      const double half_linear = -axial * axis.z() - radius * rate;
+      const double constant = ax * ax + ay * ay - axial * axial - radius * radius;
+      const double root = std::sqrt(half_linear * half_linear - square * constant);
+      const double q = -(half_linear + std::copysign(root, half_linear));
+      const auto extend = [&](double t) {
+        const double at = axial + t * axis.z();
+        const bool is_on_cone = at >= first_axial && at <= last_axial;
+        const double z = a.center_m.z() + t;
+        low = is_on_cone && z < low ? z : low;
+        high = is_on_cone && z > high ? z : high;
+      };
+      extend(q / square);
+      extend(constant / q);
+      begin[i] = low;
+      end[i] = high;
     }
   }
-  std::sort(pieces.begin(), pieces.end(),
-            [](const RowIntervals::Piece& a, const RowIntervals::Piece& b) {
-              return std::tie(a.column, a.interval.begin, a.interval.end, a.label) <
-                     std::tie(b.column, b.interval.begin, b.interval.end, b.label);
-            });
-  return {MakeDisjoint(pieces), grid.x.size()};
+
+  TaperedCapsule seen_along_z;
+  geometry::Sphere a;  // for a ball both ends are that ball, and no cone lies between them
+  geometry::Sphere b;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+  double tangent = 0.0;  // of the cone's half angle
+  double rim = 0.0;      // the cone's radius beside a's centre
+  double first_axial = 1.0;
+  double last_axial = -1.0;
+  double low_y = 0.0;
+  double high_y = 0.0;
+};
+
+SolidRows::SolidRows(std::span<const TaperedCapsule> solids, const ColumnGrid& grid)
+    : grid_(grid), shapes_(solids.begin(), solids.end()) {}
+
+SolidRows::~SolidRows() = default;
+
+void SolidRows::CutOne(std::size_t index, std::size_t row,
+                       std::vector<RowIntervals::Piece>& pieces) const {
+  constexpr std::size_t kBatch = 64;
+  const Shape& shape = shapes_[index];
+  const double y = grid_.y[row];
+  if (y <= shape.low_y || y >= shape.high_y) return;
+  const std::optional<Interval> shadow =
+      shape.seen_along_z.Intersect({0.0, y, 0.0}, Eigen::Vector3d::UnitX());
+  if (!shadow) return;
+  const std::size_t last = grid_.FirstColumn(shadow->end);
+  std::array<double, kBatch> begin;
+  std::array<double, kBatch> end;
+  for (std::size_t i = grid_.FirstColumn(shadow->begin); i < last; i += kBatch) {
+    const std::size_t count = std::min(kBatch, last - i);
+    shape.Cut(&grid_.x[i], y, count, begin.data(), end.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!(begin[k] < end[k])) continue;
+      pieces.push_back({static_cast<std::uint32_t>(i + k),
+                        {begin[k], end[k]},
+                        static_cast<std::int32_t>(index)});
+    }
+  }
+}
+
+RowIntervals SolidRows::Cut(std::size_t row) const {
+  std::vector<RowIntervals::Piece> pieces;
+  for (std::size_t index = 0; index < shapes_.size(); ++index) CutOne(index, row, pieces);
+  // Stable: of solids entered at one place the first comes first.
+  mesh::SortByColumn(
+      grid_.x.size(),
+      [](const RowIntervals::Piece& a, const RowIntervals::Piece& b) {
+        return a.interval.begin < b.interval.begin;
+      },
+      pieces);
+  return {MakeDisjoint(pieces), grid_.x.size()};
 }
 
 }  // namespace capfit::metrics

@@ -3,33 +3,23 @@
 #define CAPFIT_CORE_METRICS_COLUMN_GRID_H_
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/geometry/tapered_capsule.h"
-#include "core/mesh/body_mesh.h"
+#include "core/mesh/column_caster.h"
+#include "core/metrics/fitted_surface.h"
 
 namespace capfit::metrics {
 
-// Rows along y of columns along x: columns through (x[i], y[j]), each standing for the same area.
-// Each lies near the middle of its cell, a little off by chance, the same for a whole row or column
-// of them. x is mirror-symmetric about 0.
-struct ColumnGrid {
-  std::vector<double> x;  // rising
-  std::vector<double> y;  // rising
-  double low_x = 0.0;     // lower edge of the first cell
-  double low_y = 0.0;
-  double step_x = 1.0;
-  double step_y = 1.0;
+using mesh::ColumnGrid;
 
-  [[nodiscard]] double cell_area() const { return step_x * step_y; }
-  // The first column with x[i] >= at (or row with y[j] >= at); size() when there is none.
-  [[nodiscard]] std::size_t FirstColumn(double at) const;
-  [[nodiscard]] std::size_t FirstRow(double at) const;
-};
-
-// Covers `box`, widened to be symmetric about x = 0. `columns` is rounded up to an even number.
+// Covers `box` with columns along z, symmetric about x = 0, the box widened for it. Each column
+// lies near the middle of its cell, a little off by chance, the same for a whole row or column of
+// them. `columns` is rounded up to an even number.
 [[nodiscard]] ColumnGrid MakeColumnGrid(const Eigen::AlignedBox3d& box, int columns);
 
 // What one row of columns runs through: disjoint intervals of z, rising, for each column. Each has
@@ -63,43 +53,51 @@ class RowIntervals {
 [[nodiscard]] double CommonLength(std::span<const geometry::Interval> a,
                                   std::span<const geometry::Interval> b);
 
-// A body and the part of it that is fitted, as one list of triangles.
-struct BodyTriangles {
-  std::vector<mesh::Triangle> triangles;
-  std::vector<std::uint8_t> labels;  // one for each triangle
-  // The body's surface are the triangles [0, body_end), the fitted one [fitted_begin, all).
-  std::size_t body_end = 0;
-  std::size_t fitted_begin = 0;
-};
-
-// Which triangles each row meets.
-class TriangleRows {
+// Where the columns run through a body.
+class BodyRows {
  public:
-  // Two closed surfaces; keeps references. O(triangles + meetings).
-  TriangleRows(std::span<const Eigen::Vector3d> points_m, const BodyTriangles& body,
-               const ColumnGrid& grid);
+  // Keeps a reference to `surface`, whose body and fitted part are closed. Triangles in parallel.
+  BodyRows(const FittedSurface& surface, const ColumnGrid& grid, const ThreadPool& pool)
+      : surface_(surface),
+        columns_(grid.x.size()),
+        caster_(surface.points_m, surface.triangles, grid, {0, 1, 2}, pool) {}
 
-  // Where the row's columns have a winding number other than 0. Watertight: both triangles at an
-  // edge see the same crossing, so that no column slips between them. Each half of such an
-  // interval has the label of the triangle at its end.
+  // Where the row's columns have a winding number other than 0. Each half of such an interval has
+  // the part of the triangle at its end for a label.
   struct Cuts {
     RowIntervals body;
     RowIntervals fitted;
+    PartNumbers fitted_flux{};  // as FittedSurface::flux, in lengths
   };
   [[nodiscard]] Cuts Cut(std::size_t row) const;
 
  private:
-  std::span<const Eigen::Vector3d> points_;
-  const BodyTriangles& body_;
-  const ColumnGrid& grid_;
-  std::vector<std::uint32_t> begin_;  // by row
-  std::vector<std::uint32_t> met_;
+  const FittedSurface& surface_;
+  std::size_t columns_;
+  mesh::ColumnCaster caster_;
 };
 
-// Where the row's columns run inside any of the solids. The label is the solid's index: where
-// several overlap, that of the one that the column entered first.
-[[nodiscard]] RowIntervals CutSolids(std::span<const geometry::TaperedCapsule> solids,
-                                     const ColumnGrid& grid, std::size_t row);
+// Where the columns run through the union of solids.
+class SolidRows {
+ public:
+  // Keeps a reference to `grid`.
+  SolidRows(std::span<const geometry::TaperedCapsule> solids, const ColumnGrid& grid);
+  ~SolidRows();
+  SolidRows(const SolidRows&) = delete;
+  SolidRows& operator=(const SolidRows&) = delete;
+
+  // Where the row's columns run inside any of the solids. The label is the solid's index: where
+  // several overlap, that of the one that the column entered first.
+  [[nodiscard]] RowIntervals Cut(std::size_t row) const;
+
+ private:
+  // A solid as the loop over the columns of a row wants it.
+  struct Shape;
+  void CutOne(std::size_t index, std::size_t row, std::vector<RowIntervals::Piece>& pieces) const;
+
+  const ColumnGrid& grid_;
+  std::vector<Shape> shapes_;
+};
 
 }  // namespace capfit::metrics
 

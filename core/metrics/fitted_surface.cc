@@ -5,32 +5,26 @@
 #include <map>
 #include <utility>
 
+#include "core/mesh/surface_sums.h"
+
 namespace capfit::metrics {
 namespace {
 
 using body::Part;
 
-Part PartOfTriangle(const body::Body& body, const mesh::Triangle& t) {
-  const auto part = [&](std::size_t k) { return body::PartOf(body.vertex_segments[t[k]]); };
-  if (part(1) == part(2)) return part(1);
-  return part(0) == part(1) || part(0) == part(2) ? part(0) : std::min({part(0), part(1), part(2)});
+constexpr std::size_t kTrianglesPerChunk = 8192;
+
+Part MostOf(Part a, Part b, Part c) {
+  if (b == c) return b;
+  return a == b || a == c ? a : std::min({a, b, c});
 }
 
 // From one mesh vertex to another.
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-std::vector<bool> SelectedVertices(const body::Body& body, const body::PartSelection& parts) {
-  std::vector<bool> selected;
-  selected.reserve(body.vertex_segments.size());
-  for (const body::Segment segment : body.vertex_segments) {
-    selected.push_back(parts.Includes(body::PartOf(segment)));
-  }
-  return selected;
-}
-
 // The edges along which skin meets what is left out, in the direction of the latter. Only a
 // triangle that lacks one corner can border on skin; where two such meet, the edge hangs free.
-std::vector<Edge> CutEdges(const mesh::BodyMesh& mesh, const std::vector<bool>& selected) {
+std::vector<Edge> CutEdges(const mesh::BodyMesh& mesh, const std::vector<std::uint8_t>& selected) {
   std::vector<Edge> edges;
   for (const mesh::Triangle& t : mesh.triangles()) {
     if (selected[t[0]] + selected[t[1]] + selected[t[2]] != 2) continue;
@@ -90,30 +84,93 @@ void CloseCuts(const body::Body& body, const std::vector<Edge>& edges, FittedSur
   }
 }
 
+// The first corner met of each part is near enough to the others.
+void FindMiddles(FittedSurface& surface) {
+  std::array<bool, body::kPartCount> is_found{};
+  const std::span<const mesh::Triangle> triangles = surface.fitted();
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto part = static_cast<std::size_t>(surface.parts[surface.skin_begin + t]);
+    if (std::exchange(is_found[part], true)) continue;
+    surface.middle_z[part] = surface.points_m[triangles[t][0]].z();
+  }
+}
+
+void SumUp(const ThreadPool& pool, FittedSurface& surface) {
+  const std::span<const mesh::Triangle> triangles = surface.fitted();
+  surface.skin_areas_m2.resize(triangles.size());
+  std::vector<PartNumbers> chunks((triangles.size() + kTrianglesPerChunk - 1) / kTrianglesPerChunk);
+  pool.ForChunks(triangles.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
+    PartNumbers flux{};
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto part = static_cast<std::size_t>(surface.parts[surface.skin_begin + t]);
+      const Eigen::Vector3d area = mesh::AreaVector(surface.points_m, triangles[t]);
+      surface.skin_areas_m2[t] = area.norm();
+      flux[part] +=
+          area.z() * (mesh::Middle(surface.points_m, triangles[t]).z() - surface.middle_z[part]);
+    }
+    chunks[begin / kTrianglesPerChunk] = flux;
+  });
+  surface.skin_areas_m2.resize(surface.skin().size());
+  for (const PartNumbers& chunk : chunks) {
+    for (std::size_t p = 0; p < chunk.size(); ++p) surface.flux[p] += chunk[p];
+  }
+}
+
+// A selected vertex that a triangle of the skin has for a corner.
+constexpr std::uint8_t kInSkin = 2;
+
 }  // namespace
 
-FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelection& parts) {
-  const std::vector<bool> selected = SelectedVertices(body, parts);
+FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelection& parts,
+                                const ThreadPool& pool) {
+  const std::span<const mesh::Triangle> triangles = body.mesh.triangles();
   FittedSurface surface;
   surface.points_m.assign(body.mesh.vertices().begin(), body.mesh.vertices().end());
-  for (std::uint32_t v = 0; v < selected.size(); ++v) {
-    if (selected[v]) surface.vertices.push_back(v);
+  std::vector<Part> part_of(surface.points_m.size());
+  std::vector<std::uint8_t> selected(part_of.size());
+  std::array<Part, body::kSegmentCount> part_of_segment{};
+  std::array<std::uint8_t, body::kSegmentCount> is_selected{};
+  for (std::size_t s = 0; s < part_of_segment.size(); ++s) {
+    part_of_segment[s] = body::PartOf(static_cast<body::Segment>(s));
+    is_selected[s] = parts.Includes(part_of_segment[s]) ? 1 : 0;
   }
-  for (const mesh::Triangle& t : body.mesh.triangles()) {
-    const Part part = PartOfTriangle(body, t);
-    if (!selected[t[0]] || !selected[t[1]] || !selected[t[2]]) {
-      surface.left_out.push_back(t);
-      surface.left_out_parts.push_back(part);
-      continue;
-    }
-    surface.triangles.push_back(t);
-    surface.parts.push_back(part);
-    surface.has_part[static_cast<std::size_t>(part)] = true;
-    for (const std::uint32_t v : t) surface.box.extend(surface.points_m[v]);
+  surface.vertices.reserve(part_of.size());
+  for (std::uint32_t v = 0; v < part_of.size(); ++v) {
+    const auto segment = static_cast<std::size_t>(body.vertex_segments[v]);
+    part_of[v] = part_of_segment[segment];
+    selected[v] = is_selected[segment];
+    if (selected[v] != 0) surface.vertices.push_back(v);
   }
-  surface.skin_count = surface.triangles.size();
-  surface.is_whole = surface.left_out.empty();
-  if (!surface.is_whole) CloseCuts(body, CutEdges(body.mesh, selected), surface);
+  const auto is_skin = [&](const mesh::Triangle& t) {
+    return selected[t[0]] != 0 && selected[t[1]] != 0 && selected[t[2]] != 0;
+  };
+  const auto skin =
+      static_cast<std::size_t>(surface.vertices.size() == part_of.size()
+                                   ? triangles.size()
+                                   : std::count_if(triangles.begin(), triangles.end(), is_skin));
+  surface.skin_begin = triangles.size() - skin;
+  surface.skin_end = triangles.size();
+  surface.triangles.resize(triangles.size());
+  surface.parts.resize(triangles.size());
+  const std::vector<Edge> cut =
+      surface.is_whole() ? std::vector<Edge>() : CutEdges(body.mesh, selected);
+  std::size_t next_out = 0;
+  std::size_t next_in = surface.skin_begin;
+  for (const mesh::Triangle& t : triangles) {
+    const bool is_in = is_skin(t);
+    const std::size_t at = is_in ? next_in++ : next_out++;
+    surface.triangles[at] = t;
+    surface.parts[at] = MostOf(part_of[t[0]], part_of[t[1]], part_of[t[2]]);
+    if (!is_in) continue;
+    surface.has_part[static_cast<std::size_t>(surface.parts[at])] = true;
+    for (const std::uint32_t v : t) selected[v] = kInSkin;
+  }
+  for (const std::uint32_t v : surface.vertices) {
+    if (selected[v] == kInSkin) surface.box.extend(surface.points_m[v]);
+  }
+  if (!surface.is_whole()) CloseCuts(body, cut, surface);
+  FindMiddles(surface);
+  SumUp(pool, surface);
   return surface;
 }
 

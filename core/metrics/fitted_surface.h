@@ -10,35 +10,48 @@
 #include <span>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/body/anatomy.h"
 #include "core/body/body.h"
 #include "core/mesh/body_mesh.h"
 
 namespace capfit::metrics {
 
+// One number for each part of the body.
+using PartNumbers = std::array<double, body::kPartCount>;
+
 // The triangles whose three corners belong to selected parts, closed by a flat fan over each cut.
 // The part of a triangle is that of most of its corners (all different: the first in the list of
 // parts); that of a fan's triangle is the first part of its edge's two ends.
 struct FittedSurface {
-  std::vector<Eigen::Vector3d> points_m;          // the mesh's vertices, then the fans' middles
-  std::vector<mesh::Triangle> triangles;          // indices into points_m: the skin, then the caps
-  std::size_t skin_count = 0;                     // how many of them are skin
-  std::vector<body::Part> parts;                  // of each of `triangles`
-  std::vector<mesh::Triangle> left_out;           // the body's other triangles ...
-  std::vector<body::Part> left_out_parts;         // ... and their parts
+  std::vector<Eigen::Vector3d> points_m;  // the mesh's vertices, then the fans' middles
+  std::vector<mesh::Triangle> triangles;  // indices into points_m: left out, then skin, then caps
+  std::vector<body::Part> parts;          // of each of `triangles`
+  std::size_t skin_begin = 0;             // the body is [0, skin_end), the fitted surface
+  std::size_t skin_end = 0;               // [skin_begin, all)
   std::array<bool, body::kPartCount> has_part{};  // there is skin of this part
   std::vector<std::uint32_t> vertices;            // mesh vertices of the selected parts
-  bool is_whole = false;                          // nothing is left out: the body's own surface
   Eigen::AlignedBox3d box;                        // of the skin; empty when there is none
+  std::vector<double> skin_areas_m2;              // of each triangle of the skin
+  // By part of the fitted surface, the volume between its triangles and the plane at the height
+  // middle_z, an arbitrary one near them, by signs. Of a closed part it is the volume.
+  PartNumbers flux{};
+  PartNumbers middle_z{};
 
   [[nodiscard]] std::span<const mesh::Triangle> skin() const {
-    return std::span(triangles).first(skin_count);
+    return std::span(triangles).subspan(skin_begin, skin_end - skin_begin);
   }
+  [[nodiscard]] std::span<const mesh::Triangle> fitted() const {
+    return std::span(triangles).subspan(skin_begin);
+  }
+  // Nothing is left out: the body's own surface.
+  [[nodiscard]] bool is_whole() const { return skin_begin == 0; }
 };
 
-// O(n).
+// O(n); the sums in parallel.
 [[nodiscard]] FittedSurface MakeFittedSurface(const body::Body& body,
-                                              const body::PartSelection& parts);
+                                              const body::PartSelection& parts,
+                                              const ThreadPool& pool);
 
 }  // namespace capfit::metrics
 

@@ -5,38 +5,26 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 
-#include "core/base/random.h"
 #include "core/metrics/boundary_distance.h"
 #include "core/metrics/fitted_surface.h"
-#include "core/metrics/union_distance.h"
 #include "core/metrics/volumes.h"
+#include "core/tighten/point_grid.h"
 
 namespace capfit::metrics {
 namespace {
 
-constexpr std::uint64_t kSurfaceSeed = 20'180'001;
-constexpr std::size_t kPointsPerChunk = 512;
+constexpr std::size_t kTrianglesPerSum = 8192;
+// Distances by tighten::PointGrid are good to this.
+constexpr double kGridErrorM = 1e-7;
 // A vertex counts as out when it is further out than this, in metres: what the paper's pictures, a
 // cloth engine's thickness and float rounding cannot tell from touching.
 constexpr double kOutM = 1e-4;
-// Cells of the distance grid along the body: 4 to 5 cm, where a cell keeps a few candidates.
-constexpr int kDistanceCells = 40;
-// Points at which the solids' surfaces are looked at for creases: 1 to 2 cm apart on a body. Twenty
-// times as many change E_M by less than 0.1 % of itself.
-constexpr int kCreaseGridPoints = 16'000;
-
-UnionDistance DistanceTo(const body::Body& body, const capsule::PrimitiveSet& set,
-                         const ThreadPool& pool) {
-  Eigen::AlignedBox3d box(body.mesh.box_min(), body.mesh.box_max());
-  for (const geometry::Sphere& sphere : set.spheres) {
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(sphere.radius_m);
-    box.extend(Eigen::Vector3d(sphere.center_m - reach));
-    box.extend(Eigen::Vector3d(sphere.center_m + reach));
-  }
-  return {capsule::Solids(set), box, kDistanceCells, pool};
-}
+// Points at which the solids' surfaces are looked at for creases: 2 to 3 cm apart on a body.
+constexpr int kCreaseGridPoints = 4'000;
 
 template <typename AnyMetrics>
 void PutVolumeRatios(const PartVolumes& volumes, AnyMetrics& metrics) {
@@ -77,110 +65,188 @@ void PutCounts(const capsule::PrimitiveSet& set, Metrics& metrics) {
   }
 }
 
-// Points of the surface and the part of each.
-struct SurfaceSamples {
-  std::vector<Eigen::Vector3d> points_m;
-  std::vector<body::Part> parts;
+// A point of the skin: the shares of the corners of one of its triangles.
+struct SurfaceSample {
+  std::size_t triangle = 0;
+  std::array<double, 3> shares{};
 };
 
-// Points spread evenly over the area of the triangles: one in each of `count` equal shares of it,
-// taken in the order of the triangles, at a random place.
-SurfaceSamples SampleSurface(const FittedSurface& surface, int count) {
-  const std::span<const mesh::Triangle> triangles = surface.skin();
-  const std::vector<Eigen::Vector3d>& points = surface.points_m;
-  std::vector<double> area_up_to;
-  area_up_to.reserve(triangles.size());
-  double area = 0.0;
-  for (const mesh::Triangle& t : triangles) {
-    const Eigen::Vector3d& a = points[t[0]];
-    area += 0.5 * (points[t[1]] - a).cross(points[t[2]] - a).norm();
-    area_up_to.push_back(area);
-  }
-  SurfaceSamples samples;
-  samples.points_m.reserve(static_cast<std::size_t>(count));
-  samples.parts.reserve(static_cast<std::size_t>(count));
-  Random random(kSurfaceSeed);
+// The next of a row of numbers in [0, 1) that fill it evenly, however many are taken.
+double NextEven(double step, double& at) {
+  at += step;
+  if (at >= 1.0) at -= 1.0;
+  return at;
+}
+
+// Points spread evenly over the area of the skin: one in the middle of each of `count` equal shares
+// of it, taken in the order of the triangles.
+std::vector<SurfaceSample> SampleSurface(const FittedSurface& surface, int count) {
+  // The plane's counterpart of the golden ratio: the pairs fill the unit square evenly.
+  constexpr double kStepU = 0.7548776662466927;
+  constexpr double kStepV = 0.5698402909980532;
+  const std::vector<double>& areas = surface.skin_areas_m2;
+  const double step_m2 = std::accumulate(areas.begin(), areas.end(), 0.0) / count;
+  std::vector<SurfaceSample> samples;
+  samples.reserve(static_cast<std::size_t>(count));
+  double at_u = 0.0;
+  double at_v = 0.0;
   std::size_t at = 0;
+  double area_up_to = areas[0];
   for (int i = 0; i < count; ++i) {
-    const double target = area * (i + random.NextUnit()) / count;
-    while (at + 1 < triangles.size() && area_up_to[at] <= target) ++at;
-    double u = random.NextUnit();
-    double v = random.NextUnit();
+    while (at + 1 < areas.size() && area_up_to <= step_m2 * (i + 0.5)) area_up_to += areas[++at];
+    double u = NextEven(kStepU, at_u);
+    double v = NextEven(kStepV, at_v);
     if (u + v > 1.0) {
       u = 1.0 - u;
       v = 1.0 - v;
     }
-    const Eigen::Vector3d& a = points[triangles[at][0]];
-    samples.points_m.emplace_back(a + u * (points[triangles[at][1]] - a) +
-                                  v * (points[triangles[at][2]] - a));
-    samples.parts.push_back(surface.parts[at]);
+    samples.push_back({at, {1.0 - u - v, u, v}});
   }
   return samples;
 }
 
-std::vector<double> SignedDistances(const BoundaryDistance& boundary,
-                                    std::span<const Eigen::Vector3d> points_m,
+// Of each mesh vertex of the fitted parts, as far as one solid tells: outside the distance to the
+// union, inside a depth that the union's is not less than.
+std::vector<double> VertexDistances(const FittedSurface& fitted,
+                                    const std::vector<geometry::TaperedCapsule>& solids,
                                     const ThreadPool& pool) {
-  std::vector<double> distances(points_m.size());
-  pool.ForChunks(points_m.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) distances[i] = boundary.SignedAt(points_m[i]);
-  });
+  std::vector<Eigen::Vector3d> points_m;
+  points_m.reserve(fitted.vertices.size());
+  for (const std::uint32_t v : fitted.vertices) points_m.push_back(fitted.points_m[v]);
+  const tighten::PointGrid grid(points_m);
+  const tighten::UnionDistances nearest =
+      grid.DistancesTo(solids, -std::numeric_limits<double>::infinity(), pool);
+  std::vector<double> distances(fitted.points_m.size(), 0.0);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    double distance = nearest.distance_m[i];
+    // What sticks out is told to the last digit.
+    if (distance > -kGridErrorM) {
+      distance = solids[static_cast<std::size_t>(nearest.solid[i])].SignedDistance(grid.point(i));
+    }
+    distances[fitted.vertices[grid.order()[i]]] = distance;
+  }
   return distances;
 }
 
-// `signed_m` in any order; is reordered.
+void PutVertices(const body::Body& body, const FittedSurface& fitted,
+                 const std::vector<double>& distances, Metrics& metrics) {
+  for (const std::uint32_t vertex : fitted.vertices) {
+    const double gap = distances[vertex];
+    if (gap <= 0.0) continue;
+    const auto count = [gap](auto& its) {
+      its.vertices_out += gap > kOutM ? 1 : 0;
+      its.max_out_m = std::max(its.max_out_m, gap);
+    };
+    count(metrics);
+    const body::Part part = body::PartOf(body.vertex_segments[vertex]);
+    if (PartMetrics* const its = PartOf(part, metrics)) count(*its);
+  }
+}
+
+// Sums over the skin of one part, or of all.
+struct GapSums {
+  // Absolute distances of the vertices, linear between them.
+  double area_m2 = 0.0;
+  double linear = 0.0;  // times the area
+  double max_m = 0.0;
+  // Of the samples.
+  std::vector<double> signed_m;
+  double beyond_linear = 0.0;  // the sum of what their absolute distances are beyond those
+
+  void Add(const GapSums& more) {
+    area_m2 += more.area_m2;
+    linear += more.linear;
+    max_m = std::max(max_m, more.max_m);
+    beyond_linear += more.beyond_linear;
+    signed_m.insert(signed_m.end(), more.signed_m.begin(), more.signed_m.end());
+  }
+};
+using PartGapSums = std::array<GapSums, body::kPartCount>;
+
+// What the vertices alone tell.
+PartGapSums SumVertices(const FittedSurface& fitted, const std::vector<double>& distances,
+                        const ThreadPool& pool) {
+  const std::span<const mesh::Triangle> skin = fitted.skin();
+  std::vector<PartGapSums> chunks((skin.size() + kTrianglesPerSum - 1) / kTrianglesPerSum);
+  pool.ForChunks(skin.size(), kTrianglesPerSum, [&](std::size_t begin, std::size_t end) {
+    PartGapSums& sums = chunks[begin / kTrianglesPerSum];
+    for (std::size_t t = begin; t < end; ++t) {
+      GapSums& part = sums[static_cast<std::size_t>(fitted.parts[fitted.skin_begin + t])];
+      double sum = 0.0;
+      for (const std::uint32_t corner : skin[t]) {
+        const double gap = std::abs(distances[corner]);
+        sum += gap;
+        part.max_m = std::max(part.max_m, gap);
+      }
+      part.area_m2 += fitted.skin_areas_m2[t];
+      part.linear += fitted.skin_areas_m2[t] * sum / 3.0;
+    }
+  });
+  PartGapSums total;
+  for (const PartGapSums& chunk : chunks) {
+    for (std::size_t p = 0; p < total.size(); ++p) total[p].Add(chunk[p]);
+  }
+  return total;
+}
+
+void AddSamples(const FittedSurface& fitted, const std::vector<double>& distances,
+                const std::vector<geometry::TaperedCapsule>& solids, int count,
+                const ThreadPool& pool, PartGapSums& sums) {
+  const std::vector<SurfaceSample> samples = SampleSurface(fitted, count);
+  std::vector<Eigen::Vector3d> points_m(samples.size(), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      points_m[i] += samples[i].shares[k] * fitted.points_m[fitted.skin()[samples[i].triangle][k]];
+    }
+  }
+  const std::vector<double> signed_m =
+      BoundaryDistance(solids, kCreaseGridPoints, pool).SignedAt(points_m, pool);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::size_t triangle = samples[i].triangle;
+    GapSums& part = sums[static_cast<std::size_t>(fitted.parts[fitted.skin_begin + triangle])];
+    part.signed_m.push_back(signed_m[i]);
+    part.beyond_linear += std::abs(signed_m[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      part.beyond_linear -= samples[i].shares[k] * std::abs(distances[fitted.skin()[triangle][k]]);
+    }
+  }
+}
+
+// The vertices' linear distances are summed exactly; the samples, few as they are, only have to
+// tell what the true ones are beyond them.
 template <typename AnyMetrics>
-void PutGaps(double diagonal_m, std::vector<double>& signed_m, AnyMetrics& metrics) {
-  if (signed_m.empty()) return;
-  const auto count = static_cast<double>(signed_m.size());
+void PutGaps(double diagonal_m, GapSums sums, AnyMetrics& metrics) {
+  if (sums.signed_m.empty()) return;
+  const auto count = static_cast<double>(sums.signed_m.size());
   const auto out =
-      std::count_if(signed_m.begin(), signed_m.end(), [](double d) { return d > kOutM; });
+      std::count_if(sums.signed_m.begin(), sums.signed_m.end(), [](double d) { return d > kOutM; });
   metrics.surface_out = static_cast<double>(out) / count;
-  double sum = 0.0;
-  for (double& d : signed_m) sum += d = std::abs(d);
-  metrics.gap.mean_m = sum / count;
-  metrics.gap.max_m = *std::max_element(signed_m.begin(), signed_m.end());
-  const auto p95 = signed_m.begin() + static_cast<std::ptrdiff_t>(0.95 * count);
-  std::nth_element(signed_m.begin(), p95, signed_m.end());
+  const double linear_m = sums.area_m2 > 0.0 ? sums.linear / sums.area_m2 : 0.0;
+  metrics.gap.mean_m = std::max(0.0, linear_m + sums.beyond_linear / count);
+  for (double& d : sums.signed_m) d = std::abs(d);
+  metrics.gap.max_m =
+      std::max(sums.max_m, *std::max_element(sums.signed_m.begin(), sums.signed_m.end()));
+  const auto p95 = sums.signed_m.begin() + static_cast<std::ptrdiff_t>(0.95 * count);
+  std::nth_element(sums.signed_m.begin(), p95, sums.signed_m.end());
   metrics.gap.p95_m = *p95;
   metrics.E_M = 100.0 * metrics.gap.mean_m / diagonal_m;
 }
 
-void PutSurfaceDistances(const FittedSurface& fitted, const UnionDistance& distance,
-                         const MeasureOptions& options, const ThreadPool& pool, Metrics& metrics) {
-  const BoundaryDistance boundary(distance, kCreaseGridPoints, pool);
-  const SurfaceSamples samples = SampleSurface(fitted, options.surface_samples);
-  std::vector<double> signed_m = SignedDistances(boundary, samples.points_m, pool);
+void PutSurface(const body::Body& body, const FittedSurface& fitted,
+                const std::vector<geometry::TaperedCapsule>& solids, const MeasureOptions& options,
+                const ThreadPool& pool, Metrics& metrics) {
+  const std::vector<double> distances = VertexDistances(fitted, solids, pool);
+  PutVertices(body, fitted, distances, metrics);
+  PartGapSums parts = SumVertices(fitted, distances, pool);
+  AddSamples(fitted, distances, solids, options.surface_samples, pool, parts);
   const double diagonal_m = fitted.box.diagonal().norm();
-  std::array<std::vector<double>, body::kPartCount> by_part;
-  for (std::size_t i = 0; i < signed_m.size(); ++i) {
-    by_part[static_cast<std::size_t>(samples.parts[i])].push_back(signed_m[i]);
+  GapSums all;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    all.Add(parts[p]);
+    if (metrics.parts[p]) PutGaps(diagonal_m, std::move(parts[p]), *metrics.parts[p]);
   }
-  for (std::size_t p = 0; p < by_part.size(); ++p) {
-    if (metrics.parts[p]) PutGaps(diagonal_m, by_part[p], *metrics.parts[p]);
-  }
-  PutGaps(diagonal_m, signed_m, metrics);
+  PutGaps(diagonal_m, std::move(all), metrics);
   metrics.hausdorff = 100.0 * metrics.gap.max_m / diagonal_m;
-}
-
-void PutVertices(const body::Body& body, const FittedSurface& fitted, const UnionDistance& distance,
-                 const ThreadPool& pool, Metrics& metrics) {
-  std::vector<double> gaps(fitted.vertices.size());
-  pool.ForChunks(gaps.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      // How deep a covered vertex is does not matter here.
-      gaps[i] = distance.At(body.mesh.vertices()[fitted.vertices[i]], 0.0).distance_m;
-    }
-  });
-  const auto count = [](double gap, auto& its) {
-    its.vertices_out += gap > kOutM ? 1 : 0;
-    its.max_out_m = std::max(its.max_out_m, gap);
-  };
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    count(gaps[i], metrics);
-    const body::Part part = body::PartOf(body.vertex_segments[fitted.vertices[i]]);
-    if (PartMetrics* const its = PartOf(part, metrics)) count(gaps[i], *its);
-  }
 }
 
 }  // namespace
@@ -189,28 +255,32 @@ Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                 const MeasureOptions& options, const ThreadPool& pool,
                 const FitObserver& observer) {
   Metrics metrics;
-  const FittedSurface fitted = MakeFittedSurface(body, options.parts);
+  const FittedSurface fitted = MakeFittedSurface(body, options.parts, pool);
   for (std::size_t p = 0; p < metrics.parts.size(); ++p) {
     if (fitted.has_part[p]) metrics.parts[p].emplace();
   }
   PutCounts(set, metrics);
-  const UnionDistance distance = DistanceTo(body, set, pool);
-  if (observer.IsCancelled()) return metrics;
-  PutVolumes(MeasureVolumes(body.mesh, fitted, distance.solids(), PartsOfSolids(set),
-                            options.columns, pool),
-             metrics);
-  if (set.spheres.empty() || fitted.skin_count == 0 || observer.IsCancelled()) return metrics;
-  PutSurfaceDistances(fitted, distance, options, pool, metrics);
-  if (observer.IsCancelled()) return metrics;
-  PutVertices(body, fitted, distance, pool, metrics);
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set);
+  const bool has_gaps = !solids.empty() && fitted.skin_begin < fitted.skin_end;
+  // Side by side: what one of them cannot share out, the other fills.
+  pool.ForEach(has_gaps ? 2 : 1, [&](std::size_t which) {
+    if (observer.IsCancelled()) return;
+    if (which == 0) {
+      PutVolumes(
+          MeasureVolumes(body.mesh, fitted, solids, PartsOfSolids(set), options.columns, pool),
+          metrics);
+    } else {
+      PutSurface(body, fitted, solids, options, pool, metrics);
+    }
+  });
   return metrics;
 }
 
 std::vector<double> SignedGaps(const body::Body& body, const capsule::PrimitiveSet& set,
                                const body::PartSelection& parts, const ThreadPool& pool) {
-  const UnionDistance distance = DistanceTo(body, set, pool);
-  const BoundaryDistance boundary(distance, kCreaseGridPoints, pool);
-  std::vector<double> gaps = SignedDistances(boundary, body.mesh.vertices(), pool);
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set);
+  const BoundaryDistance boundary(solids, kCreaseGridPoints, pool);
+  std::vector<double> gaps = boundary.SignedAt(body.mesh.vertices(), pool);
   for (std::size_t v = 0; v < gaps.size(); ++v) {
     if (parts.Includes(body::PartOf(body.vertex_segments[v]))) continue;
     gaps[v] = std::numeric_limits<double>::quiet_NaN();

@@ -14,14 +14,15 @@
 namespace capfit::metrics {
 
 struct MeasureOptions {
-  int columns = 240;             // per axis: volumes are cut exactly along each column; >= 2
-  int surface_samples = 20'000;  // >= 1
-  body::PartSelection parts;     // what the set is meant to cover
+  int columns = 200;            // per axis: volumes are cut exactly along each column; >= 2
+  int surface_samples = 6'000;  // >= 1
+  body::PartSelection parts;    // what the set is meant to cover
 };
 
 // How far the surface of the fitted parts is from the boundary of the set's union, whether the set
 // stands off from the covered surface or the surface sticks out of the set: absolute values over
-// samples that lie evenly on the area. All 0 where there are no samples.
+// samples that lie evenly on the area, the mean and the largest with the help of all vertices. All
+// 0 where there are no samples.
 struct GapStatistics {
   double mean_m = 0.0;
   double p95_m = 0.0;  // 95 % of the area is nearer
@@ -72,15 +73,17 @@ struct Metrics {
 
 // All but max_gap_m, which coverage proves. With nothing to measure (no part of the body selected,
 // or no primitive) only n_p and the volumes that still mean something are set. Deterministic:
-// columns and samples in parallel, added up in order. About 25 ms on one core for 64k triangles
-// and 64 primitives. Cancelled: what was not reached is 0.
+// columns and samples in parallel, added up in order. About 10 ms on one core for 64k triangles
+// and 64 primitives, 18 ms for 200k, of which the numbers by part take about 0.5 ms. On bodies E_r
+// is within 0.3 % of itself of what ten times the columns tell, E_M within 0.2 %. Cancelled: what
+// was not reached is 0.
 [[nodiscard]] Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                               const MeasureOptions& options, const ThreadPool& pool,
                               const FitObserver& observer);
 
 // For each vertex of body.mesh the signed distance to the boundary of the set's union in metres: >
 // 0 outside of the set, < 0 where the set covers it. NaN for vertices of parts that are not
-// selected (the set does not stand for them). An empty set gives infinity. About 20 ms on one core
+// selected (the set does not stand for them). An empty set gives infinity. About 6 ms on one core
 // for 64k triangles and 64 primitives.
 [[nodiscard]] std::vector<double> SignedGaps(const body::Body& body,
                                              const capsule::PrimitiveSet& set,

@@ -54,7 +54,13 @@ PartLengths::PartLengths(const std::array<bool, body::kPartCount>& has_part,
   }
 }
 
-Volumes PartLengths::OfRow(std::size_t row, const TriangleRows::Cuts& cuts,
+PartNumbers PartLengths::ByHome(const PartNumbers& numbers) const {
+  PartNumbers sums{};
+  for (std::size_t p = 0; p < sums.size(); ++p) sums[home_[p]] += numbers[p];
+  return sums;
+}
+
+Volumes PartLengths::OfRow(std::size_t row, const BodyRows::Cuts& cuts,
                            const RowIntervals& set) const {
   Volumes lengths;
   double in_image = 0.0;
@@ -67,6 +73,8 @@ Volumes PartLengths::OfRow(std::size_t row, const TriangleRows::Cuts& cuts,
            lengths);
     in_image += CommonLength(set_here, set.Column(grid_.x.size() - 1 - i));
   }
+  const PartNumbers flux = ByHome(cuts.fitted_flux);
+  for (std::size_t p = 0; p < flux.size(); ++p) lengths.parts[p].fitted_flux = flux[p];
   // Rounding must not leave a share of -1e-17.
   lengths.mirror_xor = 2.0 * std::max(0.0, set.Length() - in_image);
   return lengths;

@@ -21,8 +21,11 @@ class PartLengths {
               std::span<const SolidParts> solid_parts, const ColumnGrid& grid);
 
   // Lengths in place of volumes, summed over the columns of the row. `all` is left empty.
-  [[nodiscard]] Volumes OfRow(std::size_t row, const TriangleRows::Cuts& cuts,
+  [[nodiscard]] Volumes OfRow(std::size_t row, const BodyRows::Cuts& cuts,
                               const RowIntervals& set) const;
+
+  // What the parts have, added up by the fitted part that stands for each.
+  [[nodiscard]] PartNumbers ByHome(const PartNumbers& numbers) const;
 
  private:
   // A column, with the intervals of the set and of the body in it.

@@ -27,18 +27,18 @@ RevolvedSurface::RevolvedSurface(const geometry::TaperedCapsule& solid)
 
 double RevolvedSurface::largest_radius_m() const { return std::max(a_.radius_m, b_.radius_m); }
 
-Eigen::Vector3d RevolvedSurface::At(double arc_length_m, double angle_rad) const {
-  const Eigen::Vector3d outward = std::cos(angle_rad) * across_ + std::sin(angle_rad) * third_;
+RevolvedSurface::Ring RevolvedSurface::RingAt(double arc_length_m) const {
   const auto on_ball = [&](const geometry::Sphere& ball, double from_pole) {
-    return Eigen::Vector3d(ball.center_m + ball.radius_m * (std::sin(from_pole) * outward -
-                                                            std::cos(from_pole) * axis_));
+    return Ring{ball.center_m - ball.radius_m * std::cos(from_pole) * axis_,
+                ball.radius_m * std::sin(from_pole)};
   };
   if (arc_length_m <= arc_a_) {
     return on_ball(a_, a_.radius_m > 0.0 ? arc_length_m / a_.radius_m : 0.0);
   }
   if (arc_length_m < slant_end_) {
-    const Eigen::Vector3d start = a_.center_m + a_.radius_m * (cos_ * outward + sin_ * axis_);
-    return start + (arc_length_m - arc_a_) * (cos_ * axis_ - sin_ * outward);
+    const double along = arc_length_m - arc_a_;
+    return {a_.center_m + (a_.radius_m * sin_ + along * cos_) * axis_,
+            a_.radius_m * cos_ - along * sin_};
   }
   const double left = std::max(0.0, profile_length_m() - arc_length_m);
   return on_ball(b_, std::numbers::pi - (b_.radius_m > 0.0 ? left / b_.radius_m : 0.0));

@@ -3,20 +3,31 @@
 #define CAPFIT_CORE_METRICS_REVOLVED_SURFACE_H_
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "core/geometry/tapered_capsule.h"
 
 namespace capfit::metrics {
 
-// A point of the surface by the arc length along its profile, from a's pole over the slant to b's,
-// and the angle around the axis.
+// Points of the surface by the arc length along its profile, from a's pole over the slant to b's,
+// and the angle around the axis: the ring's centre + its radius * Outward(angle).
 class RevolvedSurface {
  public:
   explicit RevolvedSurface(const geometry::TaperedCapsule& solid);
 
   [[nodiscard]] double profile_length_m() const { return slant_end_ + arc_b_; }
   [[nodiscard]] double largest_radius_m() const;
-  [[nodiscard]] Eigen::Vector3d At(double arc_length_m, double angle_rad) const;
+
+  // All points at one arc length.
+  struct Ring {
+    Eigen::Vector3d center_m;
+    double radius_m;
+  };
+  [[nodiscard]] Ring RingAt(double arc_length_m) const;
+  // Unit vector off the axis.
+  [[nodiscard]] Eigen::Vector3d Outward(double angle_rad) const {
+    return std::cos(angle_rad) * across_ + std::sin(angle_rad) * third_;
+  }
 
  private:
   geometry::Sphere a_;

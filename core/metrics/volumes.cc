@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/metrics/boundary_distance.h"
 #include "core/metrics/column_grid.h"
 #include "core/metrics/part_lengths.h"
 
@@ -12,34 +13,23 @@ namespace {
 // Rows that one task takes together.
 constexpr std::size_t kRowsPerChunk = 4;
 
-Eigen::AlignedBox3d BoxOf(const geometry::TaperedCapsule& solid) {
-  Eigen::AlignedBox3d box;
-  for (const geometry::Sphere& end : {solid.a(), solid.b()}) {
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(end.radius_m);
-    box.extend(Eigen::Vector3d(end.center_m - reach));
-    box.extend(Eigen::Vector3d(end.center_m + reach));
-  }
-  return box;
-}
-
-// What is left out, then the skin, then the caps over the cuts.
-BodyTriangles AllTriangles(const FittedSurface& fitted) {
-  BodyTriangles all;
-  all.triangles = fitted.left_out;
-  all.triangles.insert(all.triangles.end(), fitted.triangles.begin(), fitted.triangles.end());
-  for (const auto* parts : {&fitted.left_out_parts, &fitted.parts}) {
-    for (const body::Part part : *parts) all.labels.push_back(static_cast<std::uint8_t>(part));
-  }
-  all.fitted_begin = fitted.left_out.size();
-  all.body_end = all.fitted_begin + fitted.skin_count;
-  return all;
-}
-
 void Add(const PartVolumes& more, double area, PartVolumes& sum) {
   sum.fitted += area * more.fitted;
   sum.set += area * more.set;
   sum.outside += area * more.outside;
   sum.uncovered += area * more.uncovered;
+  sum.fitted_flux += area * more.fitted_flux;
+}
+
+// The columns tell the volume of a part only as well as they hit its outline, but the flux through
+// its surface is known: the volume has the same error. What is covered and what is not share it.
+void Correct(double exact_flux, PartVolumes& part) {
+  if (!(part.fitted > 0.0)) return;
+  const double fitted = std::max(0.0, part.fitted + exact_flux - part.fitted_flux);
+  const double factor = fitted / part.fitted;
+  part.set += (factor - 1.0) * (part.fitted - part.uncovered);
+  part.uncovered *= factor;
+  part.fitted = fitted;
 }
 
 }  // namespace
@@ -65,17 +55,17 @@ Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
   Eigen::AlignedBox3d box(mesh.box_min(), mesh.box_max());
   for (const geometry::TaperedCapsule& solid : solids) box.extend(BoxOf(solid));
   const ColumnGrid grid = MakeColumnGrid(box, columns);
-  const BodyTriangles triangles = AllTriangles(fitted);
-  const TriangleRows rows(fitted.points_m, triangles, grid);
+  const BodyRows body_rows(fitted, grid, pool);
+  const SolidRows solid_rows(solids, grid);
   const PartLengths lengths(fitted.has_part, solids, solid_parts, grid);
 
   std::vector<Volumes> by_row(grid.y.size());
   pool.ForChunks(grid.y.size(), kRowsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
-      const TriangleRows::Cuts cuts = rows.Cut(row);
-      by_row[row] = lengths.OfRow(row, cuts, CutSolids(solids, grid, row));
+      by_row[row] = lengths.OfRow(row, body_rows.Cut(row), solid_rows.Cut(row));
     }
   });
+  const PartNumbers exact_flux = lengths.ByHome(fitted.flux);
   Volumes total;
   for (const Volumes& row : by_row) {
     for (std::size_t p = 0; p < total.parts.size(); ++p) {
@@ -83,7 +73,14 @@ Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
     }
     total.mirror_xor += grid.cell_area() * row.mirror_xor;
   }
-  for (const PartVolumes& part : total.parts) Add(part, 1.0, total.all);
+  double set_by_columns = 0.0;
+  for (std::size_t p = 0; p < total.parts.size(); ++p) {
+    set_by_columns += total.parts[p].set;
+    Correct(exact_flux[p], total.parts[p]);
+    Add(total.parts[p], 1.0, total.all);
+  }
+  // What columns miss of the set they miss of its image as well.
+  if (set_by_columns > 0.0) total.mirror_xor *= total.all.set / set_by_columns;
   return total;
 }
 

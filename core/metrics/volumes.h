@@ -17,10 +17,11 @@ namespace capfit::metrics {
 
 // In cubic metres.
 struct PartVolumes {
-  double fitted = 0.0;     // of the fitted parts
-  double set = 0.0;        // of the union of the solids
-  double outside = 0.0;    // inside the set, outside the whole body
-  double uncovered = 0.0;  // inside the fitted parts, outside the set
+  double fitted = 0.0;       // of the fitted parts
+  double set = 0.0;          // of the union of the solids
+  double outside = 0.0;      // inside the set, outside the whole body
+  double uncovered = 0.0;    // inside the fitted parts, outside the set
+  double fitted_flux = 0.0;  // of z through the part's surface, as the columns see it
 };
 
 // Inside a surface is where its winding number is not 0. All of each volume belongs to some fitted
@@ -41,7 +42,8 @@ struct Volumes {
 using SolidParts = std::array<body::Part, 2>;
 [[nodiscard]] std::vector<SolidParts> PartsOfSolids(const capsule::PrimitiveSet& set);
 
-// `columns` x `columns` columns along z over everything. Rows in parallel, added up in order.
+// `columns` x `columns` columns along z over everything. `fitted` is exact, but for how columns
+// through two parts are shared out. Rows in parallel, added up in order.
 [[nodiscard]] Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
                                      std::span<const geometry::TaperedCapsule> solids,
                                      std::span<const SolidParts> solid_parts, int columns,

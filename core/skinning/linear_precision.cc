@@ -42,26 +42,28 @@ double Extent(std::span<const Eigen::Vector3d> vertices) {
   return extent;
 }
 
-void Normalise(std::vector<Lanes>& weights) {
-  Lanes sum = Lanes::Zero();
-  Lanes absolute = Lanes::Zero();
-  for (const Lanes& w : weights) {
-    sum += w;
-    absolute += w.abs();
-  }
+// The weights times these, or their absolute values where they have no usable sum, sum to 1.
+struct Scale {
+  Lanes of_weight;
+  Lanes of_size;
+};
+
+Scale ScaleOf(const Lanes& sum, const Lanes& absolute) {
   const auto usable = (sum.abs() > kUsableSum * absolute).eval();
-  const Lanes inverse = usable.select(sum, absolute).inverse();
-  for (Lanes& w : weights) w = usable.select(w, w.abs()) * inverse;
+  return {usable.select(sum.inverse(), Lanes::Zero()),
+          usable.select(Lanes::Zero(), absolute.inverse())};
 }
 
 // What is missing, and how much of it a change of a and b supplies.
 struct Defect {
   std::array<Eigen::Matrix4d, kLanes> supply;
   std::array<Eigen::Vector4d, kLanes> missing;
+  Scale scale;
 };
 
 Defect MeasureDefect(std::span<const Eigen::Vector3d> vertices, const std::array<Lanes, 3>& center,
                      double inverse_scale, const std::vector<Lanes>& weights) {
+  // Sums of the weights' moments, and of the squared moments times their absolute values.
   std::array<Lanes, 10> supply;
   std::array<Lanes, 4> present;
   supply.fill(Lanes::Zero());
@@ -80,6 +82,13 @@ Defect MeasureDefect(std::span<const Eigen::Vector3d> vertices, const std::array
     }
   }
   Defect defect;
+  defect.scale = ScaleOf(present[0], supply[0]);
+  // The first row of the supply is what absolute values would be present with.
+  for (std::size_t k = 0; k < 4; ++k) {
+    present[k] = present[k] * defect.scale.of_weight + supply[k] * defect.scale.of_size;
+  }
+  const Lanes of_supply = defect.scale.of_weight.abs() + defect.scale.of_size;
+  for (Lanes& entry : supply) entry *= of_supply;
   for (int lane = 0; lane < kLanes; ++lane) {
     std::size_t entry = 0;
     for (int row = 0; row < 4; ++row) {
@@ -138,10 +147,10 @@ float* FindFineWeight(std::span<float> row) {
 void MakeLinearlyPrecise(std::span<const Eigen::Vector3d> vertices,
                          const std::array<Eigen::Vector3d, kLanes>& centers,
                          std::vector<Lanes>& weights) {
-  Normalise(weights);
   const std::array<Lanes, 3> center = ByAxis(centers);
   const double inverse_scale = 1.0 / Extent(vertices);
   const Defect defect = MeasureDefect(vertices, center, inverse_scale, weights);
+  const Scale scale = defect.scale;
   std::array<Lanes, 4> change;
   for (int lane = 0; lane < kLanes; ++lane) {
     // Few vertices (a centre on a face) supply only part of the space: the rest is left as it is.
@@ -155,7 +164,8 @@ void MakeLinearlyPrecise(std::span<const Eigen::Vector3d> vertices,
     const Moments m(vertices[i], center, inverse_scale);
     const Lanes factor =
         change[0] + change[1] * m.values[1] + change[2] * m.values[2] + change[3] * m.values[3];
-    weights[i] += weights[i].abs() * factor;
+    const Lanes weight = weights[i] * scale.of_weight + weights[i].abs() * scale.of_size;
+    weights[i] = weight + weight.abs() * factor;
   }
 }
 

@@ -91,15 +91,14 @@ void FillRows(const mesh::BodyMesh& mesh, const SourceMap& sources,
   sources.PassOn(raw.weights);
   MakeLinearlyPrecise(mesh.vertices(), batch, raw.weights);
 
-  for (std::size_t v = 0; v < raw.weights.size(); ++v) raw.weights[v] *= sources.share(v);
   const std::span<const std::int32_t> vertex_of_source = sources.vertex_of_source();
   for (std::size_t k = 0; k < count; ++k) {
     const std::span<float> row = MutableRow(result, first + k);
     for (std::size_t s = 0; s < row.size(); ++s) {
       const std::int32_t vertex = vertex_of_source[s];
       if (vertex < 0) continue;
-      row[s] = static_cast<float>(
-          raw.weights[static_cast<std::size_t>(vertex)][static_cast<Eigen::Index>(k)]);
+      const auto v = static_cast<std::size_t>(vertex);
+      row[s] = static_cast<float>(sources.share(v) * raw.weights[v][static_cast<Eigen::Index>(k)]);
     }
     MendFloatSum(row);
   }

@@ -28,7 +28,7 @@ struct DenseWeights {
   std::span<const float> Row(std::size_t sphere) && = delete;
 };
 
-// O(centres * triangles): about 0.7 ms for a centre and 64k triangles; centres in parallel.
+// O(centres * triangles): about 0.6 ms for a centre and 64k triangles; centres in parallel.
 // Finite centres may lie inside, on or outside the surface: on a vertex all weight is that
 // vertex's, on a face or edge the weights are the barycentric ones. Weight of a vertex that no
 // caller's vertex maps to (the middle of a closed hole) goes to its neighbours. Every row depends

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/mesh/column_caster.h"
 #include "core/refine/graph/cone.h"
 #include "core/refine/internal.h"
 
@@ -37,41 +38,41 @@ OccupancyGrid EmptyGrid(const mesh::BodyMesh& mesh, double cell_m, bool folded) 
   return grid;
 }
 
+// Columns through the cells, in x and in y; `side` -1: mirrored in the plane x = 0.
+mesh::ColumnGrid ColumnsOf(const OccupancyGrid& grid, double side) {
+  mesh::ColumnGrid columns;
+  columns.step_x = columns.step_y = grid.cell_m / kColumnsPerCell;
+  const int count_x = grid.nx * kColumnsPerCell;
+  for (int i = 0; i < count_x; ++i) {
+    const int at = side > 0.0 ? i : count_x - 1 - i;
+    columns.x.push_back(side * (grid.origin_m.x() + (at + kColumnShiftX) * columns.step_x));
+  }
+  for (int j = 0; j < grid.ny * kColumnsPerCell; ++j) {
+    columns.y.push_back(grid.origin_m.y() + (j + kColumnShiftY) * columns.step_y);
+  }
+  columns.low_x = side > 0.0 ? grid.origin_m.x() : -(grid.origin_m.x() + count_x * columns.step_x);
+  columns.low_y = grid.origin_m.y();
+  return columns;
+}
+
 // Adds signed steps along columns; Finish turns them into shares.
 class ColumnFiller {
  public:
   explicit ColumnFiller(OccupancyGrid& grid)
       : grid_(grid), steps_(grid.inside.size(), 0.0f), partial_(grid.inside.size(), 0.0f) {}
 
-  // Everything below the triangle, in z, gains its weight (outward faces looking up) or loses it.
-  void Add(const Vec3& a, const Vec3& b, const Vec3& c, float weight) {
-    const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    if (area == 0.0) return;
-    const double step = grid_.cell_m / kColumnsPerCell;
-    const auto first = [step](double low, float origin, double shift) {
-      return std::max(0, static_cast<int>(std::ceil((low - origin) / step - shift)));
-    };
-    const auto last = [step](double high, float origin, double shift, int count) {
-      return std::min(count * kColumnsPerCell - 1,
-                      static_cast<int>(std::floor((high - origin) / step - shift)));
-    };
-    const float ox = grid_.origin_m.x(), oy = grid_.origin_m.y();
-    const int i0 = first(std::min({a.x(), b.x(), c.x()}), ox, kColumnShiftX);
-    const int i1 = last(std::max({a.x(), b.x(), c.x()}), ox, kColumnShiftX, grid_.nx);
-    const int j0 = first(std::min({a.y(), b.y(), c.y()}), oy, kColumnShiftY);
-    const int j1 = last(std::max({a.y(), b.y(), c.y()}), oy, kColumnShiftY, grid_.ny);
-    const float sign = area > 0.0 ? weight : -weight;
-    for (int j = j0; j <= j1; ++j) {
-      const double y = oy + (j + kColumnShiftY) * step;
-      for (int i = i0; i <= i1; ++i) {
-        const double x = ox + (i + kColumnShiftX) * step;
-        const double u = ((b.x() - x) * (c.y() - y) - (b.y() - y) * (c.x() - x)) / area;
-        const double v = ((c.x() - x) * (a.y() - y) - (c.y() - y) * (a.x() - x)) / area;
-        const double w = 1.0 - u - v;
-        if (u < 0.0 || v < 0.0 || w < 0.0) continue;
-        Cross(i / kColumnsPerCell, j / kColumnsPerCell, u * a.z() + v * b.z() + w * c.z(), sign);
-      }
-    }
+  // What lies between where columns enter the body and leave it gains `weight`.
+  void Add(const mesh::BodyMesh& mesh, double side, float weight) {
+    const mesh::ColumnGrid columns = ColumnsOf(grid_, side);
+    const int last = static_cast<int>(columns.x.size()) - 1;
+    const mesh::ColumnCaster caster(mesh.vertices(), mesh.triangles(), columns, {0, 1, 2},
+                                    ThreadPool(1));
+    caster.ForEach([&](const mesh::ColumnCrossing& crossing) {
+      const int i = static_cast<int>(crossing.column);
+      Cross((side > 0.0 ? i : last - i) / kColumnsPerCell,
+            static_cast<int>(crossing.row) / kColumnsPerCell, crossing.along,
+            static_cast<float>(-crossing.turn) * weight);
+    });
   }
 
   void Finish() {
@@ -103,14 +104,8 @@ class ColumnFiller {
 
 void FillInside(const mesh::BodyMesh& mesh, OccupancyGrid& grid) {
   ColumnFiller filler(grid);
-  const auto mirrored = [](const Vec3& p) { return Vec3(-p.x(), p.y(), p.z()); };
-  for (const mesh::Triangle& t : mesh.triangles()) {
-    const Vec3& a = mesh.vertices()[t[0]];
-    const Vec3& b = mesh.vertices()[t[1]];
-    const Vec3& c = mesh.vertices()[t[2]];
-    filler.Add(a, b, c, grid.folded ? 0.5f : 1.0f);
-    if (grid.folded) filler.Add(mirrored(a), mirrored(c), mirrored(b), 0.5f);
-  }
+  filler.Add(mesh, 1.0, grid.folded ? 0.5f : 1.0f);
+  if (grid.folded) filler.Add(mesh, -1.0, 0.5f);
   filler.Finish();
 }
 

@@ -26,11 +26,12 @@ VolumeError::VolumeError(const mesh::BodyMesh& mesh, int columns)
     : sag_(kRelativeSag * mesh.diagonal()) {
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * mesh.diagonal());
   grid_ = metrics::MakeColumnGrid({mesh.box_min() - margin, mesh.box_max() + margin}, columns);
-  metrics::BodyTriangles triangles;
-  triangles.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
-  triangles.labels.resize(triangles.triangles.size());
-  triangles.body_end = triangles.triangles.size();
-  const metrics::TriangleRows rows(mesh.vertices(), triangles, grid_);
+  metrics::FittedSurface surface;
+  surface.points_m.assign(mesh.vertices().begin(), mesh.vertices().end());
+  surface.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
+  surface.parts.resize(surface.triangles.size());
+  surface.skin_end = surface.triangles.size();
+  const metrics::BodyRows rows(surface, grid_, ThreadPool(1));
   for (std::size_t row = 0; row < grid_.y.size(); ++row) {
     body_rows_.push_back(rows.Cut(row).body);
     body_length_ += body_rows_.back().Length();
@@ -39,9 +40,10 @@ VolumeError::VolumeError(const mesh::BodyMesh& mesh, int columns)
 
 double VolumeError::Of(const SphereMesh& mesh) const {
   const std::vector<geometry::TaperedCapsule> solids = Solids(WithoutTriangles(mesh, sag_));
+  const metrics::SolidRows rows(solids, grid_);
   double off = 0.0;
   for (std::size_t row = 0; row < grid_.y.size(); ++row) {
-    const metrics::RowIntervals set = metrics::CutSolids(solids, grid_, row);
+    const metrics::RowIntervals set = rows.Cut(row);
     off += set.Length() + body_rows_[row].Length();
     for (std::size_t i = 0; i < grid_.x.size(); ++i) {
       off -= 2.0 * metrics::CommonLength(set.Column(i), body_rows_[row].Column(i));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/random.h"
+#include "core/mesh/surface_sums.h"
 #include "tests/core/metrics/shapes.h"
 
 namespace capfit::metrics {
@@ -20,19 +21,25 @@ ColumnGrid GridOver(const mesh::BodyMesh& mesh, int columns) {
   return MakeColumnGrid({mesh.box_min(), mesh.box_max()}, columns);
 }
 
-// The mesh as the body and the fitted part alike, with `label` on all triangles.
-BodyTriangles TrianglesOf(const mesh::BodyMesh& mesh, std::uint8_t label = 0) {
-  BodyTriangles all;
-  all.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
-  all.labels.assign(all.triangles.size(), label);
-  all.body_end = all.triangles.size();
-  return all;
+const ThreadPool& SerialPool() {
+  static const ThreadPool pool(1);
+  return pool;
+}
+
+// The mesh as the body and the fitted part alike.
+FittedSurface SurfaceOf(const mesh::BodyMesh& mesh) {
+  FittedSurface surface;
+  surface.points_m.assign(mesh.vertices().begin(), mesh.vertices().end());
+  surface.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
+  surface.parts.assign(surface.triangles.size(), body::Part::kTorso);
+  surface.skin_end = surface.triangles.size();
+  return surface;
 }
 
 double VolumeByColumns(const mesh::BodyMesh& mesh, int columns) {
   const ColumnGrid grid = GridOver(mesh, columns);
-  const BodyTriangles triangles = TrianglesOf(mesh);
-  const TriangleRows rows(mesh.vertices(), triangles, grid);
+  const FittedSurface surface = SurfaceOf(mesh);
+  const BodyRows rows(surface, grid, SerialPool());
   double volume = 0.0;
   for (std::size_t row = 0; row < grid.y.size(); ++row) volume += rows.Cut(row).body.Length();
   return volume * grid.cell_area();
@@ -72,26 +79,26 @@ TEST(CommonLengthTest, AddsUpWhatIsInBoth) {
   EXPECT_DOUBLE_EQ(CommonLength(a, {}), 0.0);
 }
 
-TEST(TriangleRowsTest, BoxesAndBracketsHaveTheirVolume) {
+TEST(BodyRowsTest, BoxesAndBracketsHaveTheirVolume) {
   EXPECT_NEAR(VolumeByColumns(test_shapes::Box({-1, 0, 0}, {1, 3, 2}, 4), 50), 12.0, 1e-12);
   // Half of the widened grid misses the bracket, and a cell in the middle is cut by its notch.
   EXPECT_NEAR(VolumeByColumns(test_shapes::Bracket(), 200), 3.0, 0.03);
 }
 
-TEST(TriangleRowsTest, ABallHasItsVolume) {
+TEST(BodyRowsTest, ABallHasItsVolume) {
   const mesh::BodyMesh ball = test_shapes::Ball({{0.1, 2, -1}, 0.7}, 4);
   EXPECT_NEAR(VolumeByColumns(ball, 240) / ball.volume(), 1.0, 5e-4);
 }
 
 // Rows and columns that run exactly through vertices and edges must still close: a box whose
 // triangulation is full of edges parallel to the axes, cut exactly there.
-TEST(TriangleRowsTest, ColumnsThroughVerticesAndEdgesCloseExactly) {
+TEST(BodyRowsTest, ColumnsThroughVerticesAndEdgesCloseExactly) {
   const mesh::BodyMesh box = test_shapes::Box({-1, -1, -1}, {1, 1, 1}, 4);
   ColumnGrid grid = GridOver(box, 4);
   grid.x = {-0.5, 0.0, 0.5, 0.9};
   grid.y = {-0.5, 0.0, 0.5, 0.9};
-  const BodyTriangles triangles = TrianglesOf(box);
-  const TriangleRows rows(box.vertices(), triangles, grid);
+  const FittedSurface surface = SurfaceOf(box);
+  const BodyRows rows(surface, grid, SerialPool());
   for (std::size_t row = 0; row < 4; ++row) {
     const RowIntervals cut = rows.Cut(row).body;
     for (std::size_t column = 0; column < 4; ++column) {
@@ -102,13 +109,13 @@ TEST(TriangleRowsTest, ColumnsThroughVerticesAndEdgesCloseExactly) {
   }
 }
 
-TEST(TriangleRowsTest, InsideIsWhereTheWindingNumberIsOne) {
+TEST(BodyRowsTest, InsideIsWhereTheWindingNumberIsOne) {
   for (const mesh::BodyMesh& mesh :
        {test_shapes::Bracket(), test_shapes::Ball({{0.2, 0, 0}, 1}, 1),
         test_shapes::Capsule({{-1, 0, 0}, 0.3}, {{1, 1, 1}, 0.6}, 12, 3)}) {
     const ColumnGrid grid = GridOver(mesh, 24);
-    const BodyTriangles triangles = TrianglesOf(mesh);
-    const TriangleRows rows(mesh.vertices(), triangles, grid);
+    const FittedSurface surface = SurfaceOf(mesh);
+    const BodyRows rows(surface, grid, SerialPool());
     Random random(2);
     for (int k = 0; k < 300; ++k) {
       const auto row = static_cast<std::size_t>(random.NextBelow(24));
@@ -120,7 +127,7 @@ TEST(TriangleRowsTest, InsideIsWhereTheWindingNumberIsOne) {
   }
 }
 
-TEST(TriangleRowsTest, WhereASurfaceOverlapsItselfCountsOnce) {
+TEST(BodyRowsTest, WhereASurfaceOverlapsItselfCountsOnce) {
   const mesh::BodyMesh one = test_shapes::Box({0, 0, 0}, {2, 1, 1});
   std::vector<Vector3d> vertices(one.vertices().begin(), one.vertices().end());
   std::vector<mesh::Triangle> triangles(one.triangles().begin(), one.triangles().end());
@@ -134,61 +141,57 @@ TEST(TriangleRowsTest, WhereASurfaceOverlapsItselfCountsOnce) {
   EXPECT_NEAR(VolumeByColumns(both, 40), 3.0, 1e-12);
 }
 
-// A box whose lower half (in z) has label 1 and upper half label 2: each column through it is cut
-// in the middle. A lid on top of the fitted part alone leaves out what is above it.
-TEST(TriangleRowsTest, HalvesHaveTheLabelOfTheirEndAndSurfacesShareTriangles) {
+// A box whose lower half (in z) is one part and the upper half another: each column through it is
+// cut in the middle. A lid on top of the fitted part alone leaves out what is above it.
+TEST(BodyRowsTest, HalvesHaveThePartOfTheirEndAndSurfacesShareTriangles) {
   const mesh::BodyMesh box = test_shapes::Box({-1, -1, 0}, {1, 1, 4}, 2);
-  BodyTriangles triangles;
-  std::vector<mesh::Triangle> above;
+  constexpr body::Part kLow = body::Part::kLeftArm;
+  constexpr body::Part kHigh = body::Part::kRightArm;
+  FittedSurface surface;
+  std::vector<mesh::Triangle> below;
   for (const mesh::Triangle& t : box.triangles()) {
-    double z = 0.0;
-    for (const std::uint32_t v : t) z += box.vertices()[v].z() / 3.0;
-    if (z > 2.0) {
-      triangles.triangles.push_back(t);
-      triangles.labels.push_back(2);
+    if (mesh::Middle(box.vertices(), t).z() > 2.0) {
+      surface.triangles.push_back(t);
     } else {
-      above.push_back(t);
+      below.push_back(t);
     }
   }
-  triangles.fitted_begin = triangles.triangles.size();
-  for (const mesh::Triangle& t : above) {
-    triangles.triangles.push_back(t);
-    triangles.labels.push_back(1);
-  }
-  triangles.body_end = triangles.triangles.size();
-  std::vector<Vector3d> points(box.vertices().begin(), box.vertices().end());
-  const auto first = static_cast<std::uint32_t>(points.size());
-  points.insert(points.end(), {{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}});
-  for (const mesh::Triangle& lid : {mesh::Triangle{0, 1, 2}, mesh::Triangle{0, 2, 3}}) {
-    triangles.triangles.push_back({first + lid[0], first + lid[1], first + lid[2]});
-    triangles.labels.push_back(1);
-  }
+  surface.skin_begin = surface.triangles.size();
+  surface.parts.assign(surface.skin_begin, kHigh);
+  surface.triangles.insert(surface.triangles.end(), below.begin(), below.end());
+  surface.skin_end = surface.triangles.size();
+  surface.points_m.assign(box.vertices().begin(), box.vertices().end());
+  const auto first = static_cast<std::uint32_t>(surface.points_m.size());
+  surface.points_m.insert(surface.points_m.end(), {{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}});
+  surface.triangles.push_back({first, first + 1, first + 2});
+  surface.triangles.push_back({first, first + 2, first + 3});
+  surface.parts.resize(surface.triangles.size(), kLow);
   const ColumnGrid grid = GridOver(box, 10);
-  const TriangleRows rows(points, triangles, grid);
+  const BodyRows rows(surface, grid, SerialPool());
   for (std::size_t row = 0; row < 10; ++row) {
-    const TriangleRows::Cuts cuts = rows.Cut(row);
+    const BodyRows::Cuts cuts = rows.Cut(row);
     for (std::size_t column = 0; column < 10; ++column) {
       const auto body = cuts.body.Column(column);
       ASSERT_EQ(body.size(), 2u);
       EXPECT_EQ(body[0].end, body[1].begin);
       EXPECT_DOUBLE_EQ(body[0].end, 2.0);
-      EXPECT_EQ(cuts.body.Labels(column)[0], 1);
-      EXPECT_EQ(cuts.body.Labels(column)[1], 2);
+      EXPECT_EQ(cuts.body.Labels(column)[0], static_cast<int>(kLow));
+      EXPECT_EQ(cuts.body.Labels(column)[1], static_cast<int>(kHigh));
       const auto fitted = cuts.fitted.Column(column);
       ASSERT_EQ(fitted.size(), 1u);
       EXPECT_EQ(fitted[0].end, 2.0);
-      EXPECT_EQ(cuts.fitted.Labels(column)[0], 1);
+      EXPECT_EQ(cuts.fitted.Labels(column)[0], static_cast<int>(kLow));
     }
   }
 }
 
-TEST(CutSolidsTest, LabelsNameASolidThatHoldsTheInterval) {
+TEST(SolidRowsTest, LabelsNameASolidThatHoldsTheInterval) {
   const std::vector<TaperedCapsule> solids = {{{{0, 0, 0}, 0.5}, {{0, 0, 0}, 0.5}},
                                               {{{0, 0, 0.4}, 0.5}, {{0, 0, 0.4}, 0.5}},
                                               {{{0, 0, 0.1}, 0.2}, {{0, 0, 0.1}, 0.2}}};
   const ColumnGrid grid = MakeColumnGrid({Vector3d(-0.5, -0.5, -1), Vector3d(0.5, 0.5, 1)}, 20);
   for (std::size_t row = 0; row < 20; ++row) {
-    const RowIntervals cut = CutSolids(solids, grid, row);
+    const RowIntervals cut = SolidRows(solids, grid).Cut(row);
     for (std::size_t column = 0; column < 20; ++column) {
       const auto intervals = cut.Column(column);
       for (std::size_t k = 0; k < intervals.size(); ++k) {
@@ -203,14 +206,14 @@ TEST(CutSolidsTest, LabelsNameASolidThatHoldsTheInterval) {
   }
 }
 
-TEST(CutSolidsTest, AgreesWithTheDistanceToTheUnion) {
+TEST(SolidRowsTest, AgreesWithTheDistanceToTheUnion) {
   const std::vector<TaperedCapsule> solids = {{{{0, 0.2, 0}, 0.5}, {{1, 0.8, 0.3}, 0.2}},
                                               {{{-0.8, 0, 0}, 0.3}, {{-0.8, 0, 0}, 0.3}},
                                               {{{0, 1, 0}, 0.1}, {{0.1, 1, 0}, 0.6}},
                                               {{{0.4, 0.1, 2}, 0.2}, {{0.4, 0.1, 3}, 0.2}}};
   const ColumnGrid grid = MakeColumnGrid({Vector3d(-1.2, -0.6, 0), Vector3d(1.3, 1.7, 1)}, 30);
   for (std::size_t row = 0; row < 30; ++row) {
-    const RowIntervals cut = CutSolids(solids, grid, row);
+    const RowIntervals cut = SolidRows(solids, grid).Cut(row);
     Random random(row);
     for (std::size_t column = 0; column < 30; ++column) {
       const double z = random.NextIn(-1, 3.5);

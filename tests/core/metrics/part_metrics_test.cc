@@ -138,7 +138,7 @@ TEST(PartMetricsTest, ASetOnOneLimbOnlyConcernsThatLimb) {
   const double volume =
       arm.volume_m3 + Of(Part::kTorso, m).volume_m3 + Of(Part::kRightArm, m).volume_m3;
   EXPECT_NEAR(arm.outside * arm.volume_m3, m.outside * volume, 1e-12);
-  EXPECT_NEAR(arm.volume_ratio * arm.volume_m3, Ball(0.55), 2e-3);
+  EXPECT_NEAR(arm.volume_ratio * arm.volume_m3, Ball(0.55), 8e-3);  // the arm's end is along z
   EXPECT_NEAR(arm.uncovered * arm.volume_m3 + arm.volume_ratio * arm.volume_m3,
               arm.volume_m3 + arm.outside * arm.volume_m3, 1e-12);
   EXPECT_EQ(arm.spheres, 1);
