@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/base/chunk_sums.h"
 #include "core/base/status.h"
 #include "core/formats/recover_decimals.h"
 #include "core/formats/soup_checks.h"
@@ -17,6 +19,7 @@
 #include "core/mesh/edge_mates.h"
 #include "core/mesh/join_triangles.h"
 #include "core/mesh/mend_flat_triangles.h"
+#include "core/mesh/one_surface.h"
 #include "core/mesh/overlap.h"
 #include "core/mesh/split_vertices.h"
 #include "core/mesh/surface.h"
@@ -71,14 +74,21 @@ class MeshMender {
  public:
   // `positions` stand for the soup's own.
   MeshMender(const formats::PolygonSoup& soup, const std::vector<Eigen::Vector3d>& positions,
-             const FitObserver& observer)
-      : positions_(positions), observer_(observer) {
+             const ThreadPool& pool, const FitObserver& observer)
+      : positions_(positions), pool_(pool), observer_(observer) {
     Triangulate(soup);
-    MeasureUsed();
   }
 
   absl::StatusOr<PreparedMesh> Run() {
-    Join();
+    EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size(), pool_);
+    if (IsFineAsItCame(mates)) {
+      std::vector<std::int32_t> themselves(positions_.size());
+      std::iota(themselves.begin(), themselves.end(), 0);
+      return Finish(BodyMesh(positions_, std::move(surface_.triangles), std::move(themselves),
+                             std::move(mates.mate), pool_));
+    }
+    MeasureUsed();
+    Join(std::move(mates));
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     if (surface_.triangles.empty()) {
       return Refused(ErrorReason::kNoSurface, absl::StrCat("all ", degenerate_,
@@ -94,7 +104,7 @@ class MeshMender {
     MendFlat();
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     CAPFIT_RETURN_IF_ERROR(CheckManifold());
-    return Finish();
+    return Finish(MeshOfUsed());
   }
 
  private:
@@ -107,6 +117,25 @@ class MeshMender {
     TriangulatedFaces faces = TriangulateFaces(soup, positions_);
     surface_.triangles = std::move(faces.triangles);
     degenerate_ = faces.degenerate;
+  }
+
+  // Whether all of the steps below would leave it as it is.
+  bool IsFineAsItCame(const EdgeMates& mates) {
+    if (degenerate_ > 0 || mates.mate.empty() || !mates.IsClosedAndOriented()) return false;
+    if (!IsOneSurface(surface_.triangles, mates.mate, positions_.size(), pool_)) return false;
+    Box box;
+    for (const Eigen::Vector3d& position : positions_) box.Add(position);
+    diagonal_ = box.diagonal();
+    return Volume() > LeastVolume() && !HasFlat();
+  }
+
+  [[nodiscard]] bool HasFlat() const {
+    const auto flat_in = [this](std::size_t begin, std::size_t end) {
+      return std::any_of(
+          surface_.triangles.begin() + begin, surface_.triangles.begin() + end,
+          [this](const Triangle& t) { return IsFlat(positions_, t, kFlatShare * diagonal_); });
+    };
+    return SumOverChunks(pool_, surface_.triangles.size(), 0, flat_in) > 0;
   }
 
   // Only vertices that faces use count for the size of the mesh.
@@ -127,9 +156,9 @@ class MeshMender {
     }
   }
 
-  void Join() {
-    JoinedTriangles joined =
-        JoinTriangles(positions_, std::move(surface_.triangles), kWeldShare * diagonal_, observer_);
+  void Join(EdgeMates mates) {
+    JoinedTriangles joined = JoinTriangles(positions_, std::move(surface_.triangles),
+                                           std::move(mates), kWeldShare * diagonal_, observer_);
     surface_ = std::move(joined.surface);
     stand_in_ = std::move(joined.stand_in);
     duplicates_ = joined.duplicates;
@@ -166,9 +195,12 @@ class MeshMender {
     return absl::OkStatus();
   }
 
+  [[nodiscard]] double LeastVolume() const {
+    return kLeastVolumeShare * diagonal_ * diagonal_ * diagonal_;
+  }
+
   absl::Status CheckVolume(double volume, std::size_t parts) const {
-    const double least = kLeastVolumeShare * diagonal_ * diagonal_ * diagonal_;
-    if (std::abs(volume) > least) return absl::OkStatus();
+    if (std::abs(volume) > LeastVolume()) return absl::OkStatus();
     return Refused(ErrorReason::kNoVolume,
                    absl::StrFormat("the surface encloses no volume; it has %d parts that share "
                                    "no edge: do neighbouring faces have the same vertices, or "
@@ -240,13 +272,16 @@ class MeshMender {
 
   [[nodiscard]] double Volume() const {
     const Eigen::Vector3d& origin = positions_[surface_.triangles.front()[0]];
-    double volume = 0.0;
-    for (const Triangle& t : surface_.triangles) {
-      const Eigen::Vector3d a = positions_[t[0]] - origin;
-      const Eigen::Vector3d b = positions_[t[1]] - origin;
-      volume += a.dot(b.cross(positions_[t[2]] - origin)) / 6.0;
-    }
-    return volume;
+    const auto volume_in = [&](std::size_t begin, std::size_t end) {
+      double volume = 0.0;
+      for (const Triangle& t : std::span(surface_.triangles).subspan(begin, end - begin)) {
+        const Eigen::Vector3d a = positions_[t[0]] - origin;
+        const Eigen::Vector3d b = positions_[t[1]] - origin;
+        volume += a.dot(b.cross(positions_[t[2]] - origin)) / 6.0;
+      }
+      return volume;
+    };
+    return SumOverChunks(pool_, surface_.triangles.size(), 0.0, volume_in);
   }
 
   absl::Status TurnOutward() {
@@ -304,8 +339,13 @@ class MeshMender {
                                 "program"));
   }
 
-  PreparedMesh Finish() {
+  PreparedMesh Finish(BodyMesh mesh) {
     WarnOfDropped();
+    WarnOfOverlap(mesh);
+    return {std::move(mesh), std::move(warnings_)};
+  }
+
+  BodyMesh MeshOfUsed() {
     std::vector<std::uint32_t> new_index(positions_.size() + copied_.size(), kNone);
     for (const Triangle& t : surface_.triangles) {
       new_index[t[0]] = new_index[t[1]] = new_index[t[2]] = 0;
@@ -331,9 +371,8 @@ class MeshMender {
       const std::uint32_t index = new_index[stand_in_.empty() ? v : stand_in_[v]];
       vertex_of_source[v] = index == kNone ? -1 : static_cast<std::int32_t>(index);
     }
-    BodyMesh mesh(std::move(vertices), std::move(surface_.triangles), std::move(vertex_of_source));
-    WarnOfOverlap(mesh);
-    return {std::move(mesh), std::move(warnings_)};
+    return BodyMesh(std::move(vertices), std::move(surface_.triangles), std::move(vertex_of_source),
+                    std::move(surface_.mate), pool_);
   }
 
   void WarnOfOverlap(const BodyMesh& mesh) {
@@ -365,6 +404,7 @@ class MeshMender {
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
+  const ThreadPool& pool_;
   const FitObserver& observer_;
   double diagonal_ = 0.0;
   Surface surface_;
@@ -383,11 +423,11 @@ class MeshMender {
 }  // namespace
 
 absl::StatusOr<PreparedMesh> PrepareMesh(const formats::PolygonSoup& soup,
-                                         const formats::MeshLimits& limits,
+                                         const formats::MeshLimits& limits, const ThreadPool& pool,
                                          const FitObserver& observer) {
   CAPFIT_RETURN_IF_ERROR(formats::CheckSoup(soup, limits));
   const std::vector<Eigen::Vector3d> decimals = formats::RecoverDecimalsOfFloats(soup.positions);
-  return MeshMender(soup, decimals.empty() ? soup.positions : decimals, observer).Run();
+  return MeshMender(soup, decimals.empty() ? soup.positions : decimals, pool, observer).Run();
 }
 
 }  // namespace capfit::mesh

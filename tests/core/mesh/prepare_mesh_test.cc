@@ -278,7 +278,7 @@ TEST(PrepareMeshTest, StopsBetweenStepsWhenCancelled) {
   absl::StatusOr<PreparedMesh> prepared = absl::CancelledError();
   for (; !prepared.ok(); ++patience) {
     const ImpatientObserver observer(patience);
-    prepared = PrepareMesh(open, {}, observer);
+    prepared = PrepareMesh(open, {}, ThreadPool(1), observer);
     EXPECT_TRUE(prepared.ok() || prepared.status().code() == absl::StatusCode::kCancelled);
     ASSERT_LT(patience, 30);
   }
