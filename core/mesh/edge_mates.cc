@@ -13,21 +13,22 @@ constexpr int kDrawerBits = 10;
 constexpr std::uint32_t kDrawerVertices = 1u << kDrawerBits;
 constexpr std::size_t kTrianglesPerChunk = 8192;
 
-// A half-edge as its edge's lower vertex sees it.
+// A half-edge as its edge's lower vertex sees it: twice its index, plus one where it comes in.
 struct Spoke {
   std::uint32_t lower_vertex;
   std::uint32_t other_vertex;
-  HalfEdge half_edge;
+  std::uint32_t half_edge_and_way;
 };
 
 // The other vertex and the half-edge in one number: the order of spokes at one vertex.
 using SpokeKey = std::uint64_t;
 
 SpokeKey KeyOf(const Spoke& spoke) {
-  return (SpokeKey{spoke.other_vertex} << 32) | spoke.half_edge;
+  return (SpokeKey{spoke.other_vertex} << 32) | spoke.half_edge_and_way;
 }
 std::uint32_t OtherVertex(SpokeKey key) { return static_cast<std::uint32_t>(key >> 32); }
-HalfEdge HalfEdgeOf(SpokeKey key) { return static_cast<HalfEdge>(key); }
+HalfEdge HalfEdgeOf(SpokeKey key) { return static_cast<std::uint32_t>(key) >> 1; }
+bool RunSameWay(SpokeKey a, SpokeKey b) { return ((a ^ b) & 1u) == 0; }
 
 // The usual handful of spokes is sorted by insertion; a vertex with thousands needs better.
 void Sort(std::span<SpokeKey> spokes) {
@@ -76,8 +77,10 @@ class MateFinder {
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle& corners = triangles_[t];
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax({corners[k], corners[k == 2 ? 0 : k + 1]});
-        visit(Spoke{low, high, static_cast<HalfEdge>(3 * t + k)});
+        const std::uint32_t from = corners[k];
+        const std::uint32_t to = corners[k == 2 ? 0 : k + 1];
+        const auto half_edge = static_cast<HalfEdge>(3 * t + k);
+        visit(Spoke{std::min(from, to), std::max(from, to), 2 * half_edge + (from > to ? 1 : 0)});
       }
     }
   }
@@ -139,7 +142,7 @@ class MateFinder {
       const HalfEdge b = HalfEdgeOf(edge[1]);
       mate_[a] = b;
       mate_[b] = a;
-      if (StartOf(triangles_, a) == StartOf(triangles_, b)) ++found.misdirected;
+      if (RunSameWay(edge[0], edge[1])) ++found.misdirected;
     } else {
       for (const SpokeKey spoke : edge) found.crowded.push_back(HalfEdgeOf(spoke));
       found.crowded_sizes.push_back(static_cast<std::uint32_t>(edge.size()));
