@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/chunk_sums.h"
 #include "core/base/status.h"
 #include "core/body/body_unit.h"
 #include "core/body/chains.h"
@@ -139,20 +140,22 @@ absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const Work
 // In the order of the working copy: every room that follows gets the same numbers in the same
 // order, whatever file and frame the body came in.
 mesh::BodyMesh MeshInBodyFrame(const mesh::BodyMesh& mesh, const WorkingCopy& copy,
-                               const geometry::Similarity& body_from_copy) {
-  std::vector<Eigen::Vector3d> vertices;
-  vertices.reserve(copy.points.size());
+                               const geometry::Similarity& body_from_copy, const ThreadPool& pool) {
+  std::vector<Eigen::Vector3d> vertices(copy.points.size());
   std::vector<std::int32_t> place(copy.points.size());
-  for (std::size_t i = 0; i < copy.points.size(); ++i) {
-    vertices.push_back(body_from_copy.Apply(copy.points[i]));
-    place[copy.mesh_vertex[i]] = static_cast<std::int32_t>(i);
+  pool.ForChunks(vertices.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      vertices[i] = body_from_copy.Apply(copy.points[i]);
+      place[copy.mesh_vertex[i]] = static_cast<std::int32_t>(i);
+    }
+  });
+  std::vector<std::int32_t> vertex_of_source(mesh.vertex_of_source().size());
+  for (std::size_t i = 0; i < vertex_of_source.size(); ++i) {
+    const std::int32_t v = mesh.vertex_of_source()[i];
+    vertex_of_source[i] = v < 0 ? -1 : place[static_cast<std::size_t>(v)];
   }
-  std::vector<std::int32_t> vertex_of_source;
-  vertex_of_source.reserve(mesh.vertex_of_source().size());
-  for (const std::int32_t v : mesh.vertex_of_source()) {
-    vertex_of_source.push_back(v < 0 ? -1 : place[static_cast<std::size_t>(v)]);
-  }
-  return mesh::BodyMesh(std::move(vertices), copy.triangles, std::move(vertex_of_source));
+  return mesh::BodyMesh(std::move(vertices), copy.triangles, std::move(vertex_of_source),
+                        copy.mates, pool);
 }
 
 // Turns the limbs found into left and right ones.
@@ -317,9 +320,8 @@ class Anatomist {
 
 absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& options,
                               const ThreadPool& pool, const FitObserver& observer) {
-  (void)pool;
-  const WorkingCopy copy = MakeWorkingCopy(mesh);
-  const SurfaceGraph graph(copy.points, copy.triangles);
+  const WorkingCopy copy = MakeWorkingCopy(mesh, pool);
+  const SurfaceGraph graph(copy.points, copy.triangles, copy.mates, pool);
   const Extremities extremities = FindExtremities(copy.points, copy.vertex_areas, graph);
   std::vector<Warning> warnings;
   CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame,
@@ -330,7 +332,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
     warnings.push_back({"FACING_UNSURE",
                         "front and back look alike; a left or right landmark would tell them", 0});
   }
-  Body body = {MeshInBodyFrame(mesh, copy, ways.from_copy),
+  Body body = {MeshInBodyFrame(mesh, copy, ways.from_copy, pool),
                ways.from_caller,
                0.0,
                false,

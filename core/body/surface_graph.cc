@@ -7,11 +7,12 @@
 #include <queue>
 #include <utility>
 
+#include "core/base/chunk_sums.h"
+
 namespace capfit::body {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr float kNone = std::numeric_limits<float>::infinity();
 // How often a link may be looked at, on average, in buckets. A body needs less than two; a row of
 // vertices much closer than a bucket is wide would ask for more the longer it is.
 constexpr std::size_t kMostLooks = 6;
@@ -42,78 +43,57 @@ double UnfoldedLength(const Eigen::Vector3d& p, const Eigen::Vector3d& b, const 
 }  // namespace
 
 SurfaceGraph::SurfaceGraph(std::span<const Eigen::Vector3d> points,
-                           std::span<const mesh::Triangle> triangles)
+                           std::span<const mesh::Triangle> triangles,
+                           std::span<const mesh::HalfEdge> mates, const ThreadPool& pool)
     : offsets_(points.size() + 1, 0) {
-  AddEdges(points, triangles);
-  AddShortcuts(points);
-}
-
-void SurfaceGraph::AddEdges(std::span<const Eigen::Vector3d> points,
-                            std::span<const mesh::Triangle> triangles) {
   for (const mesh::Triangle& t : triangles) {
     for (const std::uint32_t corner : t) ++offsets_[corner + 1];
   }
   for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
   next_.resize(offsets_.back());
-  after_.resize(offsets_.back());
-  links_.resize(next_.size());
+  links_.resize(offsets_.back());
+  // Half-edge h starts at a corner; what leads over the edge after it goes out from there too.
+  std::vector<std::uint32_t> slot(mates.size());
   std::vector<std::uint32_t> free_slot(offsets_.begin(), offsets_.end() - 1);
-  double total_length = 0.0;
-  for (const mesh::Triangle& t : triangles) {
-    const std::uint32_t slots[3] = {free_slot[t[0]]++, free_slot[t[1]]++, free_slot[t[2]]++};
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t to = t[(k + 1) % 3];
-      const double length = (points[to] - points[t[k]]).norm();
-      next_[slots[k]] = to;
-      after_[slots[k]] = slots[(k + 1) % 3];
-      links_[slots[k]] = {t[k], static_cast<float>(length), -1.0f};
-      total_length += length;
+  for (mesh::HalfEdge h = 0; h < slot.size(); ++h)
+    slot[h] = free_slot[mesh::StartOf(triangles, h)]++;
+  const auto link = [&](std::size_t begin, std::size_t end) {
+    double length = 0.0;
+    for (std::size_t h = begin; h < end; ++h) {
+      length += AddLink(points, triangles, mates, static_cast<mesh::HalfEdge>(h), slot);
     }
-  }
-  if (total_length > 0.0) {
-    bucket_width_ = kBucketShare * total_length / static_cast<double>(next_.size());
-  }
+    return length;
+  };
+  const double length = SumOverChunks(pool, mates.size(), 0.0, link);
+  if (length > 0.0) bucket_width_ = kBucketShare * length / static_cast<double>(next_.size());
 }
 
-// The slot at `from` of the triangle that runs the edge to `to`; the number of slots where there is
-// none. Looked for at the end with fewer triangles: the hub of a wheel may have as many as the
-// mesh.
-std::uint32_t SurfaceGraph::SlotOfEdge(std::uint32_t from, std::uint32_t to) const {
-  const bool from_has_fewer =
-      offsets_[from + 1] - offsets_[from] <= offsets_[to + 1] - offsets_[to];
-  const std::uint32_t end = from_has_fewer ? from : to;
-  for (std::uint32_t s = offsets_[end]; s < offsets_[end + 1]; ++s) {
-    if (from_has_fewer) {
-      if (next_[s] == to) return s;
-    } else if (next_[after_[s]] == from) {
-      return after_[after_[s]];
-    }
+// Enters the half-edge, and the shortcut from its start at both ends if this one comes first.
+double SurfaceGraph::AddLink(std::span<const Eigen::Vector3d> points,
+                             std::span<const mesh::Triangle> triangles,
+                             std::span<const mesh::HalfEdge> mates, mesh::HalfEdge h,
+                             std::span<const std::uint32_t> slot) {
+  const mesh::HalfEdge opposite = mesh::NextInTriangle(h);
+  const std::uint32_t v = mesh::StartOf(triangles, h);
+  const std::uint32_t b = mesh::StartOf(triangles, opposite);
+  const double length = (points[b] - points[v]).norm();
+  next_[slot[h]] = b;
+  links_[slot[h]].edge_length = static_cast<float>(length);
+  if (mates[opposite] == mesh::kNoMate) {
+    links_[slot[h]].across = v;
+    return length;
   }
-  return offsets_.back();
-}
-
-// Each shortcut is measured once, from the end that comes first, and entered at both.
-void SurfaceGraph::AddShortcuts(std::span<const Eigen::Vector3d> points) {
-  for (std::uint32_t v = 0; v + 1 < offsets_.size(); ++v) {
-    for (std::uint32_t s = offsets_[v]; s < offsets_[v + 1]; ++s) {
-      Link& link = links_[s];
-      if (link.across_length >= 0.0f) continue;
-      link.across_length = kNone;
-      const std::uint32_t b = next_[s];
-      const std::uint32_t c = next_[after_[s]];
-      // The triangle on the other side of b-c starts at c and goes on to b.
-      const std::uint32_t o = SlotOfEdge(c, b);
-      if (o == offsets_.back()) continue;
-      const std::uint32_t across = next_[after_[o]];
-      const std::uint32_t opposite_slot = after_[after_[o]];
-      const float length =
-          static_cast<float>(UnfoldedLength(points[v], points[b], points[c], points[across]));
-      link.across = across;
-      link.across_length = length;
-      links_[opposite_slot].across = v;
-      links_[opposite_slot].across_length = length;
-    }
+  const mesh::HalfEdge there = mesh::PreviousInTriangle(mates[opposite]);
+  const std::uint32_t across = mesh::StartOf(triangles, there);
+  if (std::pair(across, slot[there]) < std::pair(v, slot[h])) return length;
+  const std::uint32_t c = mesh::EndOf(triangles, opposite);
+  const float across_length =
+      static_cast<float>(UnfoldedLength(points[v], points[b], points[c], points[across]));
+  for (const auto& [from, to] : {std::pair(slot[h], across), std::pair(slot[there], v)}) {
+    links_[from].across = to;
+    links_[from].across_length = across_length;
   }
+  return length;
 }
 
 // Dijkstra's own way: slower than buckets on bodies, but no mesh can make it look at a link twice.

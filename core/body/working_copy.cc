@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/chunk_sums.h"
 #include "core/body/snap.h"
 
 namespace capfit::body {
@@ -41,18 +42,19 @@ std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys,
     const Eigen::Vector3d& q = points[b];
     if (p.y() != q.y()) return p.y() < q.y();
     if (p.z() != q.z()) return p.z() < q.z();
-    return p.x() < q.x();
+    return p.x() != q.x() ? p.x() < q.x() : a < b;
   };
   for (auto first = order.begin(); first != order.end();) {
     auto last = first + 1;
     while (last != order.end() && keys[*last] == keys[*first]) ++last;
-    if (last - first > 1) std::stable_sort(first, last, comes_first);
+    if (last - first > 1) std::sort(first, last, comes_first);
     first = last;
   }
   return order;
 }
 
-std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points) {
+std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points,
+                                     const ThreadPool& pool) {
   Eigen::Vector3d low = points.front();
   Eigen::Vector3d high = low;
   for (const Eigen::Vector3d& p : points) {
@@ -61,68 +63,148 @@ std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points)
   }
   const double cells = (1u << kBitsPerAxis) - 1;
   const double side = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
-  std::vector<std::uint32_t> keys;
-  keys.reserve(points.size());
-  for (const Eigen::Vector3d& p : points) {
-    const Eigen::Vector3d at = (p - low) * (cells / side);
-    keys.push_back(Spread(static_cast<std::uint32_t>(at.x())) |
-                   Spread(static_cast<std::uint32_t>(at.y())) << 1 |
-                   Spread(static_cast<std::uint32_t>(at.z())) << 2);
-  }
+  std::vector<std::uint32_t> keys(points.size());
+  pool.ForChunks(points.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const Eigen::Vector3d at = (points[v] - low) * (cells / side);
+      keys[v] = Spread(static_cast<std::uint32_t>(at.x())) |
+                Spread(static_cast<std::uint32_t>(at.y())) << 1 |
+                Spread(static_cast<std::uint32_t>(at.z())) << 2;
+    }
+  });
   return keys;
 }
 
-// Triangles of vertices in a new order, sorted by their corners in it, the lowest corner first.
-std::vector<mesh::Triangle> SortedTriangles(std::span<const mesh::Triangle> triangles,
-                                            const std::vector<std::uint32_t>& order) {
+// A triangle with new names for its corners, and its place among the mesh's own.
+struct SortedTriangle {
+  mesh::Triangle corners;
+  std::uint32_t source;
+
+  bool operator<(const SortedTriangle& other) const { return corners < other.corners; }
+};
+
+// The mesh's triangles with the ranks of their vertices, the lowest corner first, by that corner.
+std::vector<SortedTriangle> RenamedTriangles(const mesh::BodyMesh& mesh,
+                                             const std::vector<std::uint32_t>& order,
+                                             const ThreadPool& pool) {
   std::vector<std::uint32_t> rank(order.size());
   for (std::uint32_t i = 0; i < rank.size(); ++i) rank[order[i]] = i;
+  const std::span<const mesh::Triangle> triangles = mesh.triangles();
+  std::vector<SortedTriangle> renamed(triangles.size());
+  pool.ForChunks(triangles.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const mesh::Triangle& t = triangles[i];
+      mesh::Triangle corners = {rank[t[0]], rank[t[1]], rank[t[2]]};
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      renamed[i] = {corners, static_cast<std::uint32_t>(i)};
+    }
+  });
   std::vector<std::uint32_t> end(rank.size() + 1, 0);
-  for (const mesh::Triangle& t : triangles) ++end[std::min({rank[t[0]], rank[t[1]], rank[t[2]]})];
+  for (const SortedTriangle& t : renamed) ++end[t.corners[0]];
   for (std::size_t k = 1; k < end.size(); ++k) end[k] += end[k - 1];
-  std::vector<mesh::Triangle> sorted(triangles.size());
+  std::vector<SortedTriangle> sorted(triangles.size());
   // From the back, so that the ends become the starts.
-  for (const mesh::Triangle& t : triangles) {
-    mesh::Triangle renamed = {rank[t[0]], rank[t[1]], rank[t[2]]};
-    std::rotate(renamed.begin(), std::min_element(renamed.begin(), renamed.end()), renamed.end());
-    sorted[--end[renamed[0]]] = renamed;
-  }
-  for (std::size_t v = 0; v < rank.size(); ++v) {
-    std::sort(sorted.begin() + end[v], sorted.begin() + end[v + 1]);
-  }
+  for (const SortedTriangle& t : renamed) sorted[--end[t.corners[0]]] = t;
+  pool.ForChunks(rank.size(), kMeshChunk, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      std::sort(sorted.begin() + end[v], sorted.begin() + end[v + 1]);
+    }
+  });
   return sorted;
 }
 
-// Of the volume, in the mesh's frame.
-Eigen::Vector3d CentroidOf(const mesh::BodyMesh& mesh) {
-  const Eigen::Vector3d middle = 0.5 * (mesh.box_min() + mesh.box_max());
+// Enters the triangles of vertices in a new order, sorted by their corners in it, and their mates.
+void SortTriangles(const mesh::BodyMesh& mesh, const ThreadPool& pool, WorkingCopy& copy) {
+  const std::vector<SortedTriangle> sorted = RenamedTriangles(mesh, copy.mesh_vertex, pool);
+  copy.triangles.resize(sorted.size());
+  copy.mates.resize(3 * sorted.size());
+  // Where the first half-edge of each of the mesh's triangles has gone; the others follow it round.
+  std::vector<mesh::HalfEdge> gone_to(sorted.size());
+  const auto follow = [](mesh::HalfEdge h, std::uint32_t steps) {
+    return 3 * (h / 3) + (h + steps) % 3;
+  };
+  const auto visit = [&](const auto& place) {
+    pool.ForChunks(sorted.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) place(static_cast<std::uint32_t>(i), sorted[i]);
+    });
+  };
+  visit([&](std::uint32_t i, const SortedTriangle& t) {
+    copy.triangles[i] = t.corners;
+    const std::uint32_t first = mesh.triangles()[t.source][0];
+    const auto at = std::find_if(t.corners.begin(), t.corners.end(), [&](std::uint32_t corner) {
+      return copy.mesh_vertex[corner] == first;
+    });
+    gone_to[t.source] = 3 * i + static_cast<std::uint32_t>(at - t.corners.begin());
+  });
+  visit([&](std::uint32_t, const SortedTriangle& t) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const mesh::HalfEdge mate = mesh.mates()[3 * t.source + k];
+      copy.mates[follow(gone_to[t.source], k)] =
+          mate == mesh::kNoMate ? mate : follow(gone_to[mate / 3], mate % 3);
+    }
+  });
+}
+
+struct Moment {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double six_volumes = 0.0;
-  for (const mesh::Triangle& t : mesh.triangles()) {
-    const Eigen::Vector3d a = mesh.vertices()[t[0]] - middle;
-    const Eigen::Vector3d b = mesh.vertices()[t[1]] - middle;
-    const Eigen::Vector3d c = mesh.vertices()[t[2]] - middle;
-    const double wedge = a.dot(b.cross(c));
-    six_volumes += wedge;
-    moment += wedge * (a + b + c) / 4.0;
+
+  Moment& operator+=(const Moment& other) {
+    moment += other.moment;
+    six_volumes += other.six_volumes;
+    return *this;
   }
-  return middle + moment / six_volumes;
+};
+
+// Of the volume, in the mesh's frame.
+Eigen::Vector3d CentroidOf(const mesh::BodyMesh& mesh, const ThreadPool& pool) {
+  const Eigen::Vector3d middle = 0.5 * (mesh.box_min() + mesh.box_max());
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    Moment sum;
+    for (const mesh::Triangle& t : mesh.triangles().subspan(begin, end - begin)) {
+      const Eigen::Vector3d a = mesh.vertices()[t[0]] - middle;
+      const Eigen::Vector3d b = mesh.vertices()[t[1]] - middle;
+      const Eigen::Vector3d c = mesh.vertices()[t[2]] - middle;
+      const double wedge = a.dot(b.cross(c));
+      sum.six_volumes += wedge;
+      sum.moment += wedge * (a + b + c) / 4.0;
+    }
+    return sum;
+  };
+  const Moment total = SumOverChunks(pool, mesh.triangles().size(), Moment{}, part);
+  return middle + total.moment / total.six_volumes;
+}
+
+// Adds up term(point).
+template <typename Sum, typename Term>
+Sum SumOf(std::span<const Eigen::Vector3d> points, const ThreadPool& pool, const Sum& zero,
+          const Term& term) {
+  return SumOverChunks(pool, points.size(), zero, [&](std::size_t begin, std::size_t end) {
+    Sum sum = zero;
+    for (const Eigen::Vector3d& p : points.subspan(begin, end - begin)) sum += term(p);
+    return sum;
+  });
 }
 
 // Rows: the directions in which the points spread most, second most and least; right-handed. The
 // first and the more lopsided of the others point to where the points reach out farther.
-Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : points) products += (p - mean) * (p - mean).transpose();
+Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points, const ThreadPool& pool) {
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d mean =
+      SumOf(points, pool, zero, [](const Eigen::Vector3d& p) { return p; }) /
+      static_cast<double>(points.size());
+  const Eigen::Matrix3d no_products = Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d products =
+      SumOf(points, pool, no_products, [&](const Eigen::Vector3d& p) -> Eigen::Matrix3d {
+        return (p - mean) * (p - mean).transpose();
+      });
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(products);
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse().transpose();
-  Eigen::Vector3d cubes = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) {
-    const Eigen::Vector3d at = axes * (p - mean);
-    cubes += at.cwiseProduct(at).cwiseProduct(at);
-  }
+  const Eigen::Vector3d cubes =
+      SumOf(points, pool, zero, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+        const Eigen::Vector3d at = axes * (p - mean);
+        return at.cwiseProduct(at).cwiseProduct(at);
+      });
   const int lopsided = std::abs(cubes[1]) >= std::abs(cubes[2]) ? 1 : 2;
   for (const int k : {0, lopsided}) {
     if (cubes[k] < 0.0) axes.row(k) = -axes.row(k);
@@ -131,35 +213,46 @@ Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points) {
   return axes;
 }
 
-void AddAreas(WorkingCopy& copy) {
+void AddAreas(const ThreadPool& pool, WorkingCopy& copy) {
+  std::vector<double> thirds(copy.triangles.size());
+  pool.ForChunks(thirds.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const mesh::Triangle& t = copy.triangles[i];
+      const Eigen::Vector3d& a = copy.points[t[0]];
+      thirds[i] = (copy.points[t[1]] - a).cross(copy.points[t[2]] - a).norm() / 6.0;
+    }
+  });
   copy.vertex_areas.assign(copy.points.size(), 0.0);
   double area = 0.0;
-  for (const mesh::Triangle& t : copy.triangles) {
-    const Eigen::Vector3d& a = copy.points[t[0]];
-    const double third = (copy.points[t[1]] - a).cross(copy.points[t[2]] - a).norm() / 6.0;
-    area += 3.0 * third;
-    for (const std::uint32_t v : t) copy.vertex_areas[v] += third;
+  for (std::size_t i = 0; i < thirds.size(); ++i) {
+    area += 3.0 * thirds[i];
+    for (const std::uint32_t v : copy.triangles[i]) copy.vertex_areas[v] += thirds[i];
   }
   for (double& a : copy.vertex_areas) a /= area;
 }
 
 }  // namespace
 
-WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh) {
+WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool) {
   WorkingCopy copy;
-  copy.centroid = CentroidOf(mesh);
+  copy.centroid = CentroidOf(mesh, pool);
   copy.unit = std::sqrt(mesh.area());
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(mesh.vertices().size());
-  for (const Eigen::Vector3d& v : mesh.vertices())
-    points.push_back((v - copy.centroid) / copy.unit);
-  copy.axes = PrincipalAxes(points);
-  for (Eigen::Vector3d& p : points) p = Snap(copy.axes * p, kCoordinateGrid);
-  copy.mesh_vertex = SortByKey(CurveKeys(points), points);
-  copy.triangles = SortedTriangles(mesh.triangles(), copy.mesh_vertex);
-  copy.points.reserve(points.size());
-  for (const std::uint32_t v : copy.mesh_vertex) copy.points.push_back(points[v]);
-  AddAreas(copy);
+  const std::size_t count = mesh.vertices().size();
+  std::vector<Eigen::Vector3d> points(count);
+  const auto for_each_vertex = [&](const auto& visit) {
+    pool.ForChunks(count, kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) visit(v);
+    });
+  };
+  for_each_vertex(
+      [&](std::size_t v) { points[v] = (mesh.vertices()[v] - copy.centroid) / copy.unit; });
+  copy.axes = PrincipalAxes(points, pool);
+  for_each_vertex([&](std::size_t v) { points[v] = Snap(copy.axes * points[v], kCoordinateGrid); });
+  copy.mesh_vertex = SortByKey(CurveKeys(points, pool), points);
+  SortTriangles(mesh, pool, copy);
+  copy.points.resize(count);
+  for_each_vertex([&](std::size_t v) { copy.points[v] = points[copy.mesh_vertex[v]]; });
+  AddAreas(pool, copy);
   return copy;
 }
 
