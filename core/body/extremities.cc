@@ -292,7 +292,8 @@ double FirstJunction(std::span<const Branch> branches, int branch, std::span<con
 // The tips that stand out, but for what is as wide as a trunk, and stumps after them.
 std::vector<Candidate> Candidates(std::span<const Branch> branches,
                                   std::span<const double> distance,
-                                  std::span<const double> vertex_areas, const SurfaceGraph& graph) {
+                                  std::span<const double> vertex_areas, const SurfaceGraph& graph,
+                                  const ThreadPool& pool) {
   std::vector<int> tall;
   std::vector<int> stumps;
   for (int b = 0; b < static_cast<int>(branches.size()); ++b) {
@@ -305,28 +306,30 @@ std::vector<Candidate> Candidates(std::span<const Branch> branches,
   if (tall.size() < 2) return {};  // a ball, a cube: one way out is none
   if (tall.size() > kMaxCandidates) tall.resize(kMaxCandidates);
   if (stumps.size() > kMaxStumps) stumps.resize(kMaxStumps);
-  std::vector<Candidate> candidates;
-  const auto add = [&](int b, bool is_stump) {
+  std::vector<Candidate> candidates(tall.size() + stumps.size());
+  pool.ForEach(candidates.size(), [&](std::size_t i) {
+    const bool is_stump = i >= tall.size();
+    const int b = is_stump ? stumps[i - tall.size()] : tall[i];
     const double level = FirstJunction(branches, b, tall);
     std::vector<std::uint32_t> vertices = VerticesAbove(graph, distance, branches[b].tip, level);
     double area = 0.0;
     for (const std::uint32_t v : vertices) area += vertex_areas[v];
     const double girth = area / std::max(branches[b].tip_distance - level, 1e-6);
-    if (is_stump || girth <= kMaxLimbGirth) {
-      candidates.push_back({b, girth, is_stump, level, std::move(vertices)});
-    }
-  };
-  for (const int b : tall) add(b, false);
-  for (const int b : stumps) add(b, true);
+    candidates[i] = {b, girth, is_stump, level, std::move(vertices)};
+  });
+  std::erase_if(candidates,
+                [](const Candidate& c) { return !c.is_stump && c.girth > kMaxLimbGirth; });
   return candidates;
 }
 
 Extremities FromSources(const std::vector<GeodesicSource>& sources,
-                        std::span<const double> vertex_areas, const SurfaceGraph& graph) {
+                        std::span<const double> vertex_areas, const SurfaceGraph& graph,
+                        const ThreadPool& pool) {
   Extremities result;
   result.distance = graph.Distances(sources);
-  const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump);
-  std::vector<Candidate> candidates = Candidates(branches, result.distance, vertex_areas, graph);
+  const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump, pool);
+  std::vector<Candidate> candidates =
+      Candidates(branches, result.distance, vertex_areas, graph, pool);
   RoleFinder finder(branches, candidates);
   finder.Run();
   result.misfit = finder.misfit();
@@ -356,17 +359,19 @@ int Extremities::found() const {
 }
 
 Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
-                            std::span<const double> vertex_areas, const SurfaceGraph& graph) {
+                            std::span<const double> vertex_areas, const SurfaceGraph& graph,
+                            const ThreadPool& pool) {
   const std::vector<GeodesicSource> sources = MiddleOfTheBody(points);
-  Extremities best = FromSources(sources, vertex_areas, graph);
+  Extremities best = FromSources(sources, vertex_areas, graph, pool);
   if (best.misfit <= kGoodMisfit && best.found() == kTipCount) return best;
-  Extremities whole = FromSources(MiddleOfTheSurface(best.distance, graph), vertex_areas, graph);
+  Extremities whole =
+      FromSources(MiddleOfTheSurface(best.distance, graph), vertex_areas, graph, pool);
   // Only for a whole body is that middle near the waist.
   if (whole.found() == kTipCount && whole.misfit < best.misfit) best = std::move(whole);
   if (best.misfit <= kFairMisfit) return best;
   const auto patches = PatchesOf(sources, points, vertex_areas, graph);
   for (std::size_t i = 0; i < patches.size() && i < kMaxMiddles; ++i) {
-    Extremities other = FromSources(patches[i], vertex_areas, graph);
+    Extremities other = FromSources(patches[i], vertex_areas, graph, pool);
     if (other.misfit < best.misfit) best = std::move(other);
   }
   return best;

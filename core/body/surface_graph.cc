@@ -53,47 +53,62 @@ SurfaceGraph::SurfaceGraph(std::span<const Eigen::Vector3d> points,
   next_.resize(offsets_.back());
   links_.resize(offsets_.back());
   // Half-edge h starts at a corner; what leads over the edge after it goes out from there too.
-  std::vector<std::uint32_t> slot(mates.size());
+  std::vector<std::uint32_t> slot(3 * triangles.size());
   std::vector<std::uint32_t> free_slot(offsets_.begin(), offsets_.end() - 1);
-  for (mesh::HalfEdge h = 0; h < slot.size(); ++h)
-    slot[h] = free_slot[mesh::StartOf(triangles, h)]++;
-  const auto link = [&](std::size_t begin, std::size_t end) {
-    double length = 0.0;
-    for (std::size_t h = begin; h < end; ++h) {
-      length += AddLink(points, triangles, mates, static_cast<mesh::HalfEdge>(h), slot);
-    }
-    return length;
-  };
-  const double length = SumOverChunks(pool, mates.size(), 0.0, link);
+  mesh::HalfEdge h = 0;
+  for (const mesh::Triangle& t : triangles) {
+    for (const std::uint32_t corner : t) slot[h++] = free_slot[corner]++;
+  }
+  const Surface surface = {points, triangles, mates, slot};
+  const double length =
+      SumOverChunks(pool, triangles.size(), 0.0, [&](std::size_t begin, std::size_t end) {
+        AddShortcuts(surface, 3 * begin, 3 * end);
+        return AddEdges(surface, begin, end);
+      });
   if (length > 0.0) bucket_width_ = kBucketShare * length / static_cast<double>(next_.size());
 }
 
-// Enters the half-edge, and the shortcut from its start at both ends if this one comes first.
-double SurfaceGraph::AddLink(std::span<const Eigen::Vector3d> points,
-                             std::span<const mesh::Triangle> triangles,
-                             std::span<const mesh::HalfEdge> mates, mesh::HalfEdge h,
-                             std::span<const std::uint32_t> slot) {
-  const mesh::HalfEdge opposite = mesh::NextInTriangle(h);
-  const std::uint32_t v = mesh::StartOf(triangles, h);
-  const std::uint32_t b = mesh::StartOf(triangles, opposite);
-  const double length = (points[b] - points[v]).norm();
-  next_[slot[h]] = b;
-  links_[slot[h]].edge_length = static_cast<float>(length);
-  if (mates[opposite] == mesh::kNoMate) {
-    links_[slot[h]].across = v;
-    return length;
+double SurfaceGraph::AddEdges(const Surface& surface, std::size_t begin, std::size_t end) {
+  double total = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const mesh::Triangle& t = surface.triangles[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t to = t[k == 2 ? 0 : k + 1];
+      const std::uint32_t slot = surface.slot[3 * i + k];
+      const double length = (surface.points[to] - surface.points[t[k]]).norm();
+      next_[slot] = to;
+      links_[slot].edge_length = static_cast<float>(length);
+      total += length;
+    }
   }
-  const mesh::HalfEdge there = mesh::PreviousInTriangle(mates[opposite]);
-  const std::uint32_t across = mesh::StartOf(triangles, there);
-  if (std::pair(across, slot[there]) < std::pair(v, slot[h])) return length;
-  const std::uint32_t c = mesh::EndOf(triangles, opposite);
-  const float across_length =
-      static_cast<float>(UnfoldedLength(points[v], points[b], points[c], points[across]));
-  for (const auto& [from, to] : {std::pair(slot[h], across), std::pair(slot[there], v)}) {
-    links_[from].across = to;
-    links_[from].across_length = across_length;
+  return total;
+}
+
+// Each shortcut is measured once, from the end that comes first, and entered at both.
+void SurfaceGraph::AddShortcuts(const Surface& surface, std::size_t begin, std::size_t end) {
+  std::vector<mesh::HalfEdge> crossed(end - begin + 1);  // each edge once
+  std::size_t count = 0;
+  for (std::size_t h = begin; h < end; ++h) {
+    crossed[count] = static_cast<mesh::HalfEdge>(h);
+    count += surface.mates[h] != mesh::kNoMate && h < surface.mates[h] ? 1 : 0;
   }
-  return length;
+  for (const mesh::HalfEdge h : std::span(crossed).first(count)) {
+    mesh::HalfEdge here = mesh::PreviousInTriangle(h);
+    mesh::HalfEdge there = mesh::PreviousInTriangle(surface.mates[h]);
+    const auto key = [&](mesh::HalfEdge apex) {
+      return std::pair(mesh::StartOf(surface.triangles, apex), surface.slot[apex]);
+    };
+    if (key(there) < key(here)) std::swap(here, there);
+    const std::uint32_t p = mesh::StartOf(surface.triangles, here);
+    const std::uint32_t q = mesh::StartOf(surface.triangles, there);
+    const auto length = static_cast<float>(
+        UnfoldedLength(surface.points[p], surface.points[mesh::EndOf(surface.triangles, here)],
+                       surface.points[mesh::EndOf(surface.triangles, there)], surface.points[q]));
+    links_[surface.slot[here]].across = q;
+    links_[surface.slot[here]].across_length = length;
+    links_[surface.slot[there]].across = p;
+    links_[surface.slot[there]].across_length = length;
+  }
 }
 
 // Dijkstra's own way: slower than buckets on bodies, but no mesh can make it look at a link twice.

@@ -43,11 +43,18 @@ class SurfaceGraph {
   struct Link {
     std::uint32_t across = 0;  // where the shortcut leads; to the vertex itself: there is none
     float edge_length = 0.0f;  // to the slot's corner
-    float across_length = std::numeric_limits<float>::infinity();
+    float across_length = std::numeric_limits<float>::infinity();  // there is none
   };
-  double AddLink(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles,
-                 std::span<const mesh::HalfEdge> mates, mesh::HalfEdge h,
-                 std::span<const std::uint32_t> slot);
+  // What the graph is made from. `slot` is that of each half-edge's start in its triangle.
+  struct Surface {
+    std::span<const Eigen::Vector3d> points;
+    std::span<const mesh::Triangle> triangles;
+    std::span<const mesh::HalfEdge> mates;
+    std::span<const std::uint32_t> slot;
+  };
+  // The sum of the lengths.
+  double AddEdges(const Surface& surface, std::size_t begin, std::size_t end);
+  void AddShortcuts(const Surface& surface, std::size_t begin, std::size_t end);
   void FinishInOrder(const std::vector<std::vector<std::uint32_t>>& open,
                      std::vector<double>& distance) const;
 
