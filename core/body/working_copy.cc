@@ -75,75 +75,104 @@ std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points,
   return keys;
 }
 
-// A triangle with new names for its corners, and its place among the mesh's own.
-struct SortedTriangle {
-  mesh::Triangle corners;
-  std::uint32_t source;
+mesh::HalfEdge Follow(mesh::HalfEdge h, std::uint32_t steps) {
+  return 3 * (h / 3) + (h + steps) % 3;
+}
 
-  bool operator<(const SortedTriangle& other) const { return corners < other.corners; }
+// A triangle of the working copy, the lowest corner first, and the mesh's half-edge from there.
+struct RenamedTriangle {
+  mesh::Triangle corners;
+  mesh::HalfEdge source;
+
+  bool operator<(const RenamedTriangle& other) const { return corners < other.corners; }
 };
 
-// The mesh's triangles with the ranks of their vertices, the lowest corner first, by that corner.
-std::vector<SortedTriangle> RenamedTriangles(const mesh::BodyMesh& mesh,
-                                             const std::vector<std::uint32_t>& order,
-                                             const ThreadPool& pool) {
-  std::vector<std::uint32_t> rank(order.size());
-  for (std::uint32_t i = 0; i < rank.size(); ++i) rank[order[i]] = i;
-  const std::span<const mesh::Triangle> triangles = mesh.triangles();
-  std::vector<SortedTriangle> renamed(triangles.size());
-  pool.ForChunks(triangles.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const mesh::Triangle& t = triangles[i];
-      mesh::Triangle corners = {rank[t[0]], rank[t[1]], rank[t[2]]};
-      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-      renamed[i] = {corners, static_cast<std::uint32_t>(i)};
-    }
-  });
-  std::vector<std::uint32_t> end(rank.size() + 1, 0);
-  for (const SortedTriangle& t : renamed) ++end[t.corners[0]];
-  for (std::size_t k = 1; k < end.size(); ++k) end[k] += end[k - 1];
-  std::vector<SortedTriangle> sorted(triangles.size());
-  // From the back, so that the ends become the starts.
-  for (const SortedTriangle& t : renamed) sorted[--end[t.corners[0]]] = t;
-  pool.ForChunks(rank.size(), kMeshChunk, [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) {
-      std::sort(sorted.begin() + end[v], sorted.begin() + end[v + 1]);
-    }
-  });
-  return sorted;
-}
+// Triangles of vertices in a new order, sorted by their corners in it, and their mates.
+class TriangleSorter {
+ public:
+  TriangleSorter(const mesh::BodyMesh& mesh, const ThreadPool& pool, WorkingCopy& copy)
+      : mesh_(mesh), pool_(pool), copy_(copy) {}
 
-// Enters the triangles of vertices in a new order, sorted by their corners in it, and their mates.
-void SortTriangles(const mesh::BodyMesh& mesh, const ThreadPool& pool, WorkingCopy& copy) {
-  const std::vector<SortedTriangle> sorted = RenamedTriangles(mesh, copy.mesh_vertex, pool);
-  copy.triangles.resize(sorted.size());
-  copy.mates.resize(3 * sorted.size());
-  // Where the first half-edge of each of the mesh's triangles has gone; the others follow it round.
-  std::vector<mesh::HalfEdge> gone_to(sorted.size());
-  const auto follow = [](mesh::HalfEdge h, std::uint32_t steps) {
-    return 3 * (h / 3) + (h + steps) % 3;
-  };
-  const auto visit = [&](const auto& place) {
-    pool.ForChunks(sorted.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) place(static_cast<std::uint32_t>(i), sorted[i]);
+  void Run() {
+    const std::size_t count = mesh_.triangles().size();
+    Deal();
+    copy_.triangles.resize(count);
+    gone_to_.resize(count);
+    pool_.ForChunks(rank_.size(), kMeshChunk,
+                    [this](std::size_t begin, std::size_t end) { SortAround(begin, end); });
+    copy_.mates.resize(3 * count);
+    ForEachOf(count, [this](std::uint32_t i) { CopyMates(i); });
+  }
+
+ private:
+  template <typename Visit>
+  void ForEachOf(std::size_t count, const Visit& visit) const {
+    pool_.ForChunks(count, kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) visit(static_cast<std::uint32_t>(i));
     });
-  };
-  visit([&](std::uint32_t i, const SortedTriangle& t) {
-    copy.triangles[i] = t.corners;
-    const std::uint32_t first = mesh.triangles()[t.source][0];
-    const auto at = std::find_if(t.corners.begin(), t.corners.end(), [&](std::uint32_t corner) {
-      return copy.mesh_vertex[corner] == first;
+  }
+
+  // Deals the triangles to their lowest corners: those of vertex v are sources_[first_[v]] up to
+  // that of v + 1.
+  void Deal() {
+    const std::span<const mesh::Triangle> triangles = mesh_.triangles();
+    rank_.resize(copy_.mesh_vertex.size());
+    ForEachOf(rank_.size(), [this](std::uint32_t i) { rank_[copy_.mesh_vertex[i]] = i; });
+    std::vector<std::uint32_t> lowest(triangles.size());
+    ForEachOf(triangles.size(), [&](std::uint32_t i) {
+      const mesh::Triangle& t = triangles[i];
+      lowest[i] = std::min({rank_[t[0]], rank_[t[1]], rank_[t[2]]});
     });
-    gone_to[t.source] = 3 * i + static_cast<std::uint32_t>(at - t.corners.begin());
-  });
-  visit([&](std::uint32_t, const SortedTriangle& t) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const mesh::HalfEdge mate = mesh.mates()[3 * t.source + k];
-      copy.mates[follow(gone_to[t.source], k)] =
-          mate == mesh::kNoMate ? mate : follow(gone_to[mate / 3], mate % 3);
+    first_.assign(rank_.size() + 1, 0);
+    for (const std::uint32_t v : lowest) ++first_[v];
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    sources_.resize(triangles.size());
+    // From the back, so that the ends become the starts.
+    for (std::uint32_t i = 0; i < lowest.size(); ++i) sources_[--first_[lowest[i]]] = i;
+  }
+
+  [[nodiscard]] RenamedTriangle Renamed(std::uint32_t source) const {
+    const mesh::Triangle& t = mesh_.triangles()[source];
+    const mesh::Triangle ranks = {rank_[t[0]], rank_[t[1]], rank_[t[2]]};
+    const auto k =
+        static_cast<std::uint32_t>(std::min_element(ranks.begin(), ranks.end()) - ranks.begin());
+    return {{ranks[k], ranks[(k + 1) % 3], ranks[(k + 2) % 3]}, 3 * source + k};
+  }
+
+  // Of the vertices in [begin, end).
+  void SortAround(std::size_t begin, std::size_t end) {
+    std::vector<RenamedTriangle> around;
+    for (std::size_t v = begin; v < end; ++v) {
+      around.clear();
+      for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+        around.push_back(Renamed(sources_[i]));
+      }
+      std::sort(around.begin(), around.end());
+      for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+        const RenamedTriangle& t = around[i - first_[v]];
+        copy_.triangles[i] = t.corners;
+        sources_[i] = t.source;
+        gone_to_[t.source / 3] = Follow(3 * i, 3 - t.source % 3);
+      }
     }
-  });
-}
+  }
+
+  void CopyMates(std::uint32_t i) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const mesh::HalfEdge mate = mesh_.mates()[Follow(sources_[i], k)];
+      copy_.mates[3 * i + k] = mate == mesh::kNoMate ? mate : Follow(gone_to_[mate / 3], mate % 3);
+    }
+  }
+
+  const mesh::BodyMesh& mesh_;
+  const ThreadPool& pool_;
+  WorkingCopy& copy_;
+  std::vector<std::uint32_t> rank_;  // of the mesh's vertices
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> sources_;  // triangles, then their half-edges
+  // Where the first half-edge of each of the mesh's triangles has gone; the others follow it round.
+  std::vector<mesh::HalfEdge> gone_to_;
+};
 
 struct Moment {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -249,7 +278,7 @@ WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool) 
   copy.axes = PrincipalAxes(points, pool);
   for_each_vertex([&](std::size_t v) { points[v] = Snap(copy.axes * points[v], kCoordinateGrid); });
   copy.mesh_vertex = SortByKey(CurveKeys(points, pool), points);
-  SortTriangles(mesh, pool, copy);
+  TriangleSorter(mesh, pool, copy).Run();
   copy.points.resize(count);
   for_each_vertex([&](std::size_t v) { copy.points[v] = points[copy.mesh_vertex[v]]; });
   AddAreas(pool, copy);
