@@ -228,13 +228,14 @@ std::vector<GeodesicSource> MiddleOfTheBody(std::span<const Eigen::Vector3d> poi
 // where the centroid may be at a thigh that is lifted, or a hand that rests on a hip. `distance` is
 // from any place on the trunk.
 std::vector<GeodesicSource> MiddleOfTheSurface(std::span<const double> distance,
-                                               const SurfaceGraph& graph) {
+                                               const SurfaceGraph& graph, const ThreadPool& pool) {
   std::vector<double> nearest_tip(distance.begin(), distance.end());
   std::vector<double> farthest_tip(distance.size(), 0.0);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     const auto tip = static_cast<std::uint32_t>(
         std::max_element(nearest_tip.begin(), nearest_tip.end()) - nearest_tip.begin());
-    const std::vector<double> from_tip = graph.Distances(std::array{GeodesicSource{tip, 0.0}});
+    const std::vector<double> from_tip =
+        graph.Distances(std::array{GeodesicSource{tip, 0.0}}, pool);
     for (std::size_t v = 0; v < from_tip.size(); ++v) {
       nearest_tip[v] = sweep == 0 ? from_tip[v] : std::min(nearest_tip[v], from_tip[v]);
       farthest_tip[v] = std::max(farthest_tip[v], from_tip[v]);
@@ -326,7 +327,7 @@ Extremities FromSources(const std::vector<GeodesicSource>& sources,
                         std::span<const double> vertex_areas, const SurfaceGraph& graph,
                         const ThreadPool& pool) {
   Extremities result;
-  result.distance = graph.Distances(sources);
+  result.distance = graph.Distances(sources, pool);
   const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump, pool);
   std::vector<Candidate> candidates =
       Candidates(branches, result.distance, vertex_areas, graph, pool);
@@ -365,7 +366,7 @@ Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
   Extremities best = FromSources(sources, vertex_areas, graph, pool);
   if (best.misfit <= kGoodMisfit && best.found() == kTipCount) return best;
   Extremities whole =
-      FromSources(MiddleOfTheSurface(best.distance, graph), vertex_areas, graph, pool);
+      FromSources(MiddleOfTheSurface(best.distance, graph, pool), vertex_areas, graph, pool);
   // Only for a whole body is that middle near the waist.
   if (whole.found() == kTipCount && whole.misfit < best.misfit) best = std::move(whole);
   if (best.misfit <= kFairMisfit) return best;

@@ -31,7 +31,8 @@ class SurfaceGraph {
 
   // Shortest path length from the sources to every vertex; infinity where there is no path. The
   // result does not depend on the order of vertices, faces or sources. Close to O(vertices).
-  [[nodiscard]] std::vector<double> Distances(std::span<const GeodesicSource> sources) const;
+  [[nodiscard]] std::vector<double> Distances(std::span<const GeodesicSource> sources,
+                                              const ThreadPool& pool = ThreadPool(1)) const;
 
   [[nodiscard]] std::size_t vertex_count() const { return offsets_.size() - 1; }
   // The vertices that share an edge with `vertex`.
@@ -45,6 +46,7 @@ class SurfaceGraph {
     float edge_length = 0.0f;  // to the slot's corner
     float across_length = std::numeric_limits<float>::infinity();  // there is none
   };
+  class Search;
   // What the graph is made from. `slot` is that of each half-edge's start in its triangle.
   struct Surface {
     std::span<const Eigen::Vector3d> points;
@@ -55,13 +57,15 @@ class SurfaceGraph {
   // The sum of the lengths.
   double AddEdges(const Surface& surface, std::size_t begin, std::size_t end);
   void AddShortcuts(const Surface& surface, std::size_t begin, std::size_t end);
-  void FinishInOrder(const std::vector<std::vector<std::uint32_t>>& open,
-                     std::vector<double>& distance) const;
+  void FinishInOrder(std::span<const std::uint32_t> open, std::vector<double>& distance) const;
 
   std::vector<std::uint32_t> offsets_;  // into next_, one slot per corner at the vertex
   std::vector<std::uint32_t> next_;     // the corner after the vertex in that triangle
   std::vector<Link> links_;             // one per slot
-  double bucket_width_ = 1.0;
+  // By the signs of x and y: the quarters around the middle of a body, from where it is searched.
+  static constexpr std::uint8_t kRegions = 4;
+  std::vector<std::uint8_t> region_;
+  double buckets_per_unit_ = 1.0;
 };
 
 }  // namespace capfit::body
