@@ -75,16 +75,20 @@ std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points,
   return keys;
 }
 
-mesh::HalfEdge Follow(mesh::HalfEdge h, std::uint32_t steps) {
-  return 3 * (h / 3) + (h + steps) % 3;
+// A triangle and one of its corners in one number, quicker to take apart than a half-edge.
+using TriangleCorner = std::uint32_t;
+
+TriangleCorner CornerOf(std::uint32_t triangle, std::uint32_t corner) {
+  return 4 * triangle + corner;
 }
+// The sum of two corners' numbers as a corner again.
+std::uint32_t Wrapped(std::uint32_t corner) { return corner < 3 ? corner : corner - 3; }
 
-// A triangle of the working copy, the lowest corner first, and the mesh's half-edge from there.
+// A triangle of the working copy whose lowest corner is known: the next two in one number, and the
+// mesh's corner that comes first.
 struct RenamedTriangle {
-  mesh::Triangle corners;
-  mesh::HalfEdge source;
-
-  bool operator<(const RenamedTriangle& other) const { return corners < other.corners; }
+  std::uint64_t next_corners;
+  TriangleCorner source;
 };
 
 // Triangles of vertices in a new order, sorted by their corners in it, and their mates.
@@ -131,36 +135,44 @@ class TriangleSorter {
     for (std::uint32_t i = 0; i < lowest.size(); ++i) sources_[--first_[lowest[i]]] = i;
   }
 
-  [[nodiscard]] RenamedTriangle Renamed(std::uint32_t source) const {
-    const mesh::Triangle& t = mesh_.triangles()[source];
+  [[nodiscard]] RenamedTriangle Renamed(std::uint32_t triangle, std::uint32_t lowest) const {
+    const mesh::Triangle& t = mesh_.triangles()[triangle];
     const mesh::Triangle ranks = {rank_[t[0]], rank_[t[1]], rank_[t[2]]};
-    const auto k =
-        static_cast<std::uint32_t>(std::min_element(ranks.begin(), ranks.end()) - ranks.begin());
-    return {{ranks[k], ranks[(k + 1) % 3], ranks[(k + 2) % 3]}, 3 * source + k};
+    const std::uint32_t k = (ranks[1] == lowest ? 1 : 0) + (ranks[2] == lowest ? 2 : 0);
+    return {(std::uint64_t{ranks[Wrapped(k + 1)]} << 32) | ranks[Wrapped(k + 2)],
+            CornerOf(triangle, k)};
   }
 
-  // Of the vertices in [begin, end).
+  // Those at the vertices in [begin, end).
   void SortAround(std::size_t begin, std::size_t end) {
+    const auto comes_first = [](const RenamedTriangle& a, const RenamedTriangle& b) {
+      return a.next_corners < b.next_corners;
+    };
     std::vector<RenamedTriangle> around;
-    for (std::size_t v = begin; v < end; ++v) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
       around.clear();
       for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-        around.push_back(Renamed(sources_[i]));
+        around.push_back(Renamed(sources_[i], v));
       }
-      std::sort(around.begin(), around.end());
-      for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-        const RenamedTriangle& t = around[i - first_[v]];
-        copy_.triangles[i] = t.corners;
+      std::sort(around.begin(), around.end(), comes_first);
+      std::uint32_t i = first_[v];
+      for (const RenamedTriangle& t : around) {
+        copy_.triangles[i] = {v, static_cast<std::uint32_t>(t.next_corners >> 32),
+                              static_cast<std::uint32_t>(t.next_corners)};
         sources_[i] = t.source;
-        gone_to_[t.source / 3] = Follow(3 * i, 3 - t.source % 3);
+        gone_to_[t.source / 4] = CornerOf(i, Wrapped(3 - t.source % 4));
+        ++i;
       }
     }
   }
 
   void CopyMates(std::uint32_t i) {
+    const mesh::HalfEdge* const mates = mesh_.mates().data() + 3 * std::size_t{sources_[i] / 4};
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const mesh::HalfEdge mate = mesh_.mates()[Follow(sources_[i], k)];
-      copy_.mates[3 * i + k] = mate == mesh::kNoMate ? mate : Follow(gone_to_[mate / 3], mate % 3);
+      const mesh::HalfEdge mate = mates[Wrapped(sources_[i] % 4 + k)];
+      const TriangleCorner first = mate == mesh::kNoMate ? 0 : gone_to_[mate / 3];
+      const mesh::HalfEdge here = 3 * (first / 4) + Wrapped(first % 4 + mate % 3);
+      copy_.mates[3 * i + k] = mate == mesh::kNoMate ? mate : here;
     }
   }
 
@@ -169,9 +181,9 @@ class TriangleSorter {
   WorkingCopy& copy_;
   std::vector<std::uint32_t> rank_;  // of the mesh's vertices
   std::vector<std::uint32_t> first_;
-  std::vector<std::uint32_t> sources_;  // triangles, then their half-edges
-  // Where the first half-edge of each of the mesh's triangles has gone; the others follow it round.
-  std::vector<mesh::HalfEdge> gone_to_;
+  std::vector<std::uint32_t> sources_;  // triangles, then their corners that come first
+  // Where the first corner of each of the mesh's triangles has gone; the others follow it round.
+  std::vector<TriangleCorner> gone_to_;
 };
 
 struct Moment {
