@@ -67,7 +67,7 @@ SurfaceGraph::SurfaceGraph(std::span<const Eigen::Vector3d> points,
   const Surface surface = {points, triangles, mates, slot};
   const double length =
       SumOverChunks(pool, triangles.size(), 0.0, [&](std::size_t begin, std::size_t end) {
-        AddShortcuts(surface, 3 * begin, 3 * end);
+        AddShortcuts(surface, begin, end);
         return AddEdges(surface, begin, end);
       });
   if (length > 0.0) {
@@ -93,28 +93,35 @@ double SurfaceGraph::AddEdges(const Surface& surface, std::size_t begin, std::si
 
 // Each shortcut is measured once, from the end that comes first, and entered at both.
 void SurfaceGraph::AddShortcuts(const Surface& surface, std::size_t begin, std::size_t end) {
-  std::vector<mesh::HalfEdge> crossed(end - begin + 1);  // each edge once
-  std::size_t count = 0;
-  for (std::size_t h = begin; h < end; ++h) {
-    crossed[count] = static_cast<mesh::HalfEdge>(h);
-    count += surface.mates[h] != mesh::kNoMate && h < surface.mates[h] ? 1 : 0;
-  }
-  for (const mesh::HalfEdge h : std::span(crossed).first(count)) {
-    mesh::HalfEdge here = mesh::PreviousInTriangle(h);
-    mesh::HalfEdge there = mesh::PreviousInTriangle(surface.mates[h]);
-    const auto key = [&](mesh::HalfEdge apex) {
-      return std::pair(mesh::StartOf(surface.triangles, apex), surface.slot[apex]);
-    };
-    if (key(there) < key(here)) std::swap(here, there);
-    const std::uint32_t p = mesh::StartOf(surface.triangles, here);
-    const std::uint32_t q = mesh::StartOf(surface.triangles, there);
-    const auto length = static_cast<float>(
-        UnfoldedLength(surface.points[p], surface.points[mesh::EndOf(surface.triangles, here)],
-                       surface.points[mesh::EndOf(surface.triangles, there)], surface.points[q]));
-    links_[surface.slot[here]].across = q;
-    links_[surface.slot[here]].across_length = length;
-    links_[surface.slot[there]].across = p;
-    links_[surface.slot[there]].across_length = length;
+  struct Apex {
+    std::uint32_t vertex;
+    std::uint32_t slot;
+    std::uint32_t next;  // the corner after it
+
+    bool operator<(const Apex& other) const {
+      return std::pair(vertex, slot) < std::pair(other.vertex, other.slot);
+    }
+  };
+  const auto opposite = [&](std::size_t triangle, std::size_t edge) -> Apex {
+    const mesh::Triangle& t = surface.triangles[triangle];
+    const std::size_t k = edge == 0 ? 2 : edge - 1;
+    return {t[k], surface.slot[3 * triangle + k], t[edge]};
+  };
+  for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const mesh::HalfEdge mate = surface.mates[3 * i + k];
+      if (mate == mesh::kNoMate || mate < 3 * i + k) continue;
+      Apex here = opposite(i, k);
+      Apex there = opposite(mate / 3, mate % 3);
+      if (there < here) std::swap(here, there);
+      const auto length = static_cast<float>(
+          UnfoldedLength(surface.points[here.vertex], surface.points[here.next],
+                         surface.points[there.next], surface.points[there.vertex]));
+      links_[here.slot].across = there.vertex;
+      links_[here.slot].across_length = length;
+      links_[there.slot].across = here.vertex;
+      links_[there.slot].across_length = length;
+    }
   }
 }
 

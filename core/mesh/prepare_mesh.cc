@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -81,11 +82,8 @@ class MeshMender {
 
   absl::StatusOr<PreparedMesh> Run() {
     EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size(), pool_);
-    if (IsFineAsItCame(mates)) {
-      std::vector<std::int32_t> themselves(positions_.size());
-      std::iota(themselves.begin(), themselves.end(), 0);
-      return Finish(BodyMesh(positions_, std::move(surface_.triangles), std::move(themselves),
-                             std::move(mates.mate), pool_));
+    if (degenerate_ == 0 && !mates.mate.empty() && mates.IsClosedAndOriented()) {
+      if (std::optional<PreparedMesh> prepared = TakeAsItCame(mates)) return *std::move(prepared);
     }
     MeasureUsed();
     Join(std::move(mates));
@@ -104,7 +102,9 @@ class MeshMender {
     MendFlat();
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     CAPFIT_RETURN_IF_ERROR(CheckManifold());
-    return Finish(MeshOfUsed());
+    BodyMesh mesh = MeshOfUsed();
+    const Overlap overlap = MeasureOverlap(mesh);
+    return Finish(std::move(mesh), overlap);
   }
 
  private:
@@ -119,23 +119,37 @@ class MeshMender {
     degenerate_ = faces.degenerate;
   }
 
-  // Whether all of the steps below would leave it as it is.
-  bool IsFineAsItCame(const EdgeMates& mates) {
-    if (degenerate_ > 0 || mates.mate.empty() || !mates.IsClosedAndOriented()) return false;
-    if (!IsOneSurface(surface_.triangles, mates.mate, positions_.size(), pool_)) return false;
-    Box box;
-    for (const Eigen::Vector3d& position : positions_) box.Add(position);
-    diagonal_ = box.diagonal();
-    return Volume() > LeastVolume() && !HasFlat();
+  // What all of the steps below would leave as it is; else nothing, and they may begin. The
+  // triangles are closed and oriented.
+  std::optional<PreparedMesh> TakeAsItCame(EdgeMates& mates) {
+    std::vector<std::int32_t> themselves(positions_.size());
+    std::iota(themselves.begin(), themselves.end(), 0);
+    BodyMesh mesh(positions_, std::move(surface_.triangles), std::move(themselves),
+                  std::move(mates.mate), pool_);
+    diagonal_ = mesh.diagonal();
+    bool is_fine = false;
+    Overlap overlap;
+    pool_.ForEach(2, [&](std::size_t check) {
+      if (check == 0) overlap = MeasureOverlap(mesh);
+      if (check == 1) {
+        is_fine = mesh.volume() > LeastVolume() &&
+                  IsOneSurface(mesh.triangles(), mesh.mates(), positions_.size(), pool_) &&
+                  !HasFlat(mesh.triangles());
+      }
+    });
+    if (is_fine) return Finish(std::move(mesh), overlap);
+    surface_.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
+    mates.mate.assign(mesh.mates().begin(), mesh.mates().end());
+    return std::nullopt;
   }
 
-  [[nodiscard]] bool HasFlat() const {
-    const auto flat_in = [this](std::size_t begin, std::size_t end) {
-      return std::any_of(
-          surface_.triangles.begin() + begin, surface_.triangles.begin() + end,
+  [[nodiscard]] bool HasFlat(std::span<const Triangle> triangles) const {
+    const auto flat_in = [&](std::size_t begin, std::size_t end) {
+      return std::count_if(
+          triangles.begin() + begin, triangles.begin() + end,
           [this](const Triangle& t) { return IsFlat(positions_, t, kFlatShare * diagonal_); });
     };
-    return SumOverChunks(pool_, surface_.triangles.size(), 0, flat_in) > 0;
+    return SumOverChunks(pool_, triangles.size(), std::ptrdiff_t{0}, flat_in) > 0;
   }
 
   // Only vertices that faces use count for the size of the mesh.
@@ -272,16 +286,13 @@ class MeshMender {
 
   [[nodiscard]] double Volume() const {
     const Eigen::Vector3d& origin = positions_[surface_.triangles.front()[0]];
-    const auto volume_in = [&](std::size_t begin, std::size_t end) {
-      double volume = 0.0;
-      for (const Triangle& t : std::span(surface_.triangles).subspan(begin, end - begin)) {
-        const Eigen::Vector3d a = positions_[t[0]] - origin;
-        const Eigen::Vector3d b = positions_[t[1]] - origin;
-        volume += a.dot(b.cross(positions_[t[2]] - origin)) / 6.0;
-      }
-      return volume;
-    };
-    return SumOverChunks(pool_, surface_.triangles.size(), 0.0, volume_in);
+    double volume = 0.0;
+    for (const Triangle& t : surface_.triangles) {
+      const Eigen::Vector3d a = positions_[t[0]] - origin;
+      const Eigen::Vector3d b = positions_[t[1]] - origin;
+      volume += a.dot(b.cross(positions_[t[2]] - origin)) / 6.0;
+    }
+    return volume;
   }
 
   absl::Status TurnOutward() {
@@ -339,9 +350,9 @@ class MeshMender {
                                 "program"));
   }
 
-  PreparedMesh Finish(BodyMesh mesh) {
+  PreparedMesh Finish(BodyMesh mesh, const Overlap& overlap) {
     WarnOfDropped();
-    WarnOfOverlap(mesh);
+    WarnOfOverlap(overlap, mesh.volume());
     return {std::move(mesh), std::move(warnings_)};
   }
 
@@ -375,13 +386,12 @@ class MeshMender {
                     std::move(surface_.mate), pool_);
   }
 
-  void WarnOfOverlap(const BodyMesh& mesh) {
-    const Overlap overlap = MeasureOverlap(mesh);
-    if (overlap.volume <= kTellingOverlap * mesh.volume()) return;
+  void WarnOfOverlap(const Overlap& overlap, double volume) {
+    if (overlap.volume <= kTellingOverlap * volume) return;
     Warn("SURFACE_OVERLAPS", 0,
          absl::StrFormat("the surface cuts through itself: %.2g %% of its volume, around %s, is "
                          "enclosed more than once",
-                         100.0 * overlap.volume / mesh.volume(), PointText(overlap.middle)));
+                         100.0 * overlap.volume / volume, PointText(overlap.middle)));
   }
 
   void WarnOfDropped() {
