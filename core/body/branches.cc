@@ -4,6 +4,8 @@
 #include <cassert>
 #include <numeric>
 
+#include "core/base/chunk_sums.h"
+
 namespace capfit::body {
 namespace {
 
@@ -17,6 +19,15 @@ struct Merge {
 struct Saddle {
   std::uint32_t vertex = 0;
   std::uint32_t other_tip = 0;
+};
+
+struct Saddles {
+  std::vector<Saddle> list;
+
+  Saddles& operator+=(const Saddles& more) {
+    list.insert(list.end(), more.list.begin(), more.list.end());
+    return *this;
+  }
 };
 
 // The farthest vertices come first, of equals the first.
@@ -38,29 +49,38 @@ std::uint32_t FollowLinks(std::vector<std::uint32_t>& link, std::uint32_t v) {
 }
 
 // The tip that each vertex comes to when it always climbs to its farthest neighbour.
-std::vector<std::uint32_t> NearestTips(const SurfaceGraph& graph, const FarthestFirst& is_farther) {
+std::vector<std::uint32_t> NearestTips(const SurfaceGraph& graph, const FarthestFirst& is_farther,
+                                       const ThreadPool& pool) {
   std::vector<std::uint32_t> tip(graph.vertex_count());
-  for (std::uint32_t v = 0; v < tip.size(); ++v) {
-    tip[v] = v;
-    for (const std::uint32_t n : graph.Neighbours(v)) {
-      if (is_farther(n, tip[v])) tip[v] = n;
+  pool.ForChunks(tip.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      auto farthest = static_cast<std::uint32_t>(v);
+      for (const std::uint32_t n : graph.Neighbours(farthest)) {
+        if (is_farther(n, farthest)) farthest = n;
+      }
+      tip[v] = farthest;
     }
-  }
+  });
   for (std::uint32_t v = 0; v < tip.size(); ++v) tip[v] = FollowLinks(tip, v);
   return tip;
 }
 
 // Lets the level sink from the farthest vertex down and notes every junction. Only where the slopes
 // of two tips meet can there be one.
-std::vector<Merge> MergesFromTheTop(const SurfaceGraph& graph, std::span<const double> distance) {
+std::vector<Merge> MergesFromTheTop(const SurfaceGraph& graph, std::span<const double> distance,
+                                    const ThreadPool& pool) {
   const FarthestFirst is_farther(distance);
-  const std::vector<std::uint32_t> tip = NearestTips(graph, is_farther);
-  std::vector<Saddle> saddles;
-  for (std::uint32_t v = 0; v < tip.size(); ++v) {
-    for (const std::uint32_t n : graph.Neighbours(v)) {
-      if (tip[n] != tip[v] && is_farther(n, v)) saddles.push_back({v, tip[n]});
+  const std::vector<std::uint32_t> tip = NearestTips(graph, is_farther, pool);
+  const auto saddles_in = [&](std::size_t begin, std::size_t end) {
+    Saddles found;
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      for (const std::uint32_t n : graph.Neighbours(v)) {
+        if (tip[n] != tip[v] && is_farther(n, v)) found.list.push_back({v, tip[n]});
+      }
     }
-  }
+    return found;
+  };
+  std::vector<Saddle> saddles = SumOverChunks(pool, tip.size(), Saddles{}, saddles_in).list;
   std::stable_sort(saddles.begin(), saddles.end(), [&](const Saddle& a, const Saddle& b) {
     return is_farther(a.vertex, b.vertex);
   });
@@ -81,12 +101,12 @@ std::vector<Merge> MergesFromTheTop(const SurfaceGraph& graph, std::span<const d
 }  // namespace
 
 std::vector<Branch> FindBranches(const SurfaceGraph& graph, std::span<const double> distance,
-                                 double min_persistence) {
+                                 double min_persistence, const ThreadPool& pool) {
   if (distance.empty()) return {};
   const auto farthest = static_cast<std::uint32_t>(
       std::max_element(distance.begin(), distance.end()) - distance.begin());
   std::vector<Branch> branches = {{farthest, distance[farthest], 0.0, -1}};
-  std::vector<Merge> merges = MergesFromTheTop(graph, distance);
+  std::vector<Merge> merges = MergesFromTheTop(graph, distance, pool);
   std::erase_if(merges,
                 [&](const Merge& m) { return distance[m.tip] - m.level < min_persistence; });
   // So that survivors come before what they swallow.

@@ -24,7 +24,8 @@ struct Branch {
 // Branches that stand out by at least `min_persistence`, the farthest tip first. O(n log n).
 [[nodiscard]] std::vector<Branch> FindBranches(const SurfaceGraph& graph,
                                                std::span<const double> distance,
-                                               double min_persistence);
+                                               double min_persistence,
+                                               const ThreadPool& pool = ThreadPool(1));
 
 // Level at which the branches `a` and `b` join, directly or through others.
 [[nodiscard]] double JunctionLevel(std::span<const Branch> branches, int a, int b);

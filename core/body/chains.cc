@@ -60,9 +60,12 @@ std::optional<MedialCurve> TrunkCurve(const Shape& shape, const Eigen::Vector3d&
                                       const Eigen::Vector3d& neck, double armpit_y) {
   const double stature = shape.stature_m;
   std::vector<Eigen::Vector3d> line = {base};
+  std::vector<CutPlane> levels;
   for (double y = base.y() + 0.02 * stature; y < armpit_y - 0.01 * stature; y += 0.01 * stature) {
-    const CutPlane plane = {Eigen::Vector3d(0, y, 0), Eigen::Vector3d::UnitY()};
-    for (const SectionLoop& loop : shape.surface->Cut(plane)) {
+    levels.push_back({Eigen::Vector3d(0, y, 0), Eigen::Vector3d::UnitY()});
+  }
+  for (const std::vector<SectionLoop>& loops : shape.surface->CutAll(levels, *shape.pool)) {
+    for (const SectionLoop& loop : loops) {
       if (!loop.is_closed) continue;
       if (loop.Min(Eigen::Vector3d::UnitX()) < 0.0 && loop.Max(Eigen::Vector3d::UnitX()) > 0.0) {
         line.push_back(loop.centroid);

@@ -14,6 +14,7 @@ namespace {
 using EdgeKey = std::uint64_t;
 
 constexpr std::size_t kGroupSize = 8;
+constexpr std::size_t kClansPerTask = 64;
 constexpr std::size_t kUsualPieces = 256;
 // Rounding must not lose a triangle that just touches the plane.
 constexpr double kBoxSlack = 1.000001;
@@ -49,6 +50,16 @@ void CutTriangle(std::span<const Eigen::Vector3d> points, const mesh::Triangle& 
   pieces.push_back({KeyOf(low, high), KeyOf(t[kOut[above]], t[(kOut[above] + 1) % 3]),
                     points[low] + (from / (from - to)) * (points[high] - points[low])});
 }
+
+struct Bounds {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d high = -low;
+
+  void Add(const Eigen::Vector3d& least, const Eigen::Vector3d& most) {
+    low = low.cwiseMin(least);
+    high = high.cwiseMax(most);
+  }
+};
 
 // Fan around the first point: exact for any simple outline.
 void Measure(SectionLoop& loop, const Eigen::Vector3d& normal) {
@@ -140,31 +151,26 @@ double SectionLoop::Max(const Eigen::Vector3d& direction) const {
 double SectionLoop::Min(const Eigen::Vector3d& direction) const { return -Max(-direction); }
 
 CutSurface::CutSurface(std::span<const Eigen::Vector3d> points,
-                       std::span<const mesh::Triangle> triangles)
+                       std::span<const mesh::Triangle> triangles, const ThreadPool& pool)
     : points_(points), triangles_(triangles) {
-  groups_.reserve(triangles.size() / kGroupSize + 1);
-  for (std::size_t first = 0; first < triangles.size(); first += kGroupSize) {
-    const std::size_t last = std::min(first + kGroupSize, triangles.size());
-    Eigen::Vector3d low = points[triangles[first][0]];
-    Eigen::Vector3d high = low;
-    for (std::size_t i = first; i < last; ++i) {
-      for (const std::uint32_t v : triangles[i]) {
-        low = low.cwiseMin(points[v]);
-        high = high.cwiseMax(points[v]);
+  groups_.resize((triangles.size() + kGroupSize - 1) / kGroupSize);
+  clans_.resize((groups_.size() + kGroupSize - 1) / kGroupSize);
+  pool.ForChunks(clans_.size(), kClansPerTask, [this](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      Bounds clan;
+      for (std::size_t g = c * kGroupSize; g < std::min((c + 1) * kGroupSize, groups_.size());
+           ++g) {
+        Bounds group;
+        for (std::size_t i = g * kGroupSize; i < std::min((g + 1) * kGroupSize, triangles_.size());
+             ++i) {
+          for (const std::uint32_t v : triangles_[i]) group.Add(points_[v], points_[v]);
+        }
+        groups_[g] = {0.5 * (group.low + group.high), 0.5 * (group.high - group.low)};
+        clan.Add(groups_[g].center - groups_[g].half, groups_[g].center + groups_[g].half);
       }
+      clans_[c] = {0.5 * (clan.low + clan.high), 0.5 * (clan.high - clan.low)};
     }
-    groups_.push_back({0.5 * (low + high), 0.5 * (high - low)});
-  }
-  for (std::size_t first = 0; first < groups_.size(); first += kGroupSize) {
-    const std::size_t last = std::min(first + kGroupSize, groups_.size());
-    Eigen::Vector3d low = groups_[first].center - groups_[first].half;
-    Eigen::Vector3d high = groups_[first].center + groups_[first].half;
-    for (std::size_t i = first + 1; i < last; ++i) {
-      low = low.cwiseMin(groups_[i].center - groups_[i].half);
-      high = high.cwiseMax(groups_[i].center + groups_[i].half);
-    }
-    clans_.push_back({0.5 * (low + high), 0.5 * (high - low)});
-  }
+  });
 }
 
 std::vector<SectionLoop> CutSurface::Cut(const CutPlane& plane) const {
@@ -192,6 +198,13 @@ std::vector<SectionLoop> CutSurface::Cut(const CutPlane& plane) const {
     return std::abs(a.area) > std::abs(b.area);
   });
   return loops;
+}
+
+std::vector<std::vector<SectionLoop>> CutSurface::CutAll(std::span<const CutPlane> planes,
+                                                         const ThreadPool& pool) const {
+  std::vector<std::vector<SectionLoop>> sections(planes.size());
+  pool.ForEach(planes.size(), [&](std::size_t i) { sections[i] = Cut(planes[i]); });
+  return sections;
 }
 
 std::optional<SectionLoop> CutSurface::CutNearest(const CutPlane& plane, double min_girth) const {

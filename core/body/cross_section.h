@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/mesh/body_mesh.h"
 
 namespace capfit::body {
@@ -38,11 +39,16 @@ struct SectionLoop {
 class CutSurface {
  public:
   // Both spans must outlive this. O(triangles).
-  CutSurface(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles);
+  CutSurface(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles,
+             const ThreadPool& pool = ThreadPool(1));
 
   // All loops of the section, the largest area first. Outlines run counter-clockwise as seen
   // against the normal.
   [[nodiscard]] std::vector<SectionLoop> Cut(const CutPlane& plane) const;
+
+  // The same for several planes at once.
+  [[nodiscard]] std::vector<std::vector<SectionLoop>> CutAll(std::span<const CutPlane> planes,
+                                                             const ThreadPool& pool) const;
 
   // The closed loop whose centroid is nearest to the plane's origin, loops of less than
   // `min_girth` left out.

@@ -228,13 +228,14 @@ std::vector<GeodesicSource> MiddleOfTheBody(std::span<const Eigen::Vector3d> poi
 // where the centroid may be at a thigh that is lifted, or a hand that rests on a hip. `distance` is
 // from any place on the trunk.
 std::vector<GeodesicSource> MiddleOfTheSurface(std::span<const double> distance,
-                                               const SurfaceGraph& graph) {
+                                               const SurfaceGraph& graph, const ThreadPool& pool) {
   std::vector<double> nearest_tip(distance.begin(), distance.end());
   std::vector<double> farthest_tip(distance.size(), 0.0);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     const auto tip = static_cast<std::uint32_t>(
         std::max_element(nearest_tip.begin(), nearest_tip.end()) - nearest_tip.begin());
-    const std::vector<double> from_tip = graph.Distances(std::array{GeodesicSource{tip, 0.0}});
+    const std::vector<double> from_tip =
+        graph.Distances(std::array{GeodesicSource{tip, 0.0}}, pool);
     for (std::size_t v = 0; v < from_tip.size(); ++v) {
       nearest_tip[v] = sweep == 0 ? from_tip[v] : std::min(nearest_tip[v], from_tip[v]);
       farthest_tip[v] = std::max(farthest_tip[v], from_tip[v]);
@@ -292,7 +293,8 @@ double FirstJunction(std::span<const Branch> branches, int branch, std::span<con
 // The tips that stand out, but for what is as wide as a trunk, and stumps after them.
 std::vector<Candidate> Candidates(std::span<const Branch> branches,
                                   std::span<const double> distance,
-                                  std::span<const double> vertex_areas, const SurfaceGraph& graph) {
+                                  std::span<const double> vertex_areas, const SurfaceGraph& graph,
+                                  const ThreadPool& pool) {
   std::vector<int> tall;
   std::vector<int> stumps;
   for (int b = 0; b < static_cast<int>(branches.size()); ++b) {
@@ -305,28 +307,30 @@ std::vector<Candidate> Candidates(std::span<const Branch> branches,
   if (tall.size() < 2) return {};  // a ball, a cube: one way out is none
   if (tall.size() > kMaxCandidates) tall.resize(kMaxCandidates);
   if (stumps.size() > kMaxStumps) stumps.resize(kMaxStumps);
-  std::vector<Candidate> candidates;
-  const auto add = [&](int b, bool is_stump) {
+  std::vector<Candidate> candidates(tall.size() + stumps.size());
+  pool.ForEach(candidates.size(), [&](std::size_t i) {
+    const bool is_stump = i >= tall.size();
+    const int b = is_stump ? stumps[i - tall.size()] : tall[i];
     const double level = FirstJunction(branches, b, tall);
     std::vector<std::uint32_t> vertices = VerticesAbove(graph, distance, branches[b].tip, level);
     double area = 0.0;
     for (const std::uint32_t v : vertices) area += vertex_areas[v];
     const double girth = area / std::max(branches[b].tip_distance - level, 1e-6);
-    if (is_stump || girth <= kMaxLimbGirth) {
-      candidates.push_back({b, girth, is_stump, level, std::move(vertices)});
-    }
-  };
-  for (const int b : tall) add(b, false);
-  for (const int b : stumps) add(b, true);
+    candidates[i] = {b, girth, is_stump, level, std::move(vertices)};
+  });
+  std::erase_if(candidates,
+                [](const Candidate& c) { return !c.is_stump && c.girth > kMaxLimbGirth; });
   return candidates;
 }
 
 Extremities FromSources(const std::vector<GeodesicSource>& sources,
-                        std::span<const double> vertex_areas, const SurfaceGraph& graph) {
+                        std::span<const double> vertex_areas, const SurfaceGraph& graph,
+                        const ThreadPool& pool) {
   Extremities result;
-  result.distance = graph.Distances(sources);
-  const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump);
-  std::vector<Candidate> candidates = Candidates(branches, result.distance, vertex_areas, graph);
+  result.distance = graph.Distances(sources, pool);
+  const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump, pool);
+  std::vector<Candidate> candidates =
+      Candidates(branches, result.distance, vertex_areas, graph, pool);
   RoleFinder finder(branches, candidates);
   finder.Run();
   result.misfit = finder.misfit();
@@ -356,17 +360,19 @@ int Extremities::found() const {
 }
 
 Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
-                            std::span<const double> vertex_areas, const SurfaceGraph& graph) {
+                            std::span<const double> vertex_areas, const SurfaceGraph& graph,
+                            const ThreadPool& pool) {
   const std::vector<GeodesicSource> sources = MiddleOfTheBody(points);
-  Extremities best = FromSources(sources, vertex_areas, graph);
+  Extremities best = FromSources(sources, vertex_areas, graph, pool);
   if (best.misfit <= kGoodMisfit && best.found() == kTipCount) return best;
-  Extremities whole = FromSources(MiddleOfTheSurface(best.distance, graph), vertex_areas, graph);
+  Extremities whole =
+      FromSources(MiddleOfTheSurface(best.distance, graph, pool), vertex_areas, graph, pool);
   // Only for a whole body is that middle near the waist.
   if (whole.found() == kTipCount && whole.misfit < best.misfit) best = std::move(whole);
   if (best.misfit <= kFairMisfit) return best;
   const auto patches = PatchesOf(sources, points, vertex_areas, graph);
   for (std::size_t i = 0; i < patches.size() && i < kMaxMiddles; ++i) {
-    Extremities other = FromSources(patches[i], vertex_areas, graph);
+    Extremities other = FromSources(patches[i], vertex_areas, graph, pool);
     if (other.misfit < best.misfit) best = std::move(other);
   }
   return best;

@@ -44,7 +44,7 @@ struct Extremities {
 // the limbs are. O(n log n).
 [[nodiscard]] Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
                                           std::span<const double> vertex_areas,
-                                          const SurfaceGraph& graph);
+                                          const SurfaceGraph& graph, const ThreadPool& pool);
 
 }  // namespace capfit::body
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/chunk_sums.h"
 #include "core/base/status.h"
 #include "core/body/body_unit.h"
 #include "core/body/chains.h"
@@ -138,21 +139,23 @@ absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const Work
 
 // In the order of the working copy: every room that follows gets the same numbers in the same
 // order, whatever file and frame the body came in.
-mesh::BodyMesh MeshInBodyFrame(const mesh::BodyMesh& mesh, const WorkingCopy& copy,
-                               const geometry::Similarity& body_from_copy) {
-  std::vector<Eigen::Vector3d> vertices;
-  vertices.reserve(copy.points.size());
+mesh::BodyMesh MeshInBodyFrame(const mesh::BodyMesh& mesh, WorkingCopy copy,
+                               const geometry::Similarity& body_from_copy, const ThreadPool& pool) {
+  std::vector<Eigen::Vector3d> vertices(copy.points.size());
   std::vector<std::int32_t> place(copy.points.size());
-  for (std::size_t i = 0; i < copy.points.size(); ++i) {
-    vertices.push_back(body_from_copy.Apply(copy.points[i]));
-    place[copy.mesh_vertex[i]] = static_cast<std::int32_t>(i);
+  pool.ForChunks(vertices.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      vertices[i] = body_from_copy.Apply(copy.points[i]);
+      place[copy.mesh_vertex[i]] = static_cast<std::int32_t>(i);
+    }
+  });
+  std::vector<std::int32_t> vertex_of_source(mesh.vertex_of_source().size());
+  for (std::size_t i = 0; i < vertex_of_source.size(); ++i) {
+    const std::int32_t v = mesh.vertex_of_source()[i];
+    vertex_of_source[i] = v < 0 ? -1 : place[static_cast<std::size_t>(v)];
   }
-  std::vector<std::int32_t> vertex_of_source;
-  vertex_of_source.reserve(mesh.vertex_of_source().size());
-  for (const std::int32_t v : mesh.vertex_of_source()) {
-    vertex_of_source.push_back(v < 0 ? -1 : place[static_cast<std::size_t>(v)]);
-  }
-  return mesh::BodyMesh(std::move(vertices), copy.triangles, std::move(vertex_of_source));
+  return mesh::BodyMesh(std::move(vertices), std::move(copy.triangles), std::move(vertex_of_source),
+                        std::move(copy.mates), pool);
 }
 
 // Turns the limbs found into left and right ones.
@@ -261,17 +264,17 @@ absl::Status CheckRequired(const Body& body, const PartSelection& required) {
 // Landmarks, segments and curves, once the frame is known.
 class Anatomist {
  public:
-  Anatomist(const BodyOptions& options, const WorkingCopy& copy, const SurfaceGraph& graph,
-            const Extremities& extremities, Body& body)
+  Anatomist(const BodyOptions& options, const SurfaceGraph& graph, const Extremities& extremities,
+            const ThreadPool& pool, Body& body)
       : options_(options),
         extremities_(extremities),
         body_(body),
-        points_(body.mesh.vertices().begin(), body.mesh.vertices().end()) {
-    surface_.emplace(points_, copy.triangles);
-    shape_.points = points_;
-    shape_.triangles = copy.triangles;
+        surface_(body.mesh.vertices(), body.mesh.triangles(), pool) {
+    shape_.points = body.mesh.vertices();
+    shape_.triangles = body.mesh.triangles();
     shape_.graph = &graph;
-    shape_.surface = &*surface_;
+    shape_.surface = &surface_;
+    shape_.pool = &pool;
     shape_.top_m = body.height_m;
   }
 
@@ -292,8 +295,10 @@ class Anatomist {
       Symmetrise(body_.landmarks);
       Symmetrise(shape_);
     }
-    body_.vertex_segments = LabelVertices(shape_, body_.landmarks);
-    body_.chains = BuildChains(shape_, body_.landmarks);
+    shape_.pool->ForEach(2, [this](std::size_t half) {
+      if (half == 0) body_.vertex_segments = LabelVertices(shape_, body_.landmarks);
+      if (half == 1) body_.chains = BuildChains(shape_, body_.landmarks);
+    });
     if (body_.is_symmetric) Symmetrise(body_.chains);
     return CheckRequired(body_, options_.required);
   }
@@ -308,8 +313,7 @@ class Anatomist {
   const BodyOptions& options_;
   const Extremities& extremities_;
   Body& body_;
-  std::vector<Eigen::Vector3d> points_;  // of the body's mesh
-  std::optional<CutSurface> surface_;
+  CutSurface surface_;
   Shape shape_;
 };
 
@@ -317,10 +321,9 @@ class Anatomist {
 
 absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& options,
                               const ThreadPool& pool, const FitObserver& observer) {
-  (void)pool;
-  const WorkingCopy copy = MakeWorkingCopy(mesh);
-  const SurfaceGraph graph(copy.points, copy.triangles);
-  const Extremities extremities = FindExtremities(copy.points, copy.vertex_areas, graph);
+  WorkingCopy copy = MakeWorkingCopy(mesh, pool);
+  const SurfaceGraph graph(copy.points, copy.triangles, copy.mates, pool);
+  const Extremities extremities = FindExtremities(copy.points, copy.vertex_areas, graph, pool);
   std::vector<Warning> warnings;
   CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame,
                           FindFrame(options, copy, extremities, warnings));
@@ -330,7 +333,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
     warnings.push_back({"FACING_UNSURE",
                         "front and back look alike; a left or right landmark would tell them", 0});
   }
-  Body body = {MeshInBodyFrame(mesh, copy, ways.from_copy),
+  Body body = {MeshInBodyFrame(mesh, std::move(copy), ways.from_copy, pool),
                ways.from_caller,
                0.0,
                false,
@@ -339,7 +342,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                {},
                std::move(warnings)};
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
-  Anatomist anatomist(options, copy, graph, extremities, body);
+  Anatomist anatomist(options, graph, extremities, pool, body);
   CAPFIT_RETURN_IF_ERROR(anatomist.Run(frame, ways.stature_m, observer));
   return body;
 }

@@ -49,11 +49,12 @@ struct Fields {
 };
 
 void MakeProfiles(const Fields& fields, Shape& shape) {
-  for (const int side : {kLeft, kRight}) {
+  shape.pool->ForEach(4, [&](std::size_t limb) {
+    const std::size_t side = limb % 2;
     const Extremities& leg = fields.legs[side].distance.empty() ? *fields.body : fields.legs[side];
-    MakeProfile(shape, leg, shape.legs[side], shape.leg_profiles[side]);
-    MakeProfile(shape, *fields.body, shape.arms[side], shape.arm_profiles[side]);
-  }
+    if (limb < 2) MakeProfile(shape, leg, shape.legs[side], shape.leg_profiles[side]);
+    if (limb >= 2) MakeProfile(shape, *fields.body, shape.arms[side], shape.arm_profiles[side]);
+  });
 }
 
 double Length(const Limb& limb) { return limb.tip_distance - limb.junction; }
@@ -73,11 +74,7 @@ bool LegsBeginTooFarDown(const Shape& shape) {
 // Instead, all that is nearer to a foot than where the ways from both feet meet: the inner sides of
 // the legs lead to the crotch however they are lifted.
 void MeasureLegsFromFeet(Shape& shape, Fields& fields) {
-  std::array<std::vector<double>, 2> from_foot;
-  for (const int side : {kLeft, kRight}) {
-    from_foot[side] = shape.graph->Distances(
-        std::array<GeodesicSource, 1>{GeodesicSource{shape.legs[side]->tip, 0.0}});
-  }
+  const std::array<std::vector<double>, 2> from_foot = DistancesFromFeet(shape);
   double meeting = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < shape.points.size(); ++v) {
     meeting = std::min(meeting, std::max(from_foot[kLeft][v], from_foot[kRight][v]));
@@ -220,11 +217,14 @@ absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
   WarnOfMissingLimbs(shape, warnings);
   FindEnds(shape, landmarks);
   WarnOfMissingEnds(shape, warnings);
-  if (shape.legs[kLeft] && shape.legs[kRight]) FindCrotch(shape, landmarks);
+  shape.pool->ForEach(3, [&](std::size_t place) {
+    const int side = static_cast<int>(place);
+    if (place < 2 && shape.arms[place]) FindShoulder(shape, side, landmarks);
+    if (place == 2 && shape.legs[kLeft] && shape.legs[kRight]) FindCrotch(shape, landmarks);
+  });
   FindTrunkBase(shape, landmarks);
   for (const int side : {kLeft, kRight}) {
     if (shape.legs[side]) FindThigh(shape, side, landmarks);
-    if (shape.arms[side]) FindShoulder(shape, side, landmarks);
   }
   MatchShoulders(shape, landmarks);
   for (const int side : {kLeft, kRight}) {

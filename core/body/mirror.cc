@@ -67,9 +67,12 @@ bool SurfaceMirrors(const Shape& shape) {
   double length = 0.0;
   double missing = 0.0;
   const double tolerance = 1.5 * kTolerance * shape.stature_m;
+  std::vector<CutPlane> levels;
   for (double y = 0.5 * kLevelStep * shape.stature_m; y < shape.top_m;
        y += kLevelStep * shape.stature_m) {
-    const auto loops = shape.surface->Cut({Eigen::Vector3d(0, y, 0), Eigen::Vector3d::UnitY()});
+    levels.push_back({Eigen::Vector3d(0, y, 0), Eigen::Vector3d::UnitY()});
+  }
+  for (const std::vector<SectionLoop>& loops : shape.surface->CutAll(levels, *shape.pool)) {
     for (const SectionLoop& loop : loops) {
       const std::size_t step = std::max<std::size_t>(1, loop.outline.size() / kDirections);
       for (std::size_t i = 0; i < loop.outline.size(); i += step) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -54,15 +55,13 @@ struct Barrier {
   }
 };
 
-// Labels what can be reached from `start` (itself included) and returns it.
+// What can be reached from `start`, itself included.
 std::vector<std::uint32_t> Flood(const Shape& shape, std::vector<std::uint32_t> start,
-                                 const Barrier& barrier, Segment segment,
-                                 std::vector<Segment>& segments) {
+                                 const Barrier& barrier) {
   std::vector<char> seen(shape.points.size(), 0);
   for (const std::uint32_t v : start) seen[v] = 1;
   std::vector<std::uint32_t> reached = std::move(start);
   for (std::size_t i = 0; i < reached.size(); ++i) {
-    segments[reached[i]] = segment;
     for (const std::uint32_t n : shape.graph->Neighbours(reached[i])) {
       if (seen[n] || barrier.Stops(n, shape.points[n])) continue;
       seen[n] = 1;
@@ -81,42 +80,20 @@ Eigen::Quaterniond TurnDown(const Eigen::Vector3d& direction) {
   return Eigen::Quaterniond::FromTwoVectors(-Eigen::Vector3d::UnitY(), direction);
 }
 
+// What a limb gives its own labels to: later ones lie on those before.
+struct LabelledVertices {
+  Segment segment;
+  std::vector<std::uint32_t> vertices;
+};
+using Labels = std::vector<LabelledVertices>;
+
+// Labels one limb.
 class Labeller {
  public:
-  Labeller(const Shape& shape, const Landmarks& landmarks)
-      : shape_(shape), landmarks_(landmarks), segments_(shape.points.size(), Segment::kTorso) {}
+  Labeller(const Shape& shape, const Landmarks& landmarks) : shape_(shape), landmarks_(landmarks) {}
 
-  std::vector<Segment> Run() && {
-    LabelHead();
-    for (const int side : {kLeft, kRight}) {
-      if (shape_.legs[side]) LabelLeg(side);
-      if (shape_.arms[side]) LabelArm(side);
-    }
-    return std::move(segments_);
-  }
-
- private:
-  [[nodiscard]] bool Has(LandmarkId left, int side = kLeft) const {
-    return landmarks_[Sided(left, side)].has_value();
-  }
-  [[nodiscard]] Eigen::Vector3d At(LandmarkId left, int side = kLeft) const {
-    return landmarks_[Sided(left, side)]->position_m;
-  }
-  [[nodiscard]] Barrier Across(const Eigen::Vector3d& origin, const Eigen::Vector3d& outward,
-                               double shift, double radius) const {
-    const Eigen::Vector3d normal = outward.normalized();
-    return {
-        {origin + shift * shape_.stature_m * normal, normal}, radius * shape_.stature_m, &in_limb_};
-  }
-  void TakeUp(const Limb& limb) {
-    in_limb_.assign(shape_.points.size(), 0);
-    for (const std::uint32_t v : limb.vertices) in_limb_[v] = 1;
-  }
-
-  // The outermost first: each later flood must not paint over the one before, so go from the
-  // trunk outward.
-  void LabelArm(int side) {
-    if (!Has(LandmarkId::kLeftShoulder, side) || !Has(LandmarkId::kLeftElbow, side)) return;
+  Labels Arm(int side) && {
+    if (!Has(LandmarkId::kLeftShoulder, side) || !Has(LandmarkId::kLeftElbow, side)) return {};
     TakeUp(*shape_.arms[side]);
     const std::uint32_t tip = shape_.arms[side]->tip;
     const Eigen::Vector3d shoulder = At(LandmarkId::kLeftShoulder, side);
@@ -136,23 +113,23 @@ class Labeller {
     const Eigen::Vector3d armpit =
         across_arm + hanging * (At(LandmarkId::kLeftArmpit, side) - across_arm);
     const Eigen::Vector3d outward = arm - hanging * Eigen::Vector3d::UnitY();
-    const Segment upper_arm = OnSide(Segment::kLeftUpperArm, side);
     std::vector<std::uint32_t> beyond =
         Flood(shape_, {tip},
               Across(armpit, outward, kArmpitMargin,
-                     kArmRadius + hanging * (kShoulderRadius - kArmRadius)),
-              upper_arm, segments_);
-    Flood(shape_, std::move(beyond), Across(shoulder, cap, -kCapInside, kShoulderRadius), upper_arm,
-          segments_);
-    Flood(shape_, {tip}, Across(elbow, wrist - shoulder, 0.0, kElbowRadius),
-          OnSide(Segment::kLeftForearm, side), segments_);
-    if (!shape_.has_hand[side]) return;
-    Flood(shape_, {tip}, Across(wrist, wrist - elbow, kWristBeyond, kWristRadius),
-          OnSide(Segment::kLeftHand, side), segments_);
+                     kArmRadius + hanging * (kShoulderRadius - kArmRadius)));
+    Label(OnSide(Segment::kLeftUpperArm, side), std::move(beyond),
+          Across(shoulder, cap, -kCapInside, kShoulderRadius));
+    Label(OnSide(Segment::kLeftForearm, side), {tip},
+          Across(elbow, wrist - shoulder, 0.0, kElbowRadius));
+    if (shape_.has_hand[side]) {
+      Label(OnSide(Segment::kLeftHand, side), {tip},
+            Across(wrist, wrist - elbow, kWristBeyond, kWristRadius));
+    }
+    return std::move(labels_);
   }
 
-  void LabelLeg(int side) {
-    if (!Has(LandmarkId::kLeftHip, side) || !Has(LandmarkId::kCrotch)) return;
+  Labels Leg(int side) && {
+    if (!Has(LandmarkId::kLeftHip, side) || !Has(LandmarkId::kCrotch)) return {};
     TakeUp(*shape_.legs[side]);
     const std::uint32_t tip = shape_.legs[side]->tip;
     const Eigen::Vector3d knee = At(LandmarkId::kLeftKnee, side);
@@ -170,40 +147,78 @@ class Labeller {
     const Eigen::Vector3d origin = At(LandmarkId::kCrotch) + taken * kGroinTaken *
                                                                  shape_.stature_m * thigh.z() *
                                                                  Eigen::Vector3d::UnitZ();
-    Flood(shape_, {tip}, Across(origin, groin, kGroinBelowCrotch, kHipRadius),
-          OnSide(Segment::kLeftThigh, side), segments_);
+    Label(OnSide(Segment::kLeftThigh, side), {tip},
+          Across(origin, groin, kGroinBelowCrotch, kHipRadius));
     const Eigen::Vector3d knee_normal =
         TurnDown(thigh + shin) * Eigen::Vector3d(SideSign(side) * 0.28, -0.86, -0.42);
-    Flood(shape_, {tip}, Across(knee, knee_normal, kKneeBelow, kKneeRadius),
-          OnSide(Segment::kLeftCalf, side), segments_);
-    if (!shape_.has_foot[side]) return;
-    const Eigen::Vector3d ankle_normal = TurnDown(shin) * Eigen::Vector3d(0.0, -0.97, 0.24);
-    Flood(shape_, {tip}, Across(ankle, ankle_normal, -kAnkleAbove, kAnkleRadius),
-          OnSide(Segment::kLeftFoot, side), segments_);
+    Label(OnSide(Segment::kLeftCalf, side), {tip},
+          Across(knee, knee_normal, kKneeBelow, kKneeRadius));
+    if (shape_.has_foot[side]) {
+      const Eigen::Vector3d ankle_normal = TurnDown(shin) * Eigen::Vector3d(0.0, -0.97, 0.24);
+      Label(OnSide(Segment::kLeftFoot, side), {tip},
+            Across(ankle, ankle_normal, -kAnkleAbove, kAnkleRadius));
+    }
+    return std::move(labels_);
   }
 
-  void LabelHead() {
-    if (!shape_.head || !shape_.neck_base_m) return;
+  Labels Head() && {
+    if (!shape_.neck_base_m) return {};
     TakeUp(*shape_.head);
     const std::uint32_t tip = shape_.head->tip;
     const Eigen::Vector3d base = *shape_.neck_base_m;
-    Flood(shape_, {tip}, Across(base, Eigen::Vector3d(0, 0.96, 0.28), 0.0, kNeckRadius),
-          Segment::kNeck, segments_);
-    if (!shape_.has_head) return;
-    Flood(shape_, {tip}, Across(base, Eigen::Vector3d(0, 0.745, 0.667), kJawAboveNeck, kNeckRadius),
-          Segment::kHead, segments_);
+    Label(Segment::kNeck, {tip}, Across(base, Eigen::Vector3d(0, 0.96, 0.28), 0.0, kNeckRadius));
+    if (shape_.has_head) {
+      Label(Segment::kHead, {tip},
+            Across(base, Eigen::Vector3d(0, 0.745, 0.667), kJawAboveNeck, kNeckRadius));
+    }
+    return std::move(labels_);
+  }
+
+ private:
+  [[nodiscard]] bool Has(LandmarkId left, int side = kLeft) const {
+    return landmarks_[Sided(left, side)].has_value();
+  }
+  [[nodiscard]] Eigen::Vector3d At(LandmarkId left, int side = kLeft) const {
+    return landmarks_[Sided(left, side)]->position_m;
+  }
+  [[nodiscard]] Barrier Across(const Eigen::Vector3d& origin, const Eigen::Vector3d& outward,
+                               double shift, double radius) const {
+    const Eigen::Vector3d normal = outward.normalized();
+    return {
+        {origin + shift * shape_.stature_m * normal, normal}, radius * shape_.stature_m, &in_limb_};
+  }
+  void TakeUp(const Limb& limb) {
+    in_limb_.assign(shape_.points.size(), 0);
+    for (const std::uint32_t v : limb.vertices) in_limb_[v] = 1;
+  }
+  void Label(Segment segment, std::vector<std::uint32_t> start, const Barrier& barrier) {
+    labels_.push_back({segment, Flood(shape_, std::move(start), barrier)});
   }
 
   const Shape& shape_;
   const Landmarks& landmarks_;
-  std::vector<Segment> segments_;
-  std::vector<char> in_limb_;  // that is being labelled
+  Labels labels_;
+  std::vector<char> in_limb_;
 };
 
 }  // namespace
 
 std::vector<Segment> LabelVertices(const Shape& shape, const Landmarks& landmarks) {
-  return Labeller(shape, landmarks).Run();
+  std::array<Labels, 5> limbs;
+  const auto label = [&](std::size_t limb) -> Labels {
+    if (limb == 0) return shape.head ? Labeller(shape, landmarks).Head() : Labels();
+    const int side = limb < 3 ? kLeft : kRight;
+    if (limb % 2 == 1) return shape.legs[side] ? Labeller(shape, landmarks).Leg(side) : Labels();
+    return shape.arms[side] ? Labeller(shape, landmarks).Arm(side) : Labels();
+  };
+  shape.pool->ForEach(limbs.size(), [&](std::size_t limb) { limbs[limb] = label(limb); });
+  std::vector<Segment> segments(shape.points.size(), Segment::kTorso);
+  for (const Labels& labels : limbs) {
+    for (const LabelledVertices& part : labels) {
+      for (const std::uint32_t v : part.vertices) segments[v] = part.segment;
+    }
+  }
+  return segments;
 }
 
 }  // namespace capfit::body

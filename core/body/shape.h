@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/body/cross_section.h"
 #include "core/body/extremities.h"
@@ -29,6 +30,7 @@ struct Shape {
   std::span<const mesh::Triangle> triangles;
   const SurfaceGraph* graph = nullptr;
   const CutSurface* surface = nullptr;
+  const ThreadPool* pool = nullptr;
   double top_m = 0.0;  // extent along Y; the lowest point is at 0
   // Height of the head's top, or of the neck's; top_m without either. Set by FindLandmarks.
   double crown_m = 0.0;
@@ -51,6 +53,16 @@ struct Shape {
   std::array<bool, 2> has_hand = {false, false};
   std::array<bool, 2> has_foot = {false, false};
 };
+
+// Over the surface, by side, to each vertex. Both legs must be there.
+[[nodiscard]] inline std::array<std::vector<double>, 2> DistancesFromFeet(const Shape& shape) {
+  std::array<std::vector<double>, 2> distances;
+  shape.pool->ForEach(distances.size(), [&](std::size_t side) {
+    distances[side] =
+        shape.graph->Distances(std::array{GeodesicSource{shape.legs[side]->tip, 0.0}});
+  });
+  return distances;
+}
 
 // The landmarks while they are being found, by LandmarkId.
 using Landmarks = std::array<std::optional<Landmark>, kLandmarkCount>;

@@ -7,11 +7,12 @@
 #include <queue>
 #include <utility>
 
+#include "core/base/chunk_sums.h"
+
 namespace capfit::body {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr float kNone = std::numeric_limits<float>::infinity();
 // How often a link may be looked at, on average, in buckets. A body needs less than two; a row of
 // vertices much closer than a bucket is wide would ask for more the longer it is.
 constexpr std::size_t kMostLooks = 6;
@@ -42,88 +43,94 @@ double UnfoldedLength(const Eigen::Vector3d& p, const Eigen::Vector3d& b, const 
 }  // namespace
 
 SurfaceGraph::SurfaceGraph(std::span<const Eigen::Vector3d> points,
-                           std::span<const mesh::Triangle> triangles)
+                           std::span<const mesh::Triangle> triangles,
+                           std::span<const mesh::HalfEdge> mates, const ThreadPool& pool)
     : offsets_(points.size() + 1, 0) {
-  AddEdges(points, triangles);
-  AddShortcuts(points);
-}
-
-void SurfaceGraph::AddEdges(std::span<const Eigen::Vector3d> points,
-                            std::span<const mesh::Triangle> triangles) {
   for (const mesh::Triangle& t : triangles) {
     for (const std::uint32_t corner : t) ++offsets_[corner + 1];
   }
   for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
-  next_.resize(offsets_.back());
-  after_.resize(offsets_.back());
-  links_.resize(next_.size());
-  std::vector<std::uint32_t> free_slot(offsets_.begin(), offsets_.end() - 1);
-  double total_length = 0.0;
-  for (const mesh::Triangle& t : triangles) {
-    const std::uint32_t slots[3] = {free_slot[t[0]]++, free_slot[t[1]]++, free_slot[t[2]]++};
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t to = t[(k + 1) % 3];
-      const double length = (points[to] - points[t[k]]).norm();
-      next_[slots[k]] = to;
-      after_[slots[k]] = slots[(k + 1) % 3];
-      links_[slots[k]] = {t[k], static_cast<float>(length), -1.0f};
-      total_length += length;
-    }
+  region_.resize(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    region_[v] =
+        static_cast<std::uint8_t>((points[v].x() < 0.0 ? 1 : 0) + (points[v].y() < 0.0 ? 2 : 0));
   }
-  if (total_length > 0.0) {
-    bucket_width_ = kBucketShare * total_length / static_cast<double>(next_.size());
+  next_.resize(offsets_.back());
+  links_.resize(offsets_.back());
+  // Half-edge h starts at a corner; what leads over the edge after it goes out from there too.
+  std::vector<std::uint32_t> slot(3 * triangles.size());
+  std::vector<std::uint32_t> free_slot(offsets_.begin(), offsets_.end() - 1);
+  mesh::HalfEdge h = 0;
+  for (const mesh::Triangle& t : triangles) {
+    for (const std::uint32_t corner : t) slot[h++] = free_slot[corner]++;
+  }
+  const Surface surface = {points, triangles, mates, slot};
+  const double length =
+      SumOverChunks(pool, triangles.size(), 0.0, [&](std::size_t begin, std::size_t end) {
+        AddShortcuts(surface, begin, end);
+        return AddEdges(surface, begin, end);
+      });
+  if (length > 0.0) {
+    buckets_per_unit_ = static_cast<double>(next_.size()) / (kBucketShare * length);
   }
 }
 
-// The slot at `from` of the triangle that runs the edge to `to`; the number of slots where there is
-// none. Looked for at the end with fewer triangles: the hub of a wheel may have as many as the
-// mesh.
-std::uint32_t SurfaceGraph::SlotOfEdge(std::uint32_t from, std::uint32_t to) const {
-  const bool from_has_fewer =
-      offsets_[from + 1] - offsets_[from] <= offsets_[to + 1] - offsets_[to];
-  const std::uint32_t end = from_has_fewer ? from : to;
-  for (std::uint32_t s = offsets_[end]; s < offsets_[end + 1]; ++s) {
-    if (from_has_fewer) {
-      if (next_[s] == to) return s;
-    } else if (next_[after_[s]] == from) {
-      return after_[after_[s]];
+double SurfaceGraph::AddEdges(const Surface& surface, std::size_t begin, std::size_t end) {
+  double total = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const mesh::Triangle& t = surface.triangles[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t to = t[k == 2 ? 0 : k + 1];
+      const std::uint32_t slot = surface.slot[3 * i + k];
+      const double length = (surface.points[to] - surface.points[t[k]]).norm();
+      next_[slot] = to;
+      links_[slot].edge_length = static_cast<float>(length);
+      total += length;
     }
   }
-  return offsets_.back();
+  return total;
 }
 
 // Each shortcut is measured once, from the end that comes first, and entered at both.
-void SurfaceGraph::AddShortcuts(std::span<const Eigen::Vector3d> points) {
-  for (std::uint32_t v = 0; v + 1 < offsets_.size(); ++v) {
-    for (std::uint32_t s = offsets_[v]; s < offsets_[v + 1]; ++s) {
-      Link& link = links_[s];
-      if (link.across_length >= 0.0f) continue;
-      link.across_length = kNone;
-      const std::uint32_t b = next_[s];
-      const std::uint32_t c = next_[after_[s]];
-      // The triangle on the other side of b-c starts at c and goes on to b.
-      const std::uint32_t o = SlotOfEdge(c, b);
-      if (o == offsets_.back()) continue;
-      const std::uint32_t across = next_[after_[o]];
-      const std::uint32_t opposite_slot = after_[after_[o]];
-      const float length =
-          static_cast<float>(UnfoldedLength(points[v], points[b], points[c], points[across]));
-      link.across = across;
-      link.across_length = length;
-      links_[opposite_slot].across = v;
-      links_[opposite_slot].across_length = length;
+void SurfaceGraph::AddShortcuts(const Surface& surface, std::size_t begin, std::size_t end) {
+  struct Apex {
+    std::uint32_t vertex;
+    std::uint32_t slot;
+    std::uint32_t next;  // the corner after it
+
+    bool operator<(const Apex& other) const {
+      return std::pair(vertex, slot) < std::pair(other.vertex, other.slot);
+    }
+  };
+  const auto opposite = [&](std::size_t triangle, std::size_t edge) -> Apex {
+    const mesh::Triangle& t = surface.triangles[triangle];
+    const std::size_t k = edge == 0 ? 2 : edge - 1;
+    return {t[k], surface.slot[3 * triangle + k], t[edge]};
+  };
+  for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const mesh::HalfEdge mate = surface.mates[3 * i + k];
+      if (mate == mesh::kNoMate || mate < 3 * i + k) continue;
+      Apex here = opposite(i, k);
+      Apex there = opposite(mate / 3, mate % 3);
+      if (there < here) std::swap(here, there);
+      const auto length = static_cast<float>(
+          UnfoldedLength(surface.points[here.vertex], surface.points[here.next],
+                         surface.points[there.next], surface.points[there.vertex]));
+      links_[here.slot].across = there.vertex;
+      links_[here.slot].across_length = length;
+      links_[there.slot].across = here.vertex;
+      links_[there.slot].across_length = length;
     }
   }
 }
 
 // Dijkstra's own way: slower than buckets on bodies, but no mesh can make it look at a link twice.
-void SurfaceGraph::FinishInOrder(const std::vector<std::vector<std::uint32_t>>& open,
+void SurfaceGraph::FinishInOrder(std::span<const std::uint32_t> open,
                                  std::vector<double>& distance) const {
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (const std::vector<std::uint32_t>& bucket : open) {
-    for (const std::uint32_t vertex : bucket) queue.emplace(distance[vertex], vertex);
-  }
+  for (const std::uint32_t vertex : open) queue.emplace(distance[vertex], vertex);
   const auto offer = [&](std::uint32_t vertex, double candidate) {
     if (candidate >= distance[vertex]) return;
     distance[vertex] = candidate;
@@ -140,39 +147,108 @@ void SurfaceGraph::FinishInOrder(const std::vector<std::vector<std::uint32_t>>& 
   }
 }
 
-// A queue of buckets narrower than the mean edge. Inside a bucket the order is free and a vertex
-// may come up again; what counts is that nothing can be improved when the bucket is empty.
-std::vector<double> SurfaceGraph::Distances(std::span<const GeodesicSource> sources) const {
-  std::vector<double> distance(vertex_count(), kInfinity);
-  std::vector<std::vector<std::uint32_t>> buckets(1);
-  const double buckets_per_unit = 1.0 / bucket_width_;
-  std::size_t looks_left = kMostLooks * links_.size();
-  const auto offer = [&](std::uint32_t vertex, double candidate) {
-    if (candidate >= distance[vertex]) return;
-    distance[vertex] = candidate;
-    const std::size_t bucket = static_cast<std::size_t>(candidate * buckets_per_unit);
-    if (bucket >= buckets.size()) buckets.resize(bucket + 1);
-    buckets[bucket].push_back(vertex);
-  };
-  for (const GeodesicSource& source : sources) offer(source.vertex, source.distance);
-  for (std::size_t k = 0; k < buckets.size(); ++k) {
-    while (!buckets[k].empty()) {
-      const std::uint32_t vertex = buckets[k].back();
-      buckets[k].pop_back();
-      const double here = distance[vertex];
-      if (static_cast<std::size_t>(here * buckets_per_unit) != k) continue;  // went up earlier
-      const std::size_t looks = offsets_[vertex + 1] - offsets_[vertex];
-      if (looks > looks_left) {
-        buckets[k].push_back(vertex);
-        FinishInOrder(buckets, distance);
-        return distance;
-      }
-      looks_left -= looks;
-      for (std::uint32_t s = offsets_[vertex]; s < offsets_[vertex + 1]; ++s) {
-        offer(next_[s], here + links_[s].edge_length);
-        offer(links_[s].across, here + links_[s].across_length);
+// A queue of buckets narrower than the mean edge, for the vertices of one region. Inside a bucket
+// the order is free and a vertex may come up again; what counts is that nothing can be improved
+// when the bucket is empty.
+class SurfaceGraph::Search {
+ public:
+  Search(const SurfaceGraph& graph, std::uint8_t region, std::vector<double>& distance)
+      : graph_(graph),
+        region_(region),
+        distance_(distance),
+        looks_left_(kMostLooks * graph.links_.size()) {}
+
+  void Offer(std::uint32_t vertex, double candidate) {
+    if (candidate >= distance_[vertex]) return;
+    distance_[vertex] = candidate;
+    const auto bucket = static_cast<std::size_t>(candidate * graph_.buckets_per_unit_);
+    if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
+    buckets_[bucket].push_back(vertex);
+    first_ = std::min(first_, bucket);
+  }
+
+  // Until nothing can be improved within the region, or there were too many looks.
+  void Run() {
+    for (std::size_t k = first_; k < buckets_.size(); ++k) {
+      while (!buckets_[k].empty()) {
+        const std::uint32_t vertex = buckets_[k].back();
+        const std::size_t looks = graph_.offsets_[vertex + 1] - graph_.offsets_[vertex];
+        if (looks > looks_left_) return;
+        looks_left_ -= looks;
+        buckets_[k].pop_back();
+        const double here = distance_[vertex];
+        if (static_cast<std::size_t>(here * graph_.buckets_per_unit_) == k) LeaveFrom(vertex, here);
       }
     }
+    first_ = buckets_.size();
+  }
+
+  // The vertices that may still improve others in the region: some only where Run gave up.
+  [[nodiscard]] std::vector<std::uint32_t> Open() const {
+    std::vector<std::uint32_t> open;
+    for (const std::vector<std::uint32_t>& bucket : buckets_) {
+      open.insert(open.end(), bucket.begin(), bucket.end());
+    }
+    return open;
+  }
+
+  // What Run offers to vertices of other regions since this was asked last.
+  [[nodiscard]] std::vector<GeodesicSource> TakeDeparting() {
+    return std::exchange(departing_, {});
+  }
+
+ private:
+  void LeaveFrom(std::uint32_t vertex, double here) {
+    const auto pass_on = [this](std::uint32_t to, double candidate) {
+      if (graph_.region_[to] == region_) {
+        Offer(to, candidate);
+      } else {
+        departing_.push_back({to, candidate});
+      }
+    };
+    for (std::uint32_t s = graph_.offsets_[vertex]; s < graph_.offsets_[vertex + 1]; ++s) {
+      pass_on(graph_.next_[s], here + graph_.links_[s].edge_length);
+      pass_on(graph_.links_[s].across, here + graph_.links_[s].across_length);
+    }
+  }
+
+  const SurfaceGraph& graph_;
+  std::uint8_t region_;
+  std::vector<double>& distance_;  // of this region's vertices
+  std::size_t looks_left_;
+  std::size_t first_ = 0;  // no bucket before it holds anything
+  std::vector<std::vector<std::uint32_t>> buckets_;
+  std::vector<GeodesicSource> departing_;
+};
+
+// The shortest paths are the same in whatever order they are found, so regions are searched side by
+// side, and again with what came in over their borders until nothing does.
+std::vector<double> SurfaceGraph::Distances(std::span<const GeodesicSource> sources,
+                                            const ThreadPool& pool) const {
+  std::vector<double> distance(vertex_count(), kInfinity);
+  std::vector<Search> searches;
+  for (std::uint8_t region = 0; region < kRegions; ++region) {
+    searches.emplace_back(*this, region, distance);
+  }
+  std::vector<GeodesicSource> arriving(sources.begin(), sources.end());
+  while (!arriving.empty()) {
+    for (const GeodesicSource& s : arriving) {
+      searches[region_[s.vertex]].Offer(s.vertex, s.distance);
+    }
+    pool.ForEach(kRegions, [&](std::size_t region) { searches[region].Run(); });
+    arriving.clear();
+    std::vector<std::uint32_t> open;
+    for (Search& search : searches) {
+      for (const GeodesicSource& s : search.TakeDeparting()) arriving.push_back(s);
+      for (const std::uint32_t vertex : search.Open()) open.push_back(vertex);
+    }
+    if (open.empty()) continue;
+    for (const GeodesicSource& s : arriving) {
+      distance[s.vertex] = std::min(distance[s.vertex], s.distance);
+      open.push_back(s.vertex);
+    }
+    FinishInOrder(open, distance);
+    break;
   }
   return distance;
 }

@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/mesh/body_mesh.h"
 
 namespace capfit::body {
@@ -23,12 +25,14 @@ struct GeodesicSource {
 // diagonals all run the same way), and the way a quad was cut into triangles hardly matters.
 class SurfaceGraph {
  public:
-  // O(vertices + triangles). The spans must outlive the graph.
-  SurfaceGraph(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles);
+  // `mates` are those of the triangles' half-edges. O(vertices + triangles).
+  SurfaceGraph(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles,
+               std::span<const mesh::HalfEdge> mates, const ThreadPool& pool = ThreadPool(1));
 
   // Shortest path length from the sources to every vertex; infinity where there is no path. The
   // result does not depend on the order of vertices, faces or sources. Close to O(vertices).
-  [[nodiscard]] std::vector<double> Distances(std::span<const GeodesicSource> sources) const;
+  [[nodiscard]] std::vector<double> Distances(std::span<const GeodesicSource> sources,
+                                              const ThreadPool& pool = ThreadPool(1)) const;
 
   [[nodiscard]] std::size_t vertex_count() const { return offsets_.size() - 1; }
   // The vertices that share an edge with `vertex`.
@@ -38,21 +42,30 @@ class SurfaceGraph {
 
  private:
   struct Link {
-    std::uint32_t across = 0;    // where the shortcut leads
-    float edge_length = 0.0f;    // to the slot's corner
-    float across_length = 0.0f;  // infinite where there is none
+    std::uint32_t across = 0;  // where the shortcut leads; to the vertex itself: there is none
+    float edge_length = 0.0f;  // to the slot's corner
+    float across_length = std::numeric_limits<float>::infinity();  // there is none
   };
-  void AddEdges(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles);
-  void AddShortcuts(std::span<const Eigen::Vector3d> points);
-  [[nodiscard]] std::uint32_t SlotOfEdge(std::uint32_t from, std::uint32_t to) const;
-  void FinishInOrder(const std::vector<std::vector<std::uint32_t>>& open,
-                     std::vector<double>& distance) const;
+  class Search;
+  // What the graph is made from. `slot` is that of each half-edge's start in its triangle.
+  struct Surface {
+    std::span<const Eigen::Vector3d> points;
+    std::span<const mesh::Triangle> triangles;
+    std::span<const mesh::HalfEdge> mates;
+    std::span<const std::uint32_t> slot;
+  };
+  // The sum of the lengths.
+  double AddEdges(const Surface& surface, std::size_t begin, std::size_t end);
+  void AddShortcuts(const Surface& surface, std::size_t begin, std::size_t end);
+  void FinishInOrder(std::span<const std::uint32_t> open, std::vector<double>& distance) const;
 
   std::vector<std::uint32_t> offsets_;  // into next_, one slot per corner at the vertex
   std::vector<std::uint32_t> next_;     // the corner after the vertex in that triangle
-  std::vector<std::uint32_t> after_;    // that corner's slot of the same triangle
   std::vector<Link> links_;             // one per slot
-  double bucket_width_ = 1.0;
+  // By the signs of x and y: the quarters around the middle of a body, from where it is searched.
+  static constexpr std::uint8_t kRegions = 4;
+  std::vector<std::uint8_t> region_;
+  double buckets_per_unit_ = 1.0;
 };
 
 }  // namespace capfit::body

@@ -41,9 +41,9 @@ constexpr double kHipTo = 0.110;
 constexpr double kWaistAboveCrotch = 0.080;
 constexpr double kBustBelowArmpit = 0.080;
 
-// The trunk's loop in a plane: the largest closed one near the middle.
-std::optional<SectionLoop> TrunkLoop(const Shape& shape, const CutPlane& plane) {
-  for (SectionLoop& loop : shape.surface->Cut(plane)) {
+// The trunk's loop in a section: the largest closed one near the middle.
+std::optional<SectionLoop> TrunkLoop(std::vector<SectionLoop> section) {
+  for (SectionLoop& loop : section) {
     if (!loop.is_closed) continue;
     if (loop.Min(Eigen::Vector3d::UnitX()) > 0.0 || loop.Max(Eigen::Vector3d::UnitX()) < 0.0) {
       continue;
@@ -51,6 +51,15 @@ std::optional<SectionLoop> TrunkLoop(const Shape& shape, const CutPlane& plane) 
     return std::move(loop);
   }
   return std::nullopt;
+}
+
+std::vector<std::optional<SectionLoop>> TrunkLoops(const Shape& shape,
+                                                   std::span<const CutPlane> planes) {
+  std::vector<std::optional<SectionLoop>> loops;
+  for (std::vector<SectionLoop>& section : shape.surface->CutAll(planes, *shape.pool)) {
+    loops.push_back(TrunkLoop(std::move(section)));
+  }
+  return loops;
 }
 
 CutPlane Level(double y) { return {Eigen::Vector3d(0, y, 0), Eigen::Vector3d::UnitY()}; }
@@ -130,14 +139,11 @@ std::optional<Eigen::Vector3d> CrotchBetweenHanging(const Shape& shape, const Th
   return crotch;
 }
 
-GeodesicSource TipOf(const Shape& shape, int side) { return {shape.legs[side]->tip, 0.0}; }
-
 // Half-way on the shortest way over the surface from foot to foot: it leads up one leg and down the
 // other on their inner sides, however they are lifted or bent. A soft minimum, so that no single
 // vertex decides.
 Eigen::Vector3d HalfWayBetweenFeet(const Shape& shape) {
-  const std::vector<double> left = shape.graph->Distances(std::array{TipOf(shape, kLeft)});
-  const std::vector<double> right = shape.graph->Distances(std::array{TipOf(shape, kRight)});
+  const auto [left, right] = DistancesFromFeet(shape);
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < left.size(); ++v) {
     nearest = std::min(nearest, std::max(left[v], right[v]));
@@ -186,11 +192,15 @@ CutPlane NeckPlane(double y) {
 }
 
 std::vector<NeckLevel> NeckLevels(const Shape& shape, double from_y) {
-  std::vector<NeckLevel> levels;
   const double to_y = shape.crown_m - (shape.has_head ? kNeckBelowTop * shape.stature_m : 0.0);
+  std::vector<CutPlane> planes;
   for (double y = from_y; y < to_y; y += kTrunkLevelStep * shape.stature_m) {
-    auto loop = TrunkLoop(shape, NeckPlane(y));
-    if (loop) levels.push_back({y, std::move(*loop)});
+    planes.push_back(NeckPlane(y));
+  }
+  std::vector<std::optional<SectionLoop>> loops = TrunkLoops(shape, planes);
+  std::vector<NeckLevel> levels;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (loops[i]) levels.push_back({planes[i].origin.y(), *std::move(loops[i])});
   }
   return levels;
 }
@@ -230,7 +240,8 @@ void FindNeck(Shape& shape, Landmarks& landmarks) {
       levels.begin(), levels.end(),
       [](const NeckLevel& a, const NeckLevel& b) { return a.loop.girth < b.loop.girth; });
   shape.neck_middle_m = narrowest->loop.centroid;
-  const auto base = TrunkLoop(shape, NeckPlane(narrowest->y - kNeckBaseBelowNarrowest * stature));
+  const auto base =
+      TrunkLoop(shape.surface->Cut(NeckPlane(narrowest->y - kNeckBaseBelowNarrowest * stature)));
   Put(landmarks, Index(LandmarkId::kNeck), base ? base->centroid : *shape.neck_middle_m, 0.8);
   shape.neck_base_m = landmarks[Index(LandmarkId::kNeck)]->position_m;
   Eigen::Vector3d top = Eigen::Vector3d::Zero();
@@ -271,8 +282,14 @@ void FindTrunkSections(const Shape& shape, Landmarks& landmarks) {
     }
   };
   Extreme hip, waist, bust;
+  std::vector<CutPlane> levels;
   for (double y = crotch + kHipFrom * stature; y < armpit; y += kTrunkLevelStep * stature) {
-    const auto loop = TrunkLoop(shape, Level(y));
+    levels.push_back(Level(y));
+  }
+  const std::vector<std::optional<SectionLoop>> loops = TrunkLoops(shape, levels);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const std::optional<SectionLoop>& loop = loops[i];
+    const double y = levels[i].origin.y();
     if (!loop) continue;
     const double above = (y - crotch) / stature;
     const double below = (armpit - y) / stature;

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/chunk_sums.h"
 #include "core/body/snap.h"
 
 namespace capfit::body {
@@ -41,18 +42,19 @@ std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys,
     const Eigen::Vector3d& q = points[b];
     if (p.y() != q.y()) return p.y() < q.y();
     if (p.z() != q.z()) return p.z() < q.z();
-    return p.x() < q.x();
+    return p.x() != q.x() ? p.x() < q.x() : a < b;
   };
   for (auto first = order.begin(); first != order.end();) {
     auto last = first + 1;
     while (last != order.end() && keys[*last] == keys[*first]) ++last;
-    if (last - first > 1) std::stable_sort(first, last, comes_first);
+    if (last - first > 1) std::sort(first, last, comes_first);
     first = last;
   }
   return order;
 }
 
-std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points) {
+std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points,
+                                     const ThreadPool& pool) {
   Eigen::Vector3d low = points.front();
   Eigen::Vector3d high = low;
   for (const Eigen::Vector3d& p : points) {
@@ -61,68 +63,189 @@ std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points)
   }
   const double cells = (1u << kBitsPerAxis) - 1;
   const double side = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
-  std::vector<std::uint32_t> keys;
-  keys.reserve(points.size());
-  for (const Eigen::Vector3d& p : points) {
-    const Eigen::Vector3d at = (p - low) * (cells / side);
-    keys.push_back(Spread(static_cast<std::uint32_t>(at.x())) |
-                   Spread(static_cast<std::uint32_t>(at.y())) << 1 |
-                   Spread(static_cast<std::uint32_t>(at.z())) << 2);
-  }
+  std::vector<std::uint32_t> keys(points.size());
+  pool.ForChunks(points.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const Eigen::Vector3d at = (points[v] - low) * (cells / side);
+      keys[v] = Spread(static_cast<std::uint32_t>(at.x())) |
+                Spread(static_cast<std::uint32_t>(at.y())) << 1 |
+                Spread(static_cast<std::uint32_t>(at.z())) << 2;
+    }
+  });
   return keys;
 }
 
-// Triangles of vertices in a new order, sorted by their corners in it, the lowest corner first.
-std::vector<mesh::Triangle> SortedTriangles(std::span<const mesh::Triangle> triangles,
-                                            const std::vector<std::uint32_t>& order) {
-  std::vector<std::uint32_t> rank(order.size());
-  for (std::uint32_t i = 0; i < rank.size(); ++i) rank[order[i]] = i;
-  std::vector<std::uint32_t> end(rank.size() + 1, 0);
-  for (const mesh::Triangle& t : triangles) ++end[std::min({rank[t[0]], rank[t[1]], rank[t[2]]})];
-  for (std::size_t k = 1; k < end.size(); ++k) end[k] += end[k - 1];
-  std::vector<mesh::Triangle> sorted(triangles.size());
-  // From the back, so that the ends become the starts.
-  for (const mesh::Triangle& t : triangles) {
-    mesh::Triangle renamed = {rank[t[0]], rank[t[1]], rank[t[2]]};
-    std::rotate(renamed.begin(), std::min_element(renamed.begin(), renamed.end()), renamed.end());
-    sorted[--end[renamed[0]]] = renamed;
-  }
-  for (std::size_t v = 0; v < rank.size(); ++v) {
-    std::sort(sorted.begin() + end[v], sorted.begin() + end[v + 1]);
-  }
-  return sorted;
-}
+// A triangle and one of its corners in one number, quicker to take apart than a half-edge.
+using TriangleCorner = std::uint32_t;
 
-// Of the volume, in the mesh's frame.
-Eigen::Vector3d CentroidOf(const mesh::BodyMesh& mesh) {
-  const Eigen::Vector3d middle = 0.5 * (mesh.box_min() + mesh.box_max());
+TriangleCorner CornerOf(std::uint32_t triangle, std::uint32_t corner) {
+  return 4 * triangle + corner;
+}
+// The sum of two corners' numbers as a corner again.
+std::uint32_t Wrapped(std::uint32_t corner) { return corner < 3 ? corner : corner - 3; }
+
+// A triangle of the working copy whose lowest corner is known: the next two in one number, and the
+// mesh's corner that comes first.
+struct RenamedTriangle {
+  std::uint64_t next_corners;
+  TriangleCorner source;
+};
+
+// Triangles of vertices in a new order, sorted by their corners in it, and their mates.
+class TriangleSorter {
+ public:
+  TriangleSorter(const mesh::BodyMesh& mesh, const ThreadPool& pool, WorkingCopy& copy)
+      : mesh_(mesh), pool_(pool), copy_(copy) {}
+
+  void Run() {
+    const std::size_t count = mesh_.triangles().size();
+    Deal();
+    copy_.triangles.resize(count);
+    gone_to_.resize(count);
+    pool_.ForChunks(rank_.size(), kMeshChunk,
+                    [this](std::size_t begin, std::size_t end) { SortAround(begin, end); });
+    copy_.mates.resize(3 * count);
+    ForEachOf(count, [this](std::uint32_t i) { CopyMates(i); });
+  }
+
+ private:
+  template <typename Visit>
+  void ForEachOf(std::size_t count, const Visit& visit) const {
+    pool_.ForChunks(count, kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) visit(static_cast<std::uint32_t>(i));
+    });
+  }
+
+  // Deals the triangles to their lowest corners: those of vertex v are sources_[first_[v]] up to
+  // that of v + 1.
+  void Deal() {
+    const std::span<const mesh::Triangle> triangles = mesh_.triangles();
+    rank_.resize(copy_.mesh_vertex.size());
+    ForEachOf(rank_.size(), [this](std::uint32_t i) { rank_[copy_.mesh_vertex[i]] = i; });
+    std::vector<std::uint32_t> lowest(triangles.size());
+    ForEachOf(triangles.size(), [&](std::uint32_t i) {
+      const mesh::Triangle& t = triangles[i];
+      lowest[i] = std::min({rank_[t[0]], rank_[t[1]], rank_[t[2]]});
+    });
+    first_.assign(rank_.size() + 1, 0);
+    for (const std::uint32_t v : lowest) ++first_[v];
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    sources_.resize(triangles.size());
+    // From the back, so that the ends become the starts.
+    for (std::uint32_t i = 0; i < lowest.size(); ++i) sources_[--first_[lowest[i]]] = i;
+  }
+
+  [[nodiscard]] RenamedTriangle Renamed(std::uint32_t triangle, std::uint32_t lowest) const {
+    const mesh::Triangle& t = mesh_.triangles()[triangle];
+    const mesh::Triangle ranks = {rank_[t[0]], rank_[t[1]], rank_[t[2]]};
+    const std::uint32_t k = (ranks[1] == lowest ? 1 : 0) + (ranks[2] == lowest ? 2 : 0);
+    return {(std::uint64_t{ranks[Wrapped(k + 1)]} << 32) | ranks[Wrapped(k + 2)],
+            CornerOf(triangle, k)};
+  }
+
+  // Those at the vertices in [begin, end).
+  void SortAround(std::size_t begin, std::size_t end) {
+    const auto comes_first = [](const RenamedTriangle& a, const RenamedTriangle& b) {
+      return a.next_corners < b.next_corners;
+    };
+    std::vector<RenamedTriangle> around;
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      around.clear();
+      for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+        around.push_back(Renamed(sources_[i], v));
+      }
+      std::sort(around.begin(), around.end(), comes_first);
+      std::uint32_t i = first_[v];
+      for (const RenamedTriangle& t : around) {
+        copy_.triangles[i] = {v, static_cast<std::uint32_t>(t.next_corners >> 32),
+                              static_cast<std::uint32_t>(t.next_corners)};
+        sources_[i] = t.source;
+        gone_to_[t.source / 4] = CornerOf(i, Wrapped(3 - t.source % 4));
+        ++i;
+      }
+    }
+  }
+
+  void CopyMates(std::uint32_t i) {
+    const mesh::HalfEdge* const mates = mesh_.mates().data() + 3 * std::size_t{sources_[i] / 4};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const mesh::HalfEdge mate = mates[Wrapped(sources_[i] % 4 + k)];
+      const TriangleCorner first = mate == mesh::kNoMate ? 0 : gone_to_[mate / 3];
+      const mesh::HalfEdge here = 3 * (first / 4) + Wrapped(first % 4 + mate % 3);
+      copy_.mates[3 * i + k] = mate == mesh::kNoMate ? mate : here;
+    }
+  }
+
+  const mesh::BodyMesh& mesh_;
+  const ThreadPool& pool_;
+  WorkingCopy& copy_;
+  std::vector<std::uint32_t> rank_;  // of the mesh's vertices
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> sources_;  // triangles, then their corners that come first
+  // Where the first corner of each of the mesh's triangles has gone; the others follow it round.
+  std::vector<TriangleCorner> gone_to_;
+};
+
+struct Moment {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double six_volumes = 0.0;
-  for (const mesh::Triangle& t : mesh.triangles()) {
-    const Eigen::Vector3d a = mesh.vertices()[t[0]] - middle;
-    const Eigen::Vector3d b = mesh.vertices()[t[1]] - middle;
-    const Eigen::Vector3d c = mesh.vertices()[t[2]] - middle;
-    const double wedge = a.dot(b.cross(c));
-    six_volumes += wedge;
-    moment += wedge * (a + b + c) / 4.0;
+
+  Moment& operator+=(const Moment& other) {
+    moment += other.moment;
+    six_volumes += other.six_volumes;
+    return *this;
   }
-  return middle + moment / six_volumes;
+};
+
+// Of the volume, in the mesh's frame.
+Eigen::Vector3d CentroidOf(const mesh::BodyMesh& mesh, const ThreadPool& pool) {
+  const Eigen::Vector3d middle = 0.5 * (mesh.box_min() + mesh.box_max());
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    Moment sum;
+    for (const mesh::Triangle& t : mesh.triangles().subspan(begin, end - begin)) {
+      const Eigen::Vector3d a = mesh.vertices()[t[0]] - middle;
+      const Eigen::Vector3d b = mesh.vertices()[t[1]] - middle;
+      const Eigen::Vector3d c = mesh.vertices()[t[2]] - middle;
+      const double wedge = a.dot(b.cross(c));
+      sum.six_volumes += wedge;
+      sum.moment += wedge * (a + b + c) / 4.0;
+    }
+    return sum;
+  };
+  const Moment total = SumOverChunks(pool, mesh.triangles().size(), Moment{}, part);
+  return middle + total.moment / total.six_volumes;
+}
+
+// Adds up term(point).
+template <typename Sum, typename Term>
+Sum SumOf(std::span<const Eigen::Vector3d> points, const ThreadPool& pool, const Sum& zero,
+          const Term& term) {
+  return SumOverChunks(pool, points.size(), zero, [&](std::size_t begin, std::size_t end) {
+    Sum sum = zero;
+    for (const Eigen::Vector3d& p : points.subspan(begin, end - begin)) sum += term(p);
+    return sum;
+  });
 }
 
 // Rows: the directions in which the points spread most, second most and least; right-handed. The
 // first and the more lopsided of the others point to where the points reach out farther.
-Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : points) products += (p - mean) * (p - mean).transpose();
+Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points, const ThreadPool& pool) {
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d mean =
+      SumOf(points, pool, zero, [](const Eigen::Vector3d& p) { return p; }) /
+      static_cast<double>(points.size());
+  const Eigen::Matrix3d no_products = Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d products =
+      SumOf(points, pool, no_products, [&](const Eigen::Vector3d& p) -> Eigen::Matrix3d {
+        return (p - mean) * (p - mean).transpose();
+      });
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(products);
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse().transpose();
-  Eigen::Vector3d cubes = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) {
-    const Eigen::Vector3d at = axes * (p - mean);
-    cubes += at.cwiseProduct(at).cwiseProduct(at);
-  }
+  const Eigen::Vector3d cubes =
+      SumOf(points, pool, zero, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+        const Eigen::Vector3d at = axes * (p - mean);
+        return at.cwiseProduct(at).cwiseProduct(at);
+      });
   const int lopsided = std::abs(cubes[1]) >= std::abs(cubes[2]) ? 1 : 2;
   for (const int k : {0, lopsided}) {
     if (cubes[k] < 0.0) axes.row(k) = -axes.row(k);
@@ -131,35 +254,46 @@ Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points) {
   return axes;
 }
 
-void AddAreas(WorkingCopy& copy) {
+void AddAreas(const ThreadPool& pool, WorkingCopy& copy) {
+  std::vector<double> thirds(copy.triangles.size());
+  pool.ForChunks(thirds.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const mesh::Triangle& t = copy.triangles[i];
+      const Eigen::Vector3d& a = copy.points[t[0]];
+      thirds[i] = (copy.points[t[1]] - a).cross(copy.points[t[2]] - a).norm() / 6.0;
+    }
+  });
   copy.vertex_areas.assign(copy.points.size(), 0.0);
   double area = 0.0;
-  for (const mesh::Triangle& t : copy.triangles) {
-    const Eigen::Vector3d& a = copy.points[t[0]];
-    const double third = (copy.points[t[1]] - a).cross(copy.points[t[2]] - a).norm() / 6.0;
-    area += 3.0 * third;
-    for (const std::uint32_t v : t) copy.vertex_areas[v] += third;
+  for (std::size_t i = 0; i < thirds.size(); ++i) {
+    area += 3.0 * thirds[i];
+    for (const std::uint32_t v : copy.triangles[i]) copy.vertex_areas[v] += thirds[i];
   }
   for (double& a : copy.vertex_areas) a /= area;
 }
 
 }  // namespace
 
-WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh) {
+WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool) {
   WorkingCopy copy;
-  copy.centroid = CentroidOf(mesh);
+  copy.centroid = CentroidOf(mesh, pool);
   copy.unit = std::sqrt(mesh.area());
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(mesh.vertices().size());
-  for (const Eigen::Vector3d& v : mesh.vertices())
-    points.push_back((v - copy.centroid) / copy.unit);
-  copy.axes = PrincipalAxes(points);
-  for (Eigen::Vector3d& p : points) p = Snap(copy.axes * p, kCoordinateGrid);
-  copy.mesh_vertex = SortByKey(CurveKeys(points), points);
-  copy.triangles = SortedTriangles(mesh.triangles(), copy.mesh_vertex);
-  copy.points.reserve(points.size());
-  for (const std::uint32_t v : copy.mesh_vertex) copy.points.push_back(points[v]);
-  AddAreas(copy);
+  const std::size_t count = mesh.vertices().size();
+  std::vector<Eigen::Vector3d> points(count);
+  const auto for_each_vertex = [&](const auto& visit) {
+    pool.ForChunks(count, kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) visit(v);
+    });
+  };
+  for_each_vertex(
+      [&](std::size_t v) { points[v] = (mesh.vertices()[v] - copy.centroid) / copy.unit; });
+  copy.axes = PrincipalAxes(points, pool);
+  for_each_vertex([&](std::size_t v) { points[v] = Snap(copy.axes * points[v], kCoordinateGrid); });
+  copy.mesh_vertex = SortByKey(CurveKeys(points, pool), points);
+  TriangleSorter(mesh, pool, copy).Run();
+  copy.points.resize(count);
+  for_each_vertex([&](std::size_t v) { copy.points[v] = points[copy.mesh_vertex[v]]; });
+  AddAreas(pool, copy);
   return copy;
 }
 

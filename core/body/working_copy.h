@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/mesh/body_mesh.h"
 
 namespace capfit::body {
@@ -22,6 +23,7 @@ struct WorkingCopy {
   std::vector<Eigen::Vector3d> points;
   std::vector<double> vertex_areas;        // a third of the triangles around; they sum to 1
   std::vector<mesh::Triangle> triangles;   // of the working vertices
+  std::vector<mesh::HalfEdge> mates;       // of the triangles' half-edges
   std::vector<std::uint32_t> mesh_vertex;  // the mesh's vertex for each of these
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // in the mesh's frame
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // rows: the copy's axes in the mesh's frame
@@ -34,7 +36,7 @@ struct WorkingCopy {
 };
 
 // O(vertices + triangles).
-[[nodiscard]] WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh);
+[[nodiscard]] WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool);
 
 }  // namespace capfit::body
 

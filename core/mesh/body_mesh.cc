@@ -3,33 +3,64 @@
 #include <Eigen/Geometry>  // cross
 #include <utility>
 
+#include "core/base/chunk_sums.h"
+
 namespace capfit::mesh {
 
+namespace {
+
+struct Measures {
+  double volume = 0.0;
+  double area = 0.0;
+
+  Measures& operator+=(const Measures& other) {
+    volume += other.volume;
+    area += other.area;
+    return *this;
+  }
+};
+
+}  // namespace
+
 BodyMesh::BodyMesh(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles,
-                   std::vector<std::int32_t> vertex_of_source)
+                   std::vector<std::int32_t> vertex_of_source, std::vector<HalfEdge> mates,
+                   const ThreadPool& pool)
     : vertices_(std::move(vertices)),
       triangles_(std::move(triangles)),
-      vertex_of_source_(std::move(vertex_of_source)) {
+      vertex_of_source_(std::move(vertex_of_source)),
+      mates_(std::move(mates)) {
   if (vertices_.empty()) return;
+  if (mates_.empty()) mates_ = FindEdgeMates(triangles_, vertices_.size(), pool).mate;
+  Measure(pool);
+}
+
+void BodyMesh::Measure(const ThreadPool& pool) {
   box_min_ = box_max_ = vertices_.front();
   for (const Eigen::Vector3d& v : vertices_) {
     box_min_ = box_min_.cwiseMin(v);
     box_max_ = box_max_.cwiseMax(v);
   }
   const Eigen::Vector3d middle = 0.5 * (box_min_ + box_max_);  // keeps digits far from the origin
-  for (const Triangle& t : triangles_) {
-    const Eigen::Vector3d a = vertices_[t[0]] - middle;
-    const Eigen::Vector3d b = vertices_[t[1]] - middle;
-    const Eigen::Vector3d c = vertices_[t[2]] - middle;
-    volume_ += a.dot(b.cross(c)) / 6.0;
-    area_ += (b - a).cross(c - a).norm() / 2.0;
-  }
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    Measures sum;
+    for (const Triangle& t : std::span(triangles_).subspan(begin, end - begin)) {
+      const Eigen::Vector3d a = vertices_[t[0]] - middle;
+      const Eigen::Vector3d b = vertices_[t[1]] - middle;
+      const Eigen::Vector3d c = vertices_[t[2]] - middle;
+      sum.volume += a.dot(b.cross(c)) / 6.0;
+      sum.area += (b - a).cross(c - a).norm() / 2.0;
+    }
+    return sum;
+  };
+  const Measures measures = SumOverChunks(pool, triangles_.size(), Measures{}, part);
+  volume_ = measures.volume;
+  area_ = measures.area;
 }
 
 BodyMesh BodyMesh::Transformed(const geometry::Similarity& similarity) const {
   std::vector<Eigen::Vector3d> moved(vertices_.size());
   for (std::size_t i = 0; i < vertices_.size(); ++i) moved[i] = similarity.Apply(vertices_[i]);
-  return BodyMesh(std::move(moved), triangles_, vertex_of_source_);
+  return BodyMesh(std::move(moved), triangles_, vertex_of_source_, mates_);
 }
 
 }  // namespace capfit::mesh

@@ -3,18 +3,15 @@
 #define CAPFIT_CORE_MESH_BODY_MESH_H_
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "absl/status/statusor.h"
-#include "core/base/warning.h"
+#include "core/base/thread_pool.h"
 #include "core/geometry/similarity.h"
+#include "core/mesh/edge_mates.h"
 
 namespace capfit::mesh {
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 // One closed, consistently oriented surface with outward normals: every edge belongs to two
 // triangles that run it in opposite directions, volume > 0, all coordinates finite, no vertex
@@ -23,14 +20,19 @@ using Triangle = std::array<std::uint32_t, 3>;
 class BodyMesh {
  public:
   // For makers of meshes inside the core that keep the promises themselves. `vertex_of_source` maps
-  // each of the caller's vertices to a vertex here, -1 where none is left of it.
+  // each of the caller's vertices to a vertex here, -1 where none is left of it. `mates` are those
+  // of the half-edges; empty: they are looked for.
   BodyMesh(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles,
-           std::vector<std::int32_t> vertex_of_source);
+           std::vector<std::int32_t> vertex_of_source, std::vector<HalfEdge> mates = {},
+           const ThreadPool& pool = ThreadPool(1));
 
   [[nodiscard]] std::span<const Eigen::Vector3d> vertices() const& { return vertices_; }
   std::span<const Eigen::Vector3d> vertices() && = delete;
   [[nodiscard]] std::span<const Triangle> triangles() const& { return triangles_; }
   std::span<const Triangle> triangles() && = delete;
+  // For each half-edge the one across the edge (see edge_mates.h).
+  [[nodiscard]] std::span<const HalfEdge> mates() const& { return mates_; }
+  std::span<const HalfEdge> mates() && = delete;
   // Size: the caller's vertex count. Several sources may map to one vertex (welded copies).
   [[nodiscard]] std::span<const std::int32_t> vertex_of_source() const& {
     return vertex_of_source_;
@@ -47,9 +49,12 @@ class BodyMesh {
   [[nodiscard]] BodyMesh Transformed(const geometry::Similarity& similarity) const;
 
  private:
+  void Measure(const ThreadPool& pool);
+
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Triangle> triangles_;
   std::vector<std::int32_t> vertex_of_source_;
+  std::vector<HalfEdge> mates_;
   double volume_ = 0.0;
   double area_ = 0.0;
   Eigen::Vector3d box_min_ = Eigen::Vector3d::Zero();

@@ -1,96 +1,169 @@
 #include "core/mesh/edge_mates.h"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace capfit::mesh {
 namespace {
 
-// A half-edge as its edge's lower vertex sees it.
+// Edges are dealt to drawers by their lower vertex, so many vertices to each: what a drawer holds
+// stays in the processor's cache while it is sorted, and drawers are sorted side by side.
+constexpr int kDrawerBits = 10;
+constexpr std::uint32_t kDrawerVertices = 1u << kDrawerBits;
+constexpr std::size_t kTrianglesPerChunk = 8192;
+
+// A half-edge as its edge's lower vertex sees it: twice its index, plus one where it comes in.
 struct Spoke {
+  std::uint32_t lower_vertex;
   std::uint32_t other_vertex;
-  HalfEdge half_edge;
+  std::uint32_t half_edge_and_way;
 };
 
-bool HasLowerEnd(const Spoke& a, const Spoke& b) {
-  return a.other_vertex != b.other_vertex ? a.other_vertex < b.other_vertex
-                                          : a.half_edge < b.half_edge;
-}
+// The other vertex and the half-edge in one number: the order of spokes at one vertex.
+using SpokeKey = std::uint64_t;
 
-// Spokes sorted by lower vertex: those of vertex v are [first[v], first[v + 1]). A counting sort:
-// several times faster than hashing or sorting whole edges, and the same on every platform.
-struct SpokesOfVertices {
-  std::vector<std::uint32_t> first;
-  std::vector<Spoke> spokes;
-};
-
-SpokesOfVertices SortSpokes(std::span<const Triangle> triangles, std::size_t vertex_count) {
-  SpokesOfVertices sorted;
-  sorted.first.assign(vertex_count + 2, 0);
-  for (const Triangle& t : triangles) {
-    ++sorted.first[std::min(t[0], t[1]) + 2];
-    ++sorted.first[std::min(t[1], t[2]) + 2];
-    ++sorted.first[std::min(t[2], t[0]) + 2];
-  }
-  for (std::size_t v = 2; v < sorted.first.size(); ++v) sorted.first[v] += sorted.first[v - 1];
-  sorted.spokes.resize(3 * triangles.size());
-  HalfEdge h = 0;
-  for (const Triangle& t : triangles) {
-    for (int k = 0; k < 3; ++k, ++h) {
-      const std::uint32_t a = t[k];
-      const std::uint32_t b = t[k == 2 ? 0 : k + 1];
-      // first[v + 1] serves as the write position of v and ends as the start of v + 1.
-      sorted.spokes[sorted.first[std::min(a, b) + 1]++] = {std::max(a, b), h};
-    }
-  }
-  return sorted;
+SpokeKey KeyOf(const Spoke& spoke) {
+  return (SpokeKey{spoke.other_vertex} << 32) | spoke.half_edge_and_way;
 }
-
-void RecordEdge(std::span<const Triangle> triangles, std::span<const Spoke> edge,
-                EdgeMates& mates) {
-  if (edge.size() == 1) {
-    ++mates.open;
-  } else if (edge.size() == 2) {
-    const HalfEdge a = edge[0].half_edge;
-    const HalfEdge b = edge[1].half_edge;
-    mates.mate[a] = b;
-    mates.mate[b] = a;
-    if (StartOf(triangles, a) == StartOf(triangles, b)) ++mates.misdirected;
-  } else {
-    for (const Spoke& spoke : edge) mates.crowded.push_back(spoke.half_edge);
-    mates.crowded_sizes.push_back(static_cast<std::uint32_t>(edge.size()));
-  }
-}
+std::uint32_t OtherVertex(SpokeKey key) { return static_cast<std::uint32_t>(key >> 32); }
+HalfEdge HalfEdgeOf(SpokeKey key) { return static_cast<std::uint32_t>(key) >> 1; }
+bool RunSameWay(SpokeKey a, SpokeKey b) { return ((a ^ b) & 1u) == 0; }
 
 // The usual handful of spokes is sorted by insertion; a vertex with thousands needs better.
-void SortByOtherVertex(std::span<Spoke> spokes) {
+void Sort(std::span<SpokeKey> spokes) {
   if (spokes.size() > 24) {
-    std::sort(spokes.begin(), spokes.end(), HasLowerEnd);
+    std::sort(spokes.begin(), spokes.end());
     return;
   }
   for (std::size_t i = 1; i < spokes.size(); ++i) {
-    const Spoke moving = spokes[i];
+    const SpokeKey moving = spokes[i];
     std::size_t k = i;
-    for (; k > 0 && HasLowerEnd(moving, spokes[k - 1]); --k) spokes[k] = spokes[k - 1];
+    for (; k > 0 && moving < spokes[k - 1]; --k) spokes[k] = spokes[k - 1];
     spokes[k] = moving;
   }
 }
 
-}  // namespace
+class MateFinder {
+ public:
+  MateFinder(std::span<const Triangle> triangles, std::size_t vertex_count, const ThreadPool& pool)
+      : triangles_(triangles),
+        pool_(pool),
+        drawer_count_((vertex_count + kDrawerVertices - 1) / kDrawerVertices),
+        chunk_count_((triangles.size() + kTrianglesPerChunk - 1) / kTrianglesPerChunk),
+        spokes_(std::make_unique_for_overwrite<Spoke[]>(3 * triangles.size())),
+        drawers_(drawer_count_) {
+    mate_.assign(3 * triangles.size(), kNoMate);
+  }
 
-EdgeMates FindEdgeMates(std::span<const Triangle> triangles, std::size_t vertex_count) {
-  SpokesOfVertices sorted = SortSpokes(triangles, vertex_count);
-  EdgeMates mates;
-  mates.mate.assign(3 * triangles.size(), kNoMate);
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    const std::span<Spoke> spokes =
-        std::span(sorted.spokes).subspan(sorted.first[v], sorted.first[v + 1] - sorted.first[v]);
-    SortByOtherVertex(spokes);
-    for (std::size_t begin = 0, end = 0; begin < spokes.size(); begin = end) {
-      while (end < spokes.size() && spokes[end].other_vertex == spokes[begin].other_vertex) ++end;
-      RecordEdge(triangles, spokes.subspan(begin, end - begin), mates);
+  EdgeMates Run() {
+    Deal();
+    pool_.ForEach(drawer_count_, [this](std::size_t d) { PairWithin(d); });
+    EdgeMates mates;
+    mates.mate = std::move(mate_);
+    for (const EdgeMates& drawer : drawers_) {
+      mates.open += drawer.open;
+      mates.misdirected += drawer.misdirected;
+      mates.crowded.insert(mates.crowded.end(), drawer.crowded.begin(), drawer.crowded.end());
+      mates.crowded_sizes.insert(mates.crowded_sizes.end(), drawer.crowded_sizes.begin(),
+                                 drawer.crowded_sizes.end());
+    }
+    return mates;
+  }
+
+ private:
+  template <typename Visit>
+  void VisitChunk(std::size_t begin, std::size_t end, const Visit& visit) const {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Triangle& corners = triangles_[t];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t from = corners[k];
+        const std::uint32_t to = corners[k == 2 ? 0 : k + 1];
+        const auto half_edge = static_cast<HalfEdge>(3 * t + k);
+        visit(Spoke{std::min(from, to), std::max(from, to), 2 * half_edge + (from > to ? 1 : 0)});
+      }
     }
   }
-  return mates;
+
+  // Chunk by chunk within each drawer, so that the order is that of the triangles.
+  void Deal() {
+    std::vector<std::uint32_t> place(chunk_count_ * drawer_count_, 0);
+    const auto places_of = [&](std::size_t begin) {
+      return place.data() + begin / kTrianglesPerChunk * drawer_count_;
+    };
+    pool_.ForChunks(triangles_.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
+      std::uint32_t* const count = places_of(begin);
+      VisitChunk(begin, end, [&](const Spoke& s) { ++count[s.lower_vertex >> kDrawerBits]; });
+    });
+    std::uint32_t next = 0;
+    for (std::size_t d = 0; d < drawer_count_; ++d) {
+      for (std::size_t c = 0; c < chunk_count_; ++c) {
+        next += std::exchange(place[c * drawer_count_ + d], next);
+      }
+      drawer_ends_.push_back(next);
+    }
+    pool_.ForChunks(triangles_.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
+      std::uint32_t* const next_of = places_of(begin);
+      VisitChunk(begin, end,
+                 [&](const Spoke& s) { spokes_[next_of[s.lower_vertex >> kDrawerBits]++] = s; });
+    });
+  }
+
+  // A counting sort by lower vertex: faster than hashing, and the same on every platform.
+  void PairWithin(std::size_t d) {
+    const std::uint32_t begin = d == 0 ? 0 : drawer_ends_[d - 1];
+    const std::span<const Spoke> dealt(spokes_.get() + begin, drawer_ends_[d] - begin);
+    std::array<std::uint32_t, kDrawerVertices + 2> first{};
+    for (const Spoke& s : dealt) ++first[s.lower_vertex % kDrawerVertices + 2];
+    for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
+    const auto sorted = std::make_unique_for_overwrite<SpokeKey[]>(dealt.size());
+    // first[v + 1] serves as the write position of v and ends as the start of v + 1.
+    for (const Spoke& s : dealt) {
+      sorted[first[s.lower_vertex % kDrawerVertices + 1]++] = KeyOf(s);
+    }
+    for (std::size_t v = 0; v < kDrawerVertices; ++v) {
+      PairAtVertex({sorted.get() + first[v], first[v + 1] - first[v]}, drawers_[d]);
+    }
+  }
+
+  void PairAtVertex(std::span<SpokeKey> spokes, EdgeMates& found) {
+    Sort(spokes);
+    for (std::size_t begin = 0, end = 0; begin < spokes.size(); begin = end) {
+      while (end < spokes.size() && OtherVertex(spokes[end]) == OtherVertex(spokes[begin])) ++end;
+      RecordEdge(spokes.subspan(begin, end - begin), found);
+    }
+  }
+
+  void RecordEdge(std::span<const SpokeKey> edge, EdgeMates& found) {
+    if (edge.size() == 1) {
+      ++found.open;
+    } else if (edge.size() == 2) {
+      const HalfEdge a = HalfEdgeOf(edge[0]);
+      const HalfEdge b = HalfEdgeOf(edge[1]);
+      mate_[a] = b;
+      mate_[b] = a;
+      if (RunSameWay(edge[0], edge[1])) ++found.misdirected;
+    } else {
+      for (const SpokeKey spoke : edge) found.crowded.push_back(HalfEdgeOf(spoke));
+      found.crowded_sizes.push_back(static_cast<std::uint32_t>(edge.size()));
+    }
+  }
+
+  std::span<const Triangle> triangles_;
+  const ThreadPool& pool_;
+  std::size_t drawer_count_;
+  std::size_t chunk_count_;
+  std::unique_ptr<Spoke[]> spokes_;
+  std::vector<std::uint32_t> drawer_ends_;
+  std::vector<EdgeMates> drawers_;  // without mates
+  std::vector<HalfEdge> mate_;
+};
+
+}  // namespace
+
+EdgeMates FindEdgeMates(std::span<const Triangle> triangles, std::size_t vertex_count,
+                        const ThreadPool& pool) {
+  return MateFinder(triangles, vertex_count, pool).Run();
 }
 
 }  // namespace capfit::mesh

@@ -1,15 +1,18 @@
-// Which triangles meet at each edge: the one adjacency structure of the mesh room.
+// Which triangles meet at each edge: the one adjacency structure of the core.
 #ifndef CAPFIT_CORE_MESH_EDGE_MATES_H_
 #define CAPFIT_CORE_MESH_EDGE_MATES_H_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/mesh/body_mesh.h"
+#include "core/base/thread_pool.h"
 
 namespace capfit::mesh {
+
+using Triangle = std::array<std::uint32_t, 3>;
 
 // Half-edge h = 3 * triangle + k runs from corner k of its triangle to corner (k + 1) % 3.
 using HalfEdge = std::uint32_t;
@@ -41,8 +44,8 @@ struct EdgeMates {
 
 // Pairs the half-edges of `triangles`, whose corners are all below `vertex_count` and differ from
 // each other within a triangle. O(triangles + vertices); the order of triangles decides no ties.
-[[nodiscard]] EdgeMates FindEdgeMates(std::span<const Triangle> triangles,
-                                      std::size_t vertex_count);
+[[nodiscard]] EdgeMates FindEdgeMates(std::span<const Triangle> triangles, std::size_t vertex_count,
+                                      const ThreadPool& pool = ThreadPool(1));
 
 }  // namespace capfit::mesh
 

@@ -24,8 +24,7 @@ class TriangleJoiner {
         observer_(observer),
         triangles_(std::move(triangles)) {}
 
-  JoinedTriangles Run() {
-    EdgeMates mates = FindMates();
+  JoinedTriangles Run(EdgeMates mates) {
     if (!mates.IsClosedAndOriented()) {
       mates = DropDuplicates(std::move(mates));
       if (mates.open > 0 && !observer_.IsCancelled()) mates = Weld(std::move(mates));
@@ -137,9 +136,10 @@ class TriangleJoiner {
 }  // namespace
 
 JoinedTriangles JoinTriangles(std::span<const Eigen::Vector3d> positions,
-                              std::vector<Triangle> triangles, double weld_tolerance,
-                              const FitObserver& observer) {
-  return TriangleJoiner(positions, std::move(triangles), weld_tolerance, observer).Run();
+                              std::vector<Triangle> triangles, EdgeMates mates,
+                              double weld_tolerance, const FitObserver& observer) {
+  return TriangleJoiner(positions, std::move(triangles), weld_tolerance, observer)
+      .Run(std::move(mates));
 }
 
 }  // namespace capfit::mesh

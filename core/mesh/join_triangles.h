@@ -24,15 +24,15 @@ struct JoinedTriangles {
   std::size_t crowded = 0;     // edges of more than two triangles that remained and were matched
 };
 
-// Finds the neighbours of `triangles` (corners in range and different within each). Where that does
-// not make one closed, oriented surface at once: drops copies of triangles, welds the vertices of
+// `triangles` (corners in range and different within each) with their neighbours. Where those do
+// not make a closed, oriented surface at once: drops copies of triangles, welds the vertices of
 // open edges (equal ones first, then those within `weld_tolerance`, if positive), drops fins, and
 // matches what meets at crowded edges. O(n).
 //
 // Where `observer` cancels, what is there so far comes back, of no further use.
 [[nodiscard]] JoinedTriangles JoinTriangles(std::span<const Eigen::Vector3d> positions,
-                                            std::vector<Triangle> triangles, double weld_tolerance,
-                                            const FitObserver& observer);
+                                            std::vector<Triangle> triangles, EdgeMates mates,
+                                            double weld_tolerance, const FitObserver& observer);
 
 }  // namespace capfit::mesh
 

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/base/chunk_sums.h"
 #include "core/base/status.h"
 #include "core/formats/recover_decimals.h"
 #include "core/formats/soup_checks.h"
@@ -17,6 +20,7 @@
 #include "core/mesh/edge_mates.h"
 #include "core/mesh/join_triangles.h"
 #include "core/mesh/mend_flat_triangles.h"
+#include "core/mesh/one_surface.h"
 #include "core/mesh/overlap.h"
 #include "core/mesh/split_vertices.h"
 #include "core/mesh/surface.h"
@@ -71,14 +75,18 @@ class MeshMender {
  public:
   // `positions` stand for the soup's own.
   MeshMender(const formats::PolygonSoup& soup, const std::vector<Eigen::Vector3d>& positions,
-             const FitObserver& observer)
-      : positions_(positions), observer_(observer) {
+             const ThreadPool& pool, const FitObserver& observer)
+      : positions_(positions), pool_(pool), observer_(observer) {
     Triangulate(soup);
-    MeasureUsed();
   }
 
   absl::StatusOr<PreparedMesh> Run() {
-    Join();
+    EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size(), pool_);
+    if (degenerate_ == 0 && !mates.mate.empty() && mates.IsClosedAndOriented()) {
+      if (std::optional<PreparedMesh> prepared = TakeAsItCame(mates)) return *std::move(prepared);
+    }
+    MeasureUsed();
+    Join(std::move(mates));
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     if (surface_.triangles.empty()) {
       return Refused(ErrorReason::kNoSurface, absl::StrCat("all ", degenerate_,
@@ -94,7 +102,9 @@ class MeshMender {
     MendFlat();
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     CAPFIT_RETURN_IF_ERROR(CheckManifold());
-    return Finish();
+    BodyMesh mesh = MeshOfUsed();
+    const Overlap overlap = MeasureOverlap(mesh);
+    return Finish(std::move(mesh), overlap);
   }
 
  private:
@@ -107,6 +117,39 @@ class MeshMender {
     TriangulatedFaces faces = TriangulateFaces(soup, positions_);
     surface_.triangles = std::move(faces.triangles);
     degenerate_ = faces.degenerate;
+  }
+
+  // What all of the steps below would leave as it is; else nothing, and they may begin. The
+  // triangles are closed and oriented.
+  std::optional<PreparedMesh> TakeAsItCame(EdgeMates& mates) {
+    std::vector<std::int32_t> themselves(positions_.size());
+    std::iota(themselves.begin(), themselves.end(), 0);
+    BodyMesh mesh(positions_, std::move(surface_.triangles), std::move(themselves),
+                  std::move(mates.mate), pool_);
+    diagonal_ = mesh.diagonal();
+    bool is_fine = false;
+    Overlap overlap;
+    pool_.ForEach(2, [&](std::size_t check) {
+      if (check == 0) overlap = MeasureOverlap(mesh);
+      if (check == 1) {
+        is_fine = mesh.volume() > LeastVolume() &&
+                  IsOneSurface(mesh.triangles(), mesh.mates(), positions_.size(), pool_) &&
+                  !HasFlat(mesh.triangles());
+      }
+    });
+    if (is_fine) return Finish(std::move(mesh), overlap);
+    surface_.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
+    mates.mate.assign(mesh.mates().begin(), mesh.mates().end());
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool HasFlat(std::span<const Triangle> triangles) const {
+    const auto flat_in = [&](std::size_t begin, std::size_t end) {
+      return std::count_if(
+          triangles.begin() + begin, triangles.begin() + end,
+          [this](const Triangle& t) { return IsFlat(positions_, t, kFlatShare * diagonal_); });
+    };
+    return SumOverChunks(pool_, triangles.size(), std::ptrdiff_t{0}, flat_in) > 0;
   }
 
   // Only vertices that faces use count for the size of the mesh.
@@ -127,9 +170,9 @@ class MeshMender {
     }
   }
 
-  void Join() {
-    JoinedTriangles joined =
-        JoinTriangles(positions_, std::move(surface_.triangles), kWeldShare * diagonal_, observer_);
+  void Join(EdgeMates mates) {
+    JoinedTriangles joined = JoinTriangles(positions_, std::move(surface_.triangles),
+                                           std::move(mates), kWeldShare * diagonal_, observer_);
     surface_ = std::move(joined.surface);
     stand_in_ = std::move(joined.stand_in);
     duplicates_ = joined.duplicates;
@@ -166,9 +209,12 @@ class MeshMender {
     return absl::OkStatus();
   }
 
+  [[nodiscard]] double LeastVolume() const {
+    return kLeastVolumeShare * diagonal_ * diagonal_ * diagonal_;
+  }
+
   absl::Status CheckVolume(double volume, std::size_t parts) const {
-    const double least = kLeastVolumeShare * diagonal_ * diagonal_ * diagonal_;
-    if (std::abs(volume) > least) return absl::OkStatus();
+    if (std::abs(volume) > LeastVolume()) return absl::OkStatus();
     return Refused(ErrorReason::kNoVolume,
                    absl::StrFormat("the surface encloses no volume; it has %d parts that share "
                                    "no edge: do neighbouring faces have the same vertices, or "
@@ -304,8 +350,13 @@ class MeshMender {
                                 "program"));
   }
 
-  PreparedMesh Finish() {
+  PreparedMesh Finish(BodyMesh mesh, const Overlap& overlap) {
     WarnOfDropped();
+    WarnOfOverlap(overlap, mesh.volume());
+    return {std::move(mesh), std::move(warnings_)};
+  }
+
+  BodyMesh MeshOfUsed() {
     std::vector<std::uint32_t> new_index(positions_.size() + copied_.size(), kNone);
     for (const Triangle& t : surface_.triangles) {
       new_index[t[0]] = new_index[t[1]] = new_index[t[2]] = 0;
@@ -331,18 +382,16 @@ class MeshMender {
       const std::uint32_t index = new_index[stand_in_.empty() ? v : stand_in_[v]];
       vertex_of_source[v] = index == kNone ? -1 : static_cast<std::int32_t>(index);
     }
-    BodyMesh mesh(std::move(vertices), std::move(surface_.triangles), std::move(vertex_of_source));
-    WarnOfOverlap(mesh);
-    return {std::move(mesh), std::move(warnings_)};
+    return BodyMesh(std::move(vertices), std::move(surface_.triangles), std::move(vertex_of_source),
+                    std::move(surface_.mate), pool_);
   }
 
-  void WarnOfOverlap(const BodyMesh& mesh) {
-    const Overlap overlap = MeasureOverlap(mesh);
-    if (overlap.volume <= kTellingOverlap * mesh.volume()) return;
+  void WarnOfOverlap(const Overlap& overlap, double volume) {
+    if (overlap.volume <= kTellingOverlap * volume) return;
     Warn("SURFACE_OVERLAPS", 0,
          absl::StrFormat("the surface cuts through itself: %.2g %% of its volume, around %s, is "
                          "enclosed more than once",
-                         100.0 * overlap.volume / mesh.volume(), PointText(overlap.middle)));
+                         100.0 * overlap.volume / volume, PointText(overlap.middle)));
   }
 
   void WarnOfDropped() {
@@ -365,6 +414,7 @@ class MeshMender {
   }
 
   const std::vector<Eigen::Vector3d>& positions_;
+  const ThreadPool& pool_;
   const FitObserver& observer_;
   double diagonal_ = 0.0;
   Surface surface_;
@@ -383,11 +433,11 @@ class MeshMender {
 }  // namespace
 
 absl::StatusOr<PreparedMesh> PrepareMesh(const formats::PolygonSoup& soup,
-                                         const formats::MeshLimits& limits,
+                                         const formats::MeshLimits& limits, const ThreadPool& pool,
                                          const FitObserver& observer) {
   CAPFIT_RETURN_IF_ERROR(formats::CheckSoup(soup, limits));
   const std::vector<Eigen::Vector3d> decimals = formats::RecoverDecimalsOfFloats(soup.positions);
-  return MeshMender(soup, decimals.empty() ? soup.positions : decimals, observer).Run();
+  return MeshMender(soup, decimals.empty() ? soup.positions : decimals, pool, observer).Run();
 }
 
 }  // namespace capfit::mesh

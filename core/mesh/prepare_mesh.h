@@ -7,6 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/base/fit_observer.h"
+#include "core/base/thread_pool.h"
 #include "core/base/warning.h"
 #include "core/formats/mesh_limits.h"
 #include "core/formats/polygon_soup.h"
@@ -23,7 +24,8 @@ struct PreparedMesh {
 // passes through without a warning; `vertex_of_source` leads back to the caller's vertices.
 // Coordinates that are decimals rounded to floats are taken as the decimals (see
 // recover_decimals.h). O(n log n), whatever the faces do: a second or two for two million of any
-// kind (docs/mesh_repair.md has a table). Between the steps `observer` may cancel.
+// kind (docs/mesh_repair.md has a table). Between the steps `observer` may cancel. What is one
+// closed, oriented surface as it came takes a short way, on all threads of `pool`.
 //
 // Steps, each of which warns with a count of what it changed:
 //   1. Sizes, finite positions, indices; unused vertices are ignored.          UNUSED_VERTICES
@@ -52,7 +54,7 @@ struct PreparedMesh {
 // larger than a third of the surface), NOT_MANIFOLD. CANCELLED where the observer says so.
 [[nodiscard]] absl::StatusOr<PreparedMesh> PrepareMesh(
     const formats::PolygonSoup& soup, const formats::MeshLimits& limits = {},
-    const FitObserver& observer = NullObserver());
+    const ThreadPool& pool = ThreadPool(1), const FitObserver& observer = NullObserver());
 
 }  // namespace capfit::mesh
 

@@ -265,7 +265,7 @@ absl::StatusOr<FitResult> Fit(const formats::PolygonSoup& soup, const FitOptions
   result.version = std::string(Version());
   StageClock clock(options, observer, result);
   clock.Begin(Stage::kMesh);
-  CAPFIT_ASSIGN_OR_RETURN(mesh::PreparedMesh prepared, mesh::PrepareMesh(soup, {}, clock));
+  CAPFIT_ASSIGN_OR_RETURN(mesh::PreparedMesh prepared, mesh::PrepareMesh(soup, {}, pool, clock));
   Append(std::move(prepared.warnings), result.warnings);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock));
   const absl::Status status = BodyFit(options, pool, clock, result).Run(soup, prepared.mesh);

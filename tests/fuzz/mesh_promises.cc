@@ -27,6 +27,15 @@ std::string BrokenByTriangles(const BodyMesh& mesh) {
     if (count != 1) return "an edge is run twice the same way";
     if (runs.count({edge.second, edge.first}) != 1) return "an edge has one triangle only";
   }
+  if (mesh.mates().size() != 3 * mesh.triangles().size()) return "mates have a wrong size";
+  for (mesh::HalfEdge h = 0; h < mesh.mates().size(); ++h) {
+    const mesh::HalfEdge mate = mesh.mates()[h];
+    if (mate >= mesh.mates().size() ||
+        mesh::StartOf(mesh.triangles(), mate) != mesh::EndOf(mesh.triangles(), h) ||
+        mesh::EndOf(mesh.triangles(), mate) != mesh::StartOf(mesh.triangles(), h)) {
+      return "a half-edge has a wrong mate";
+    }
+  }
   return {};
 }
 

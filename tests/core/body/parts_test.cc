@@ -25,6 +25,11 @@ struct Surface {
   std::vector<mesh::Triangle> triangles;
 };
 
+SurfaceGraph GraphOf(const Surface& surface, const ThreadPool& pool = ThreadPool(1)) {
+  return {surface.points, surface.triangles,
+          mesh::FindEdgeMates(surface.triangles, surface.points.size()).mate, pool};
+}
+
 // A closed tube of radius 1 along Z from 0 to `length`, capped at both ends.
 Surface Tube(int around, int along, double length) {
   Surface tube;
@@ -88,7 +93,7 @@ TEST(CutSurface, TwoTubesGiveTwoLoopsAndTheNearestIsTheOneAsked) {
 TEST(SurfaceGraph, DistancesOnATubeAreNearThoseOnTheUnrolledSheet) {
   const int around = 48;
   const Surface tube = Tube(around, 60, 6.0);
-  const SurfaceGraph graph(tube.points, tube.triangles);
+  const SurfaceGraph graph = GraphOf(tube);
   const std::uint32_t source = 30 * around;  // at angle 0, z = 3
   const auto distance = graph.Distances(std::vector<GeodesicSource>{{source, 0.0}});
   for (int i = 5; i <= 55; ++i) {
@@ -103,7 +108,7 @@ TEST(SurfaceGraph, DistancesOnATubeAreNearThoseOnTheUnrolledSheet) {
 
 TEST(SurfaceGraph, NoEdgeCanShortenADistanceAndSourcesKeepTheirHeadStart) {
   const Surface tube = Tube(20, 30, 5.0);
-  const SurfaceGraph graph(tube.points, tube.triangles);
+  const SurfaceGraph graph = GraphOf(tube);
   const std::vector<GeodesicSource> sources = {{7, 0.25}, {433, 0.0}};
   const auto distance = graph.Distances(sources);
   EXPECT_LE(distance[7], 0.25);
@@ -112,6 +117,29 @@ TEST(SurfaceGraph, NoEdgeCanShortenADistanceAndSourcesKeepTheirHeadStart) {
     for (const std::uint32_t n : graph.Neighbours(v)) {
       EXPECT_LE(distance[n], distance[v] + (tube.points[n] - tube.points[v]).norm() + 1e-6);
     }
+  }
+}
+
+// Around the middle of a tube all four regions of the search meet, and ways lead back and forth
+// between them.
+TEST(SurfaceGraph, RegionsAndThreadsLeaveNoTrace) {
+  Surface tube = Tube(40, 60, 8.0);
+  Random random(5);
+  for (Eigen::Vector3d& p : tube.points) {
+    p += 0.03 * Eigen::Vector3d(random.NextUnit(), random.NextUnit(), random.NextUnit());
+  }
+  Surface beside = tube;  // all in one region
+  for (Eigen::Vector3d& p : beside.points) p += Eigen::Vector3d(64.0, 64.0, 0.0);
+  const SurfaceGraph graph = GraphOf(tube);
+  const std::vector<GeodesicSource> sources = {{7, 0.25}, {1233, 0.0}, {2000, 3.0}};
+  const std::vector<double> distance = graph.Distances(sources);
+  const std::vector<double> in_one_region = GraphOf(beside).Distances(sources);
+  for (std::size_t v = 0; v < distance.size(); ++v) {
+    EXPECT_NEAR(distance[v], in_one_region[v], 1e-5);
+  }
+  for (const int threads : {2, 3}) {
+    const ThreadPool pool(threads);
+    EXPECT_EQ(GraphOf(tube, pool).Distances(sources, pool), distance);
   }
 }
 
@@ -132,7 +160,7 @@ TEST(SurfaceGraph, DenseRowsAndHubsAreNoTrap) {
   wedge.triangles.push_back({0, 2, 3});
   wedge.triangles.push_back({3 + kCount, 2, 1});
   wedge.triangles.push_back({0, 1, 2});
-  const SurfaceGraph graph(wedge.points, wedge.triangles);
+  const SurfaceGraph graph = GraphOf(wedge);
   for (const std::uint32_t source : {0u, 3u, 3 + kCount}) {
     const auto distance = graph.Distances(std::vector<GeodesicSource>{{source, 0.0}});
     for (std::uint32_t v = 3; v <= 3 + kCount; v += 500) {
@@ -149,7 +177,7 @@ TEST(SurfaceGraph, DenseRowsAndHubsAreNoTrap) {
 TEST(Branches, TheEndsOfATubeStandOutFromItsMiddle) {
   const int around = 24;
   const Surface tube = Tube(around, 40, 8.0);
-  const SurfaceGraph graph(tube.points, tube.triangles);
+  const SurfaceGraph graph = GraphOf(tube);
   std::vector<GeodesicSource> ring;  // a little below the middle, so the top is farther
   for (int k = 0; k < around; ++k) {
     ring.push_back({static_cast<std::uint32_t>(19 * around + k), 0.0});

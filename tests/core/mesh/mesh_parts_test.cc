@@ -15,6 +15,7 @@
 #include "core/base/random.h"
 #include "core/mesh/body_mesh.h"
 #include "core/mesh/edge_mates.h"
+#include "core/mesh/one_surface.h"
 #include "core/mesh/overlap.h"
 #include "core/mesh/triangulate_loop.h"
 #include "core/mesh/weld_vertices.h"
@@ -44,6 +45,71 @@ TEST(EdgeMatesTest, CountsOpenMisdirectedAndCrowdedEdges) {
   EXPECT_THAT(mates.crowded, ElementsAre(6, 9, 12));
   EXPECT_EQ(mates.mate[0], 3u);
   EXPECT_EQ(mates.mate[6], kNoMate);
+}
+
+// By comparing each half-edge with all others.
+EdgeMates MatesByBruteForce(std::span<const Triangle> triangles) {
+  EdgeMates mates;
+  const auto count = static_cast<HalfEdge>(3 * triangles.size());
+  mates.mate.assign(count, kNoMate);
+  const auto ends = [&](HalfEdge h) {
+    return std::minmax({StartOf(triangles, h), EndOf(triangles, h)});
+  };
+  for (HalfEdge h = 0; h < count; ++h) {
+    std::vector<HalfEdge> edge;
+    for (HalfEdge other = 0; other < count; ++other) {
+      if (ends(other) == ends(h)) edge.push_back(other);
+    }
+    if (edge.size() == 2) mates.mate[h] = edge[edge[0] == h ? 1 : 0];
+    if (edge[0] != h) continue;
+    if (edge.size() == 1) ++mates.open;
+    if (edge.size() == 2 && StartOf(triangles, edge[0]) == StartOf(triangles, edge[1])) {
+      ++mates.misdirected;
+    }
+    if (edge.size() > 2) mates.crowded_sizes.push_back(static_cast<std::uint32_t>(edge.size()));
+  }
+  return mates;
+}
+
+TEST(EdgeMatesTest, RandomTrianglesArePairedAsByBruteForceOnAnyThreads) {
+  Random random(3);
+  for (const std::uint32_t vertices : {7u, 60u, 5000u}) {
+    const auto any = [&] { return static_cast<std::uint32_t>(random.NextUnit() * vertices); };
+    std::vector<Triangle> triangles;
+    while (triangles.size() < 500) {
+      const std::uint32_t a = any();
+      const Triangle t = {a, (a + 1 + any() % 5) % vertices, any()};
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+    }
+    const EdgeMates truth = MatesByBruteForce(triangles);
+    for (const int threads : {1, 2, 3}) {
+      const EdgeMates mates = FindEdgeMates(triangles, vertices, ThreadPool(threads));
+      EXPECT_EQ(mates.mate, truth.mate);
+      EXPECT_EQ(mates.open, truth.open);
+      EXPECT_EQ(mates.misdirected, truth.misdirected);
+      EXPECT_THAT(mates.crowded_sizes, testing::UnorderedElementsAreArray(truth.crowded_sizes));
+    }
+  }
+}
+
+TEST(OneSurfaceTest, PiecesTouchingVerticesAndUnusedOnesAreTold) {
+  const auto is_one = [](const std::vector<Triangle>& triangles, std::size_t vertices) {
+    const EdgeMates mates = FindEdgeMates(triangles, vertices);
+    EXPECT_TRUE(mates.IsClosedAndOriented());
+    return IsOneSurface(triangles, mates.mate, vertices, ThreadPool(2));
+  };
+  const auto tetrahedron = [](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    return std::vector<Triangle>{{a, c, b}, {a, b, d}, {b, c, d}, {c, a, d}};
+  };
+  const auto both = [&](std::vector<Triangle> first, const std::vector<Triangle>& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+  };
+  EXPECT_TRUE(is_one(tetrahedron(0, 1, 2, 3), 4));
+  EXPECT_TRUE(is_one(tetrahedron(3, 0, 2, 1), 4));
+  EXPECT_FALSE(is_one(tetrahedron(0, 1, 2, 3), 5));
+  EXPECT_FALSE(is_one(both(tetrahedron(0, 2, 4, 6), tetrahedron(1, 3, 5, 7)), 8));
+  EXPECT_FALSE(is_one(both(tetrahedron(0, 1, 2, 3), tetrahedron(3, 4, 5, 6)), 7));
 }
 
 // A wheel has a vertex with so many edges that they are sorted the other way.

@@ -52,6 +52,25 @@ TEST(PrepareMeshTest, PassesSoundMeshThroughUnchanged) {
   }
 }
 
+TEST(PrepareMeshTest, SameBitsForAnyNumberOfThreads) {
+  const formats::PolygonSoup sound = Ball(120, 90);
+  formats::PolygonSoup broken = sound;
+  broken.face_vertices.resize(broken.face_vertices.size() - 300);
+  for (const formats::PolygonSoup& soup : {sound, broken}) {
+    const PreparedMesh one = Prepared(soup);
+    for (const int threads : {2, 3}) {
+      const auto other = PrepareMesh(soup, {}, ThreadPool(threads));
+      ASSERT_TRUE(other.ok()) << other.status();
+      EXPECT_TRUE(std::ranges::equal(one.mesh.vertices(), other->mesh.vertices()));
+      EXPECT_TRUE(std::ranges::equal(one.mesh.triangles(), other->mesh.triangles()));
+      EXPECT_TRUE(std::ranges::equal(one.mesh.mates(), other->mesh.mates()));
+      EXPECT_EQ(one.mesh.volume(), other->mesh.volume());
+      EXPECT_EQ(one.mesh.area(), other->mesh.area());
+      EXPECT_EQ(CodesOf(one), CodesOf(*other));
+    }
+  }
+}
+
 // Which two corners of a quad of the cube are joined.
 bool HasEdge(const PreparedMesh& prepared, std::size_t a, std::size_t b) {
   const auto from = static_cast<std::uint32_t>(prepared.mesh.vertex_of_source()[a]);
@@ -278,7 +297,7 @@ TEST(PrepareMeshTest, StopsBetweenStepsWhenCancelled) {
   absl::StatusOr<PreparedMesh> prepared = absl::CancelledError();
   for (; !prepared.ok(); ++patience) {
     const ImpatientObserver observer(patience);
-    prepared = PrepareMesh(open, {}, observer);
+    prepared = PrepareMesh(open, {}, ThreadPool(1), observer);
     EXPECT_TRUE(prepared.ok() || prepared.status().code() == absl::StatusCode::kCancelled);
     ASSERT_LT(patience, 30);
   }

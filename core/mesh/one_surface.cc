@@ -1,0 +1,82 @@
+#include "core/mesh/one_surface.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "core/base/chunk_sums.h"
+
+namespace capfit::mesh {
+namespace {
+
+// The ring of triangles around a corner: their number, and the lowest vertex on it.
+struct Ring {
+  std::size_t corners = 0;
+  std::uint32_t lowest = 0;
+};
+
+Ring WalkRing(std::span<const Triangle> triangles, std::span<const HalfEdge> mates,
+              HalfEdge corner) {
+  Ring ring = {0, StartOf(triangles, corner)};
+  HalfEdge h = corner;
+  do {
+    ++ring.corners;
+    const HalfEdge before = PreviousInTriangle(h);
+    ring.lowest = std::min(ring.lowest, StartOf(triangles, before));
+    h = mates[before];
+  } while (h != corner);
+  return ring;
+}
+
+// Follows the links to where they end, and shortens them on the way.
+std::uint32_t FollowLinks(std::vector<std::uint32_t>& link, std::uint32_t v) {
+  while (link[v] != v) v = link[v] = link[link[v]];
+  return v;
+}
+
+// `link` leads from each vertex to its lowest neighbour, or to itself where there is no lower one.
+bool HangsTogether(std::span<const Triangle> triangles, std::vector<std::uint32_t>& link) {
+  std::size_t pieces = 0;
+  for (std::uint32_t v = 0; v < link.size(); ++v) {
+    if (link[v] == v) ++pieces;
+    link[v] = link[link[v]];  // links lead down, so the lower vertex is at its end already
+  }
+  for (const Triangle& t : triangles) {
+    if (pieces == 1) return true;
+    for (const std::uint32_t v : {t[1], t[2]}) {
+      if (link[v] == link[t[0]]) continue;
+      const std::uint32_t a = FollowLinks(link, t[0]);
+      const std::uint32_t b = FollowLinks(link, v);
+      if (a == b) continue;
+      link[std::max(a, b)] = std::min(a, b);
+      --pieces;
+    }
+  }
+  return pieces == 1;
+}
+
+}  // namespace
+
+bool IsOneSurface(std::span<const Triangle> triangles, std::span<const HalfEdge> mates,
+                  std::size_t vertex_count, const ThreadPool& pool) {
+  std::vector<HalfEdge> corner(vertex_count, kNoMate);
+  for (HalfEdge h = 0; h < mates.size(); ++h) corner[StartOf(triangles, h)] = h;
+  std::vector<std::uint32_t> lowest_around(vertex_count);
+  const auto walk = [&](std::size_t begin, std::size_t end) {
+    std::size_t corners = 0;
+    for (std::size_t v = begin; v < end; ++v) {
+      lowest_around[v] = static_cast<std::uint32_t>(v);
+      if (corner[v] == kNoMate) continue;
+      const Ring ring = WalkRing(triangles, mates, corner[v]);
+      lowest_around[v] = ring.lowest;
+      corners += ring.corners;
+    }
+    return corners;
+  };
+  // A second ring at a vertex has corners that no walk meets; an unused vertex is a piece.
+  if (SumOverChunks(pool, vertex_count, std::size_t{0}, walk) != mates.size()) return false;
+  return HangsTogether(triangles, lowest_around);
+}
+
+}  // namespace capfit::mesh
