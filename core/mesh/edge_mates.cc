@@ -11,7 +11,7 @@ namespace {
 // stays in the processor's cache while it is sorted, and drawers are sorted side by side.
 constexpr int kDrawerBits = 10;
 constexpr std::uint32_t kDrawerVertices = 1u << kDrawerBits;
-constexpr std::size_t kTrianglesPerChunk = 8192;
+constexpr std::size_t kMatesPerChunk = 8192;
 
 // A half-edge as its edge's lower vertex sees it: twice its index, plus one where it comes in.
 struct Spoke {
@@ -50,7 +50,7 @@ class MateFinder {
       : triangles_(triangles),
         pool_(pool),
         drawer_count_((vertex_count + kDrawerVertices - 1) / kDrawerVertices),
-        chunk_count_((triangles.size() + kTrianglesPerChunk - 1) / kTrianglesPerChunk),
+        chunk_count_((triangles.size() + kMatesPerChunk - 1) / kMatesPerChunk),
         spokes_(std::make_unique_for_overwrite<Spoke[]>(3 * triangles.size())),
         drawers_(drawer_count_) {
     mate_.assign(3 * triangles.size(), kNoMate);
@@ -89,9 +89,9 @@ class MateFinder {
   void Deal() {
     std::vector<std::uint32_t> place(chunk_count_ * drawer_count_, 0);
     const auto places_of = [&](std::size_t begin) {
-      return place.data() + begin / kTrianglesPerChunk * drawer_count_;
+      return place.data() + begin / kMatesPerChunk * drawer_count_;
     };
-    pool_.ForChunks(triangles_.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
+    pool_.ForChunks(triangles_.size(), kMatesPerChunk, [&](std::size_t begin, std::size_t end) {
       std::uint32_t* const count = places_of(begin);
       VisitChunk(begin, end, [&](const Spoke& s) { ++count[s.lower_vertex >> kDrawerBits]; });
     });
@@ -102,7 +102,7 @@ class MateFinder {
       }
       drawer_ends_.push_back(next);
     }
-    pool_.ForChunks(triangles_.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
+    pool_.ForChunks(triangles_.size(), kMatesPerChunk, [&](std::size_t begin, std::size_t end) {
       std::uint32_t* const next_of = places_of(begin);
       VisitChunk(begin, end,
                  [&](const Spoke& s) { spokes_[next_of[s.lower_vertex >> kDrawerBits]++] = s; });
