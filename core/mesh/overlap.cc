@@ -48,7 +48,7 @@ Overlap MeasureOverlap(const BodyMesh& mesh) {
   (mesh.box_max() - mesh.box_min()).maxCoeff(&along);
   const ColumnCaster::Axes axes = {(along + 1) % 3, (along + 2) % 3, along};
   const double cell = (mesh.box_max() - mesh.box_min())[along] / kColumnsAlongLongest;
-  if (Looks(mesh, axes, cell) > kMostLooks) return {};
+  if (!(cell > 0.0) || Looks(mesh, axes, cell) > kMostLooks) return {};  // a point has no volume
   ColumnGrid grid;
   grid.x = Places(mesh.box_min()[axes[0]], mesh.box_max()[axes[0]], cell);
   grid.y = Places(mesh.box_min()[axes[1]], mesh.box_max()[axes[1]], cell);
