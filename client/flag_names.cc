@@ -46,6 +46,8 @@ constexpr std::array kFlagNames = {
     FlagName{"frames", "--frames"},
     FlagName{"centers", "--centers"},
     FlagName{"show", "--show"},
+    FlagName{"views", "--views"},
+    FlagName{"polygons", "--polygons"},
     FlagName{"output", "--output"},
 };
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "client/exit_code.h"
 #include "client/picture/belongs.h"
 #include "client/picture/centers_file.h"
@@ -23,6 +24,7 @@
 #include "client/picture/result_body.h"
 #include "client/picture/result_set.h"
 #include "client/picture/result_words.h"
+#include "client/word_option.h"
 #include "core/base/status.h"
 #include "core/metrics/measure.h"
 
@@ -62,6 +64,8 @@ const std::map<std::string, NamedView>& Views() {
   return *views;
 }
 
+constexpr double kMostColumns = 8;
+
 absl::Status CheckArguments(const RenderArguments& arguments) {
   const std::string ending = FileEnding(arguments.output);
   if (ending != ".png" && ending != ".svg" && arguments.output != "-") {
@@ -75,6 +79,10 @@ absl::Status CheckArguments(const RenderArguments& arguments) {
   };
   CAPFIT_RETURN_IF_ERROR(check("width", arguments.width, 200, 6000));
   CAPFIT_RETURN_IF_ERROR(check("height", arguments.height.value_or(300), 300, 6000));
+  const auto views = static_cast<double>(arguments.views.size());
+  CAPFIT_RETURN_IF_ERROR(check("views", views, 1, kMostColumns));
+  const auto frames = static_cast<double>(arguments.show.size());
+  CAPFIT_RETURN_IF_ERROR(check("show", frames, 1, kMostColumns));
   CAPFIT_RETURN_IF_ERROR(check("heat_limit_mm", arguments.heat_limit_mm, 0.01, 1e4));
   CAPFIT_RETURN_IF_ERROR(check("mm_per_unit", arguments.mm_per_unit.value_or(1.0), 1e-6, 1e6));
   if (!arguments.gaps.empty() && !arguments.frames.empty()) {
@@ -349,7 +357,8 @@ void AddAnimationOptions(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--centers", arguments.centers, "Sphere centres, as `animate` writes them");
   command.add_option("--show", arguments.show, "Frames to show, e.g. 0,20,60")
       ->delimiter(',')
-      ->expected(1, 8);
+      ->allow_extra_args(false)
+      ->check(CLI::NonNegativeNumber);
 }
 
 }  // namespace
@@ -363,16 +372,12 @@ void AddRenderCommand(CLI::App& app, int& exit_code) {
                       "RESULT.json of this body; without it the body is drawn alone");
   command->add_option("-o,--output", arguments->output, "Picture to write, .png or .svg; - is PNG")
       ->required();
-  command->add_option("--up", arguments->up, "Axis of the mesh that points up")
-      ->check(CLI::IsMember({"auto", "x", "y", "z"}))
-      ->capture_default_str();
-  command
-      ->add_option("--views", arguments->views,
-                   "Columns: front, three-quarter, side, back-quarter, back, right")
-      ->delimiter(',')
-      ->expected(1, 8)
-      ->check(CLI::IsMember({"front", "three-quarter", "side", "back-quarter", "back", "right"}))
-      ->capture_default_str();
+  AddWordOption(*command, "--up", arguments->up, {"auto", "x", "y", "z"},
+                "Axis of the mesh that points up");
+  AddWordList(*command, "--views", arguments->views,
+              {"front", "three-quarter", "side", "back-quarter", "back", "right"},
+              "Columns, separated by commas or blanks")
+      ->default_str(absl::StrJoin(arguments->views, ","));
   command->add_option("--title", arguments->title, "Title; the body's file name without it");
   command->add_option("--width", arguments->width, "Pixels")->capture_default_str();
   command->add_option("--height", arguments->height,

@@ -137,10 +137,4 @@ double CircleOutsideArea(const Circle& circle, const section::Polygon& outline) 
   return CircleOutsideAreaWithGradient(circle, outline).area_m2;
 }
 
-double CircleOutsideAreaSum(std::span<const Circle> circles, const section::Polygon& outline) {
-  double sum = 0.0;
-  for (const Circle& circle : circles) sum += CircleOutsideArea(circle, outline);
-  return sum;
-}
-
 }  // namespace capfit::circle

@@ -29,10 +29,6 @@ struct OutsideArea {
 [[nodiscard]] OutsideArea CircleOutsideAreaWithGradient(const Circle& circle,
                                                         const section::Polygon& outline);
 
-// Sum over the circles (paper, eq. 2): what several of them share counts several times.
-[[nodiscard]] double CircleOutsideAreaSum(std::span<const Circle> circles,
-                                          const section::Polygon& outline);
-
 }  // namespace capfit::circle
 
 #endif  // CAPFIT_CORE_CIRCLE_CIRCLE_OUTSIDE_AREA_H_

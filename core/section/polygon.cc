@@ -43,14 +43,6 @@ absl::StatusOr<Polygon> Polygon::Create(std::vector<Eigen::Vector2d> vertices_m)
   return Polygon(std::move(vertices_m), std::abs(area));
 }
 
-double Polygon::perimeter_m() const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    sum += (vertices_[(i + 1) % vertices_.size()] - vertices_[i]).norm();
-  }
-  return sum;
-}
-
 Eigen::Vector2d Polygon::Centroid() const {
   const Eigen::Vector2d& base = vertices_[0];
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();

@@ -21,7 +21,6 @@ class Polygon {
   [[nodiscard]] std::span<const Eigen::Vector2d> vertices() const& { return vertices_; }
   std::span<const Eigen::Vector2d> vertices() && = delete;  // would dangle
   [[nodiscard]] double area_m2() const { return area_m2_; }
-  [[nodiscard]] double perimeter_m() const;
   [[nodiscard]] Eigen::Vector2d Centroid() const;                     // of the area
   [[nodiscard]] bool Contains(const Eigen::Vector2d& point_m) const;  // winding number != 0
 

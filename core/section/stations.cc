@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "absl/strings/str_cat.h"
 #include "core/section/outline.h"
 #include "core/section/part_section.h"
 
@@ -204,7 +205,7 @@ class Planner {
         const double from = candidates[g].arc_length_m;
         const double step = (candidates[g + 1].arc_length_m - from) / (extra[g] + 1);
         std::string name = NameOfGap(candidates[g].name, candidates[g + 1].name);
-        if (extra[g] > 1) name += "_" + std::to_string(k);
+        if (extra[g] > 1) absl::StrAppend(&name, "_", k);
         AddStation(name, from + k * step, stations);
       }
     }

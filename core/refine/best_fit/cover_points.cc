@@ -113,10 +113,6 @@ double Deepest::SumOutside() const {
   return sum;
 }
 
-double Deepest::MaxExcess() const {
-  return excess_m.empty() ? 0.0 : *std::max_element(excess_m.begin(), excess_m.end());
-}
-
 Deepest FindDeepest(const CoverPoints& points, const std::vector<Cone>& cones) {
   Deepest result;
   result.excess_m.assign(points.x.size(), std::numeric_limits<float>::max());

@@ -47,7 +47,6 @@ struct Deepest {
   std::vector<float> excess_m;
   std::vector<int> cone;
   [[nodiscard]] double SumOutside() const;  // sum of the positive excesses
-  [[nodiscard]] double MaxExcess() const;
 };
 [[nodiscard]] Deepest FindDeepest(const CoverPoints& points, const std::vector<Cone>& cones);
 

@@ -37,9 +37,6 @@ struct CapsuleGraph {
   [[nodiscard]] bool IsEdgeRepresentative(int e) const {
     return !symmetric || edges[static_cast<std::size_t>(e)].mirror >= e;
   }
-  [[nodiscard]] int Representative(int v) const {
-    return IsNodeRepresentative(v) ? v : nodes[static_cast<std::size_t>(v)].mirror;
-  }
   [[nodiscard]] bool IsOnPlane(int v) const {
     return symmetric && nodes[static_cast<std::size_t>(v)].mirror == v;
   }

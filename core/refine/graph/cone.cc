@@ -69,7 +69,6 @@ ConeFoot Locate(const Cone& cone, const Eigen::Vector3d& point_m) {
       std::clamp(along + across * cone.foot_slope, 0.0, static_cast<double>(cone.length));
   const Eigen::Vector3d offset = p - foot * axis;
   ConeFoot result;
-  result.share_b = cone.length > 0.0f ? foot / cone.length : 0.0;
   result.radius_m = cone.radius_a + cone.slope * foot;
   if (const double norm = offset.norm(); norm > 1e-9) result.normal = offset / norm;
   return result;

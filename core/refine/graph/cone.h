@@ -42,9 +42,8 @@ struct Cone {
   return std::sqrt(across2 + rest * rest) - (cone.radius_a + cone.slope * foot);
 }
 
-// The same with the share of the far end and the unit gradient.
+// The gradient of the distance, and the cone's radius at the foot of the point.
 struct ConeFoot {
-  double share_b = 0.0;  // t in [0, 1]: the nearest sphere is (1 - t) a + t b
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
   double radius_m = 0.0;
 };

@@ -111,7 +111,7 @@ TEST_F(CommandTest, RendersStillsHeatAndTheBodyAlone) {
   EXPECT_THAT(*ReadFileBytes(Path("p.png")), StartsWith("\x89PNG"));
   EXPECT_EQ(render({"render", Path("b.obj"), Path("r.json"), "-o", Path("h.svg"), "--heat"}), 0);
   EXPECT_THAT(*ReadFileBytes(Path("h.svg")), HasSubstr("</svg>"));
-  EXPECT_EQ(render({"render", Path("b.obj"), "-o", Path("a.png"), "--views", "front,back"}), 0);
+  EXPECT_EQ(render({"render", Path("b.obj"), "-o", Path("a.png"), "--views", "Front,BACK"}), 0);
 }
 
 TEST_F(CommandTest, PolygonsAreDrawnWhereTheResultHasThem) {
