@@ -28,7 +28,9 @@ constexpr int kLooseSteps = 3;  // that show where ties would win
 // takes longer.
 constexpr int kGrownTimesPrimitives = 120;
 constexpr int kMostGrown = 4;
-constexpr std::size_t kVariants = 2;
+constexpr std::size_t kVariantsOfFew = 2;
+constexpr std::size_t kVariantsOfMany = 4;  // single exchanges no longer make up for bad luck
+constexpr int kManyPrimitives = 160;
 constexpr double kTieShare = 0.5;  // of what growth spends, into ties and leaves
 // A round of growth or sparing goes so far.
 constexpr double kGrowthShare = 0.2;
@@ -70,6 +72,7 @@ class Search {
         budget_(budget),
         primitives_(budget.MostPrimitives()),
         usual_(budget.UsualPrimitives()),
+        variants_(usual_ < kManyPrimitives ? kVariantsOfFew : kVariantsOfMany),
         pool_(pool),
         meter_(meter) {}
 
@@ -126,7 +129,7 @@ class Search {
     attempts.erase(attempts.begin(), large);
     Sort(small);
     for (std::uint64_t seed = 10; Grow(seed, small) && !meter_.IsCancelled();) {
-      seed += kMostGrown * kVariants;
+      seed += kMostGrown * variants_;
     }
     attempts.insert(attempts.end(), small.begin(), small.end());
     Sort(attempts);
@@ -150,12 +153,12 @@ class Search {
   bool Grow(std::uint64_t seed, std::vector<Attempt>& attempts) const {
     const int most = std::clamp(kGrownTimesPrimitives / std::max(1, usual_), 1, kMostGrown);
     attempts.resize(std::min(attempts.size(), static_cast<std::size_t>(most)));
-    std::vector<Attempt> grown(attempts.size() * kVariants);
+    std::vector<Attempt> grown(attempts.size() * variants_);
     const double size = (1.0 + kGrowthShare) * attempts.front().graph.primitive_count();
     meter_.Expect(kStarted + (kGrown - kStarted) * std::min(1.0, size / primitives_),
                   WorkOf(kStepsOfGrowth * grown.size(), attempts.front().graph));
     pool_.ForEach(grown.size(), [&](std::size_t i) {
-      CapsuleGraph graph = attempts[i / kVariants].graph;
+      CapsuleGraph graph = attempts[i / variants_].graph;
       if (!budget_.Allows(graph.count())) return;
       const int before = graph.primitive_count();
       const int growth = std::max(kLeastGrowth, static_cast<int>(kGrowthShare * before));
@@ -337,6 +340,7 @@ class Search {
   const capsule::Budget& budget_;
   int primitives_;  // at most
   int usual_;       // about so many where only spheres or only capsules are limited
+  std::size_t variants_;
   const ThreadPool& pool_;
   const ThreadPool alone_{1};  // inside what runs in parallel already
   WorkMeter& meter_;
