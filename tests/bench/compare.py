@@ -6,6 +6,7 @@ import platform
 import statistics
 import subprocess
 import tempfile
+import textwrap
 
 CASES = [("PAPER, 64", ["--quality", "paper", "--max-primitives", "64"]),
          ("TIGHT, 64", ["--quality", "tight", "--max-primitives", "64"]),
@@ -79,11 +80,12 @@ def main():
     parser.add_argument("--bodies", nargs="*")
     parser.add_argument("--markdown")
     arguments = parser.parse_args()
-    lines = ["# Performance", "",
-             f"Made by `tests/bench/compare {arguments.ref}`: milliseconds of the whole fit and of its",
-             "stages, everything included but reading the file, medians of "
-             f"{arguments.runs} runs; before → now, both run by", "turns on the same machine "
-             f"({platform.machine()}, {os.cpu_count()} logical cores). Ratios are before / now."]
+    told = (f"Made by `tests/bench/compare {arguments.ref} --markdown docs/performance.md`: milliseconds "
+            "of the whole fit and of its stages, everything included but reading the file, medians of "
+            f"{arguments.runs} runs, each in a process of its own; before → now, both by turns on the "
+            f"same machine ({platform.machine()}, {os.cpu_count()} logical cores). Ratios are before / "
+            "now. All parts.")
+    lines = ["# Performance", "", *textwrap.wrap(told, 100)]
     with tempfile.TemporaryDirectory() as folder:
         for body in bodies_of(arguments, folder):
             lines += ["", f"## {os.path.splitext(os.path.basename(body))[0]}", ""]

@@ -31,5 +31,5 @@ for stage in stages:
     print(f"| {stage} | " + " | ".join(f"{1e3 * median(n, lambda r: r['stages'].get(stage, 0)):.1f}" for n in counts) + " |")
 print("| **all** | " + " | ".join(f"**{1e3 * median(n, lambda r: r['seconds']):.1f}**" for n in counts) + " |")
 print("| paper, 2018 | " + " | ".join(f"{1e3 * PAPER_S[n]:.0f}" if n in PAPER_S else "" for n in counts) + " |")
-print("| E_r | " + " | ".join(f"{median(n, lambda r: r['metrics']['E_r']):.3f}" for n in counts) + " |")
+print("| E_r | " + " | ".join(f"{median(n, lambda r: r['metrics']['volume_error']):.3f}" for n in counts) + " |")
 PYTHON
