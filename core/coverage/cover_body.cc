@@ -26,8 +26,9 @@ constexpr double kVertexDepth = 1e-6;
 // their say in the second phase.
 constexpr double kSparseSpacing = 0.024;
 
-// Where all must come in one row for each cell of this size and solid is as good as one for each
-// vertex: twice as large a cell changed no volume by a thousandth either.
+// Where all must come in one row for each cell of this size and solid is nearly as good as one for
+// each vertex: over 19 bodies E_r rose by a quarter of a per cent on average at 64 primitives and
+// half a per cent at 128, no body's by more than 3 %.
 constexpr double kRowSpacing = 0.015;
 
 // The set finds its shape with points left out at a price, which rises; then they must all come in.
