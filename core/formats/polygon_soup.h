@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_FORMATS_POLYGON_SOUP_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -10,10 +11,28 @@
 
 namespace capfit::formats {
 
-// A joint of a skeleton that came with the mesh (GLB), at the bind pose, in the mesh's frame.
+// A joint of a skeleton that came with the mesh (GLB), where its node stands, in the mesh's frame.
 struct NamedJoint {
   std::string name;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  std::int32_t parent = -1;  // index of the nearest joint above it, -1 for none
+  std::string human_bone;    // what the file itself says it is (VRM: "leftLowerArm"), often empty
+};
+
+// Which joints move a vertex: the strongest four, weights >= 0 that sum to 1; all 0: none does.
+struct JointInfluences {
+  std::array<std::uint16_t, 4> joint{};  // indices into `joints`
+  std::array<float, 4> weight{};
+};
+
+// A range of faces that the file keeps apart: a primitive of a mesh. Parts follow each other and
+// hold every face once.
+struct SoupPart {
+  std::string name;      // of the node or the mesh; may be empty, and several may have the same
+  std::string material;  // may be empty
+  std::size_t first_face = 0;
+  std::size_t face_count = 0;
+  std::int32_t joint = -1;  // the joint it hangs under rigidly, without a skin; -1 for none
 };
 
 // Nothing is promised: positions may be NaN, indices out of range, faces degenerate.
@@ -24,6 +43,9 @@ struct PolygonSoup {
   // The corners of all faces, one face after the other.
   std::vector<std::uint32_t> face_vertices;
   std::vector<NamedJoint> joints;  // often empty
+  // One for each position, or empty where nothing is skinned.
+  std::vector<JointInfluences> influences;
+  std::vector<SoupPart> parts;  // empty: all faces are one part without a name
   // Read from a file: errors name the file, and faces of one or two corners, which PLY and OFF
   // files have, are left out with a warning. From a caller such faces are refused.
   bool is_from_file = false;
