@@ -137,8 +137,8 @@ double MovedByRounding(std::uint64_t seed) {
 }
 
 // The steps follow the vertices smoothly, but where the nearest solid of one of them changes: that
-// is rare enough for most bodies to be spared (11 to 13 of 16, by how the compiler rounds), and moves
-// nothing far. What is spared moves less than a hundredth of a millimetre.
+// is rare enough for most bodies to be spared (11 to 13 of 16, by how the compiler rounds), and
+// moves nothing far. What is spared moves less than a hundredth of a millimetre.
 TEST(CoverBodyProperty, RoundingMovesFewBodiesAndNoneFar) {
   int smooth = 0;
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {

@@ -1,0 +1,595 @@
+#include "core/character/find_character.h"
+
+#include <fnmatch.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "core/base/status.h"
+#include "core/character/nearness.h"
+#include "core/character/shells.h"
+#include "core/character/surrounding.h"
+
+namespace capfit::character {
+namespace {
+
+// The height of a standing body over the standard deviation of its surface; between 3 and 4.
+constexpr double kHeightOfSpread = 3.6;
+// Shares of the height. Gaps between the parts of one character stay below the first; what is worn
+// close stays within the second (up to three times it, see CellSet).
+constexpr double kGapShare = 0.02;
+constexpr double kWornShare = 0.015;
+// Pieces of one part, as those of a robot, that touch.
+constexpr double kTouchShare = 0.004;
+// A floor: thinner than the first by its standard deviation, wider than the second.
+constexpr double kSheetThickness = 0.01;
+constexpr double kSheetWidth = 0.1;
+
+// Winding numbers from which a shell goes around a point; a scalp or a hat has less than half.
+constexpr float kGoesAround = 0.6F;
+constexpr float kGoesAroundPartly = 0.15F;
+constexpr float kGoesBetweenLegs = 0.5F;
+
+// Shares of the whole area: what is smaller is no clothing, hair or armour; and what makes up
+// nearly all of its part is the part.
+constexpr double kSmallShare = 0.005;
+constexpr double kHairShare = 0.006;
+constexpr double kWholePart = 0.95;
+// A group of shells this large beside the largest (box, area) is another person.
+constexpr double kPersonsBox = 0.6;
+constexpr double kPersonsArea = 0.3;
+// Of a shell's vertices: all but rims and a few loose threads.
+constexpr double kNearlyAll = 0.9;
+constexpr double kMostOfHead = 0.8;
+constexpr double kSamplesOfNearness = 2000.0;
+// Names in a message.
+constexpr std::size_t kNamesTold = 8;
+
+bool Matches(const std::string& pattern, const formats::SoupPart& part) {
+  const auto is = [&](const std::string& name) {
+    return fnmatch(absl::AsciiStrToLower(pattern).c_str(), absl::AsciiStrToLower(name).c_str(),
+                   FNM_NOESCAPE) == 0;
+  };
+  return is(part.name) || (!part.material.empty() && is(part.material));
+}
+
+struct Verdict {
+  PartKind kind = PartKind::kBody;
+  bool is_included = true;
+  std::string_view reason;
+};
+
+class Judge {
+ public:
+  Judge(const formats::PolygonSoup& soup, const CharacterOptions& options,
+        const std::map<body::LandmarkId, Eigen::Vector3d>& joints, const ThreadPool& pool)
+      : soup_(soup), options_(options), shells_(FindShells(soup)) {
+    verdicts_.resize(shells_.shells.size());
+    if (parts_.empty()) parts_ = soup.parts;
+    if (parts_.empty()) parts_.push_back({"", "", 0, soup.face_count(), -1});
+    points_ = InnerPointsOf(joints);
+    MeasureSpread();
+    MeasureParts();
+    if (points_) Surround(pool);
+  }
+
+  absl::StatusOr<Character> Run() {
+    CAPFIT_RETURN_IF_ERROR(CheckNames());
+    FindSheets();
+    CAPFIT_RETURN_IF_ERROR(FindGroups());
+    if (points_) {
+      JudgeByJoints();
+    } else {
+      JudgeByNames();
+    }
+    AddPiecesThatTouch();
+    HearTheCaller();
+    return Report();
+  }
+
+ private:
+  [[nodiscard]] std::size_t count() const { return shells_.shells.size(); }
+  [[nodiscard]] const Shell& shell(std::size_t s) const { return shells_.shells[s]; }
+
+  // ---- what is measured
+
+  // Area, middle and spread of all shells; the height that they speak for.
+  void MeasureSpread() {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Facet& facet : shells_.facets) {
+      const double area = facet.AreaVector().norm();
+      area_ += area;
+      sum += area * facet.Middle();
+    }
+    const Eigen::Vector3d middle = area_ > 0.0 ? Eigen::Vector3d(sum / area_) : sum;
+    double squares = 0.0;
+    for (const Facet& facet : shells_.facets) {
+      squares += facet.AreaVector().norm() * (facet.Middle() - middle).squaredNorm();
+    }
+    height_ = area_ > 0.0 ? kHeightOfSpread * std::sqrt(squares / area_) : 0.0;
+    if (points_) height_ = points_->height;
+  }
+
+  void MeasureParts() {
+    part_area_.assign(parts_.size(), 0.0);
+    largest_of_part_.assign(parts_.size(), 0.0);
+    for (const Shell& s : shells_.shells) {
+      part_area_[s.part] += s.area;
+      largest_of_part_[s.part] = std::max(largest_of_part_[s.part], s.area);
+    }
+    names_.reserve(parts_.size());
+    for (const formats::SoupPart& part : parts_) {
+      std::optional<PartKind> kind = KindFromName(part.name);
+      if (!kind) kind = KindFromName(part.material);
+      names_.push_back(kind);
+    }
+  }
+
+  void Surround(const ThreadPool& pool) {
+    const auto largest = [](const std::vector<float>& values) {
+      return values.empty() ? 0.0F : *std::max_element(values.begin(), values.end());
+    };
+    std::vector<Eigen::Vector3d> points = points_->trunk;
+    points.insert(points.end(), points_->limbs.begin(), points_->limbs.end());
+    const std::vector<std::vector<float>> windings = WindingNumbers(shells_, points, pool);
+    // Of all shells of the part together: shirts are sewn from a front and a back.
+    std::vector<std::vector<float>> of_part(parts_.size(), std::vector<float>(points.size(), 0.0F));
+    for (std::size_t s = 0; s < count(); ++s) {
+      std::vector<float>& sum = of_part[shell(s).part];
+      for (std::size_t p = 0; p < points.size(); ++p) sum[p] += windings[s][p];
+    }
+    carries_trunk_.assign(count(), 0);
+    carries_limb_.assign(count(), 0);
+    for (std::size_t s = 0; s < count(); ++s) {
+      for (std::size_t p = 0; p < points.size(); ++p) {
+        const float own = windings[s][p];
+        if (own < kGoesAround &&
+            (own < kGoesAroundPartly || of_part[shell(s).part][p] < kGoesAround)) {
+          continue;
+        }
+        (p < points_->trunk.size() ? carries_trunk_ : carries_limb_)[s] = 1;
+      }
+    }
+    for (const std::vector<float>& w : WindingNumbers(shells_, points_->head, pool)) {
+      around_head_.push_back(largest(w));
+    }
+    for (const std::vector<float>& w : WindingNumbers(shells_, points_->between_legs, pool)) {
+      between_legs_.push_back(w.empty() ? 0.0F : *std::min_element(w.begin(), w.end()));
+    }
+  }
+
+  // ---- what lies apart
+
+  // Thin and wide in all: a floor. Those that carry a limb are none.
+  void FindSheets() {
+    is_sheet_.assign(count(), 0);
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (shell(s).area < kSheetWidth * kSheetWidth * height_ * height_) continue;
+      const Eigen::Vector3d spread = SpreadOf(s);
+      if (spread[0] > kSheetThickness * height_ || spread[1] < kSheetWidth * height_) continue;
+      is_sheet_[s] = 1;
+      verdicts_[s] = {PartKind::kFragment, false, "a flat sheet, as a floor"};
+    }
+  }
+
+  // Standard deviations of the surface along its own axes, ascending.
+  [[nodiscard]] Eigen::Vector3d SpreadOf(std::size_t s) const {
+    const Eigen::Vector3d origin = 0.5 * (shell(s).box_min + shell(s).box_max);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    for (std::size_t f = shells_.first_facet[s]; f < shells_.first_facet[s + 1]; ++f) {
+      const double area = shells_.facets[f].AreaVector().norm();
+      const Eigen::Vector3d at = shells_.facets[f].Middle() - origin;
+      sum += area * at;
+      squares += area * at * at.transpose();
+    }
+    const Eigen::Vector3d mean = sum / shell(s).area;
+    const Eigen::Matrix3d covariance = squares / shell(s).area - mean * mean.transpose();
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .cwiseMax(0.0)
+        .cwiseSqrt();
+  }
+
+  struct Group {
+    double area = 0.0;
+    Eigen::Vector3d box_min = Eigen::Vector3d::Constant(1e300);
+    Eigen::Vector3d box_max = Eigen::Vector3d::Constant(-1e300);
+    std::size_t largest_shell = 0;
+
+    [[nodiscard]] double diagonal() const { return (box_max - box_min).norm(); }
+  };
+
+  absl::Status FindGroups() {
+    if (!(height_ > 0.0)) return absl::OkStatus();
+    std::vector<char> taken(count());
+    for (std::size_t s = 0; s < count(); ++s) taken[s] = is_sheet_[s] == 0 ? 1 : 0;
+    group_ = ClustersOf(shells_, kGapShare * height_, taken);
+    std::vector<Group> groups(count());
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (is_sheet_[s] != 0) continue;
+      Group& group = groups[group_[s]];
+      if (group.area == 0.0 || shell(s).area > shell(group.largest_shell).area) {
+        group.largest_shell = s;
+      }
+      group.area += shell(s).area;
+      group.box_min = group.box_min.cwiseMin(shell(s).box_min);
+      group.box_max = group.box_max.cwiseMax(shell(s).box_max);
+    }
+    main_ = static_cast<std::uint32_t>(
+        std::max_element(groups.begin(), groups.end(),
+                         [](const Group& a, const Group& b) { return a.area < b.area; }) -
+        groups.begin());
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {
+      if (g == main_ || groups[g].area < kPersonsArea * groups[main_].area) continue;
+      if (groups[g].diagonal() < kPersonsBox * groups[main_].diagonal()) continue;
+      return Refused(ErrorReason::kTwoBodies,
+                     absl::StrFormat("two separate bodies: %s and %s (%.0f %% of its area); send "
+                                     "one body, or exclude the parts of the other",
+                                     NameOf(groups[main_].largest_shell),
+                                     NameOf(groups[g].largest_shell),
+                                     100.0 * groups[g].area / groups[main_].area));
+    }
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (is_sheet_[s] == 0 && group_[s] != main_) {
+        verdicts_[s] = {PartKind::kFragment, false, "apart from the body"};
+      }
+    }
+    return absl::OkStatus();
+  }
+
+  [[nodiscard]] std::string NameOf(std::size_t s) const {
+    const std::string& name = parts_[shell(s).part].name;
+    if (!name.empty()) return absl::StrCat("\"", name, "\"");
+    const Eigen::Vector3d middle = 0.5 * (shell(s).box_min + shell(s).box_max);
+    return absl::StrFormat("%d faces around (%.4g, %.4g, %.4g)", shell(s).face_count, middle.x(),
+                           middle.y(), middle.z());
+  }
+
+  [[nodiscard]] bool IsApart(std::size_t s) const {
+    return is_sheet_[s] != 0 || (!group_.empty() && group_[s] != main_);
+  }
+
+  // ---- verdicts
+
+  [[nodiscard]] bool IsCrumb(std::size_t s) const {
+    const std::size_t part = shell(s).part;
+    return shell(s).area < largest_of_part_[part] &&
+           largest_of_part_[part] > kWholePart * part_area_[part];
+  }
+
+  void JudgeByNames() {
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (IsApart(s)) continue;
+      const std::optional<PartKind> named = names_[shell(s).part];
+      if (IsCrumb(s)) {
+        verdicts_[s] = {PartKind::kInner, false, "small beside the rest of its part"};
+      } else if (named) {
+        verdicts_[s] = ByKind(*named, "by its name");
+      } else if (part_area_[shell(s).part] < kSmallShare * area_) {
+        verdicts_[s] = {PartKind::kInner, false, "small"};
+      } else {
+        verdicts_[s] = {PartKind::kBody, true, "hangs together with the body"};
+      }
+    }
+    const auto taken = [](const Verdict& verdict) { return verdict.is_included; };
+    if (std::any_of(verdicts_.begin(), verdicts_.end(), taken)) return;
+    // Names alone never take everything away.
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (!IsApart(s)) verdicts_[s] = {PartKind::kBody, true, "nothing else is there"};
+    }
+  }
+
+  [[nodiscard]] Verdict ByKind(PartKind kind, std::string_view reason) const {
+    switch (kind) {
+      case PartKind::kBody:
+      case PartKind::kClothing:
+      case PartKind::kShoe:
+        return {kind, true, reason};
+      case PartKind::kHair:
+        return {kind, options_.hair, options_.hair ? "hair, as asked for" : reason};
+      case PartKind::kSkirt:
+        return {kind, options_.skirt, options_.skirt ? "skirt, as asked for" : reason};
+      default:
+        return {kind, false, reason};
+    }
+  }
+
+  void JudgeByJoints() {
+    const std::optional<std::size_t> head = HeadShell();
+    CellSet carriers(kWornShare * height_);
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (IsApart(s)) continue;
+      if (Carries(s)) {
+        verdicts_[s] = CarriersVerdict(s);
+      } else if (head == s) {
+        verdicts_[s] = {KindOr(s, PartKind::kBody), true, "goes around the head"};
+      } else {
+        continue;
+      }
+      is_carrier_.insert(s);
+      if (!verdicts_[s].is_included) continue;
+      for (std::size_t f = shells_.first_facet[s]; f < shells_.first_facet[s + 1]; ++f) {
+        carriers.Add(shells_.facets[f]);
+      }
+    }
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (IsApart(s) || is_carrier_.contains(s)) continue;
+      verdicts_[s] = IsOnHead(s) ? OnHeadVerdict(s) : OnBodyVerdict(s, carriers);
+    }
+  }
+
+  [[nodiscard]] bool Carries(std::size_t s) const {
+    return carries_trunk_[s] != 0 || carries_limb_[s] != 0;
+  }
+
+  // A body's or a garment's name where it has one; others lie, for it goes around limbs.
+  [[nodiscard]] PartKind KindOr(std::size_t s, PartKind otherwise) const {
+    const std::optional<PartKind> named = names_[shell(s).part];
+    const bool is_worn = named == PartKind::kBody || named == PartKind::kClothing ||
+                         named == PartKind::kShoe;
+    return is_worn ? *named : otherwise;
+  }
+
+  [[nodiscard]] Verdict CarriersVerdict(std::size_t s) const {
+    if (between_legs_[s] < kGoesBetweenLegs) {
+      return {KindOr(s, PartKind::kBody), true, "goes around trunk or limbs"};
+    }
+    if (options_.skirt) return {PartKind::kSkirt, true, "skirt, as asked for"};
+    if (CarriesAlone(s)) return {PartKind::kSkirt, true, "a skirt, but nothing else is the trunk"};
+    return {PartKind::kSkirt, false, "goes around the space between the legs"};
+  }
+
+  // Whether the trunk is lost without it, as under a robe.
+  [[nodiscard]] bool CarriesAlone(std::size_t s) const {
+    if (carries_trunk_[s] == 0) return false;
+    for (std::size_t other = 0; other < count(); ++other) {
+      if (other != s && carries_trunk_[other] != 0 && between_legs_[other] < kGoesBetweenLegs) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // The one that goes around the head, where no carrier of the trunk does.
+  [[nodiscard]] std::optional<std::size_t> HeadShell() const {
+    std::optional<std::size_t> best;
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (IsApart(s) || around_head_[s] < 0.5F * kGoesAround) continue;
+      if (Carries(s) && around_head_[s] >= kGoesAround) return std::nullopt;
+      if (!Carries(s) && (!best || around_head_[s] > around_head_[*best])) best = s;
+    }
+    return best;
+  }
+
+  // Moves with the head, or lies above the neck.
+  [[nodiscard]] bool IsOnHead(std::size_t s) const {
+    std::size_t above = 0;
+    const std::size_t begin = shells_.first_facet[s];
+    const std::size_t end = shells_.first_facet[s + 1];
+    for (std::size_t f = begin; f < end; ++f) {
+      above += points_->up.dot(shells_.facets[f].Middle() - points_->neck) > 0.0 ? 1 : 0;
+    }
+    return static_cast<double>(above) > kMostOfHead * static_cast<double>(end - begin);
+  }
+
+  [[nodiscard]] Verdict OnHeadVerdict(std::size_t s) const {
+    const std::optional<PartKind> named = names_[shell(s).part];
+    if (named && *named != PartKind::kClothing && *named != PartKind::kBody) {
+      return ByKind(*named, "on the head, by its name");
+    }
+    if (part_area_[shell(s).part] < kHairShare * area_ || IsCrumb(s)) {
+      return {PartKind::kInner, false, "small and on the head"};
+    }
+    return ByKind(PartKind::kHair, "on the head without going around it");
+  }
+
+  [[nodiscard]] Verdict OnBodyVerdict(std::size_t s, const CellSet& carriers) const {
+    const std::optional<PartKind> named = names_[shell(s).part];
+    const bool is_worn = !named || *named == PartKind::kBody || *named == PartKind::kClothing ||
+                         *named == PartKind::kShoe;
+    if (!is_worn) return ByKind(*named, "by its name");
+    if (IsCrumb(s)) return {PartKind::kInner, false, "small beside the rest of its part"};
+    if (!IsWorn(s, carriers)) return {PartKind::kAccessory, false, "stands off the body"};
+    if (named || part_area_[shell(s).part] >= kSmallShare * area_) {
+      return {KindOr(s, PartKind::kClothing), true, "worn close to the body"};
+    }
+    return {PartKind::kAccessory, false, "small and around no limb"};
+  }
+
+  [[nodiscard]] bool IsWorn(std::size_t s, const CellSet& carriers) const {
+    const std::size_t begin = shells_.first_facet[s];
+    const std::size_t end = shells_.first_facet[s + 1];
+    const auto step = static_cast<std::size_t>(
+        std::max(1.0, static_cast<double>(end - begin) / kSamplesOfNearness));
+    std::size_t near = 0;
+    std::size_t all = 0;
+    for (std::size_t f = begin; f < end; f += step) {
+      near += carriers.IsNear(shells_.facets[f].Middle()) ? 1 : 0;
+      ++all;
+    }
+    return static_cast<double>(near) >= kNearlyAll * static_cast<double>(all);
+  }
+
+  // Pieces of a part that is mostly taken, which touch what is taken: fingers of a robot, soles.
+  void AddPiecesThatTouch() {
+    std::vector<double> taken_area(parts_.size(), 0.0);
+    std::vector<char> taken(count(), 0);
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (verdicts_[s].is_included) taken_area[shell(s).part] += shell(s).area;
+    }
+    bool is_any = false;
+    for (std::size_t s = 0; s < count(); ++s) {
+      const std::size_t part = shell(s).part;
+      const bool may_join = !verdicts_[s].is_included && !IsApart(s) && !IsCrumb(s) &&
+                            verdicts_[s].kind != PartKind::kSkirt &&
+                            taken_area[part] > 0.5 * part_area_[part];
+      is_any = is_any || may_join;
+      taken[s] = verdicts_[s].is_included || may_join ? 1 : 0;
+    }
+    if (!is_any) return;
+    const std::vector<std::uint32_t> touching = ClustersOf(shells_, kTouchShare * height_, taken);
+    std::set<std::uint32_t> held;
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (verdicts_[s].is_included) held.insert(touching[s]);
+    }
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (taken[s] != 0 && !verdicts_[s].is_included && held.contains(touching[s])) {
+        verdicts_[s] = {KindOr(s, PartKind::kBody), true, "touches the rest of its part"};
+      }
+    }
+  }
+
+  // ---- the caller's word
+
+  absl::Status CheckNames() const {
+    CAPFIT_RETURN_IF_ERROR(CheckList(options_.include, "options.include_parts"));
+    return CheckList(options_.exclude, "options.exclude_parts");
+  }
+
+  absl::Status CheckList(const std::vector<std::string>& patterns, const char* field) const {
+    for (std::size_t i = 0; i < patterns.size(); ++i) {
+      const auto is_named = [&](const formats::SoupPart& p) { return Matches(patterns[i], p); };
+      if (std::any_of(parts_.begin(), parts_.end(), is_named)) continue;
+      return InvalidField(ErrorReason::kUnknownValue, absl::StrCat(field, "[", i, "]"),
+                          absl::StrCat("is \"", patterns[i], "\", which no part is called; the "
+                                       "parts are ", PartNames()),
+                          {{"value", patterns[i]}, {"limit", PartNames()}});
+    }
+    return absl::OkStatus();
+  }
+
+  [[nodiscard]] std::string PartNames() const {
+    std::set<std::string> names;
+    for (const formats::SoupPart& part : parts_) {
+      if (!part.name.empty()) names.insert(part.name);
+    }
+    if (names.empty()) return "without names";
+    std::vector<std::string> told(names.begin(), names.end());
+    const std::size_t more = told.size() > 32 ? told.size() - 32 : 0;
+    told.resize(told.size() - more);
+    return absl::StrCat(absl::StrJoin(told, ", "), more > 0 ? absl::StrCat(" and ", more, " more") : "");
+  }
+
+  void HearTheCaller() {
+    const auto is_among = [&](const std::vector<std::string>& patterns, std::size_t part) {
+      return std::any_of(patterns.begin(), patterns.end(),
+                         [&](const std::string& p) { return Matches(p, parts_[part]); });
+    };
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (is_among(options_.include, shell(s).part)) {
+        verdicts_[s].is_included = true;
+        verdicts_[s].reason = "included by the caller";
+      }
+      if (is_among(options_.exclude, shell(s).part)) {
+        verdicts_[s].is_included = false;
+        verdicts_[s].reason = "excluded by the caller";
+      }
+    }
+  }
+
+  // ---- what is told
+
+  absl::StatusOr<Character> Report() const {
+    Character character;
+    character.has_joints = points_.has_value();
+    std::set<std::uint32_t> surfaces;
+    std::map<std::pair<std::size_t, std::pair<int, std::string_view>>, std::size_t> entry_of;
+    std::vector<std::pair<std::size_t, CharacterPart>> entries;
+    for (std::size_t s = 0; s < count(); ++s) {
+      const Verdict& verdict = verdicts_[s];
+      const std::size_t part = shell(s).part;
+      const auto key = std::pair(part, std::pair(static_cast<int>(verdict.kind) * 2 +
+                                                     (verdict.is_included ? 1 : 0),
+                                                 verdict.reason));
+      const auto [at, is_new] = entry_of.try_emplace(key, entries.size());
+      if (is_new) {
+        entries.push_back({part, {parts_[part].name, parts_[part].material, verdict.kind,
+                                  verdict.is_included, std::string(verdict.reason)}});
+      }
+      CharacterPart& entry = entries[at->second].second;
+      entry.shell_count += 1;
+      entry.face_count += shell(s).face_count;
+      entry.area_share += area_ > 0.0 ? shell(s).area / area_ : 0.0;
+      if (verdict.is_included) surfaces.insert(shell(s).surface);
+    }
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto& [part, entry] : entries) character.parts.push_back(std::move(entry));
+    character.surface_count = surfaces.size();
+    if (character.surface_count == 0) {
+      return Refused(ErrorReason::kNothingToFit,
+                     "no part of the file is taken for the character; include some by name");
+    }
+    character.is_left_out.resize(shells_.shell_of_face.size());
+    for (std::size_t face = 0; face < character.is_left_out.size(); ++face) {
+      character.is_left_out[face] = verdicts_[shells_.shell_of_face[face]].is_included ? 0 : 1;
+    }
+    WarnOfLeftOut(character);
+    return character;
+  }
+
+  static void WarnOfLeftOut(Character& character) {
+    std::size_t shells = 0;
+    std::size_t faces = 0;
+    std::vector<std::string> told;
+    std::size_t entries = 0;
+    for (const CharacterPart& part : character.parts) {
+      if (part.is_included) continue;
+      shells += part.shell_count;
+      faces += part.face_count;
+      if (++entries > kNamesTold) continue;
+      told.push_back(absl::StrCat(part.name, part.name.empty() ? "" : ": ",
+                                  std::string(PartKindName(part.kind)), ", ", part.reason));
+    }
+    if (shells == 0) return;
+    if (entries > kNamesTold) told.push_back(absl::StrCat(entries - kNamesTold, " more"));
+    character.warnings.push_back(
+        {"PARTS_LEFT_OUT",
+         absl::StrCat(shells, " separate parts (", faces, " faces) were left out: ",
+                      absl::StrJoin(told, "; ")),
+         static_cast<std::int64_t>(shells)});
+  }
+
+  const formats::PolygonSoup& soup_;
+  const CharacterOptions& options_;
+  Shells shells_;
+  std::vector<formats::SoupPart> parts_;  // at least one
+  std::vector<std::optional<PartKind>> names_;
+  std::vector<double> part_area_;
+  std::vector<double> largest_of_part_;
+  std::optional<InnerPoints> points_;
+  double area_ = 0.0;
+  double height_ = 0.0;
+  // By shell.
+  std::vector<Verdict> verdicts_;
+  std::vector<char> is_sheet_;
+  std::vector<std::uint32_t> group_;
+  std::uint32_t main_ = 0;
+  std::vector<char> carries_trunk_;
+  std::vector<char> carries_limb_;
+  std::vector<float> around_head_;
+  std::vector<float> between_legs_;
+  std::set<std::size_t> is_carrier_;
+};
+
+}  // namespace
+
+absl::StatusOr<Character> FindCharacter(const formats::PolygonSoup& soup,
+                                        const CharacterOptions& options,
+                                        const std::map<body::LandmarkId, Eigen::Vector3d>& joints,
+                                        const ThreadPool& pool) {
+  return Judge(soup, options, joints, pool).Run();
+}
+
+}  // namespace capfit::character

@@ -1,0 +1,151 @@
+#include "core/character/shells.h"
+
+#include <Eigen/Geometry>  // cross
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "core/mesh/weld_vertices.h"
+
+namespace capfit::character {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+// Disjoint sets of vertices; the smallest member stands for each.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+
+  std::uint32_t Find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  void Join(std::uint32_t a, std::uint32_t b) {
+    a = Find(a);
+    b = Find(b);
+    if (a < b) parent_[b] = a;
+    if (b < a) parent_[a] = b;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+class ShellFinder {
+ public:
+  explicit ShellFinder(const formats::PolygonSoup& soup)
+      : soup_(soup), whole_(soup.positions.size()), within_part_(soup.face_vertices.size()) {
+    std::vector<std::uint32_t> all(soup.positions.size());
+    std::iota(all.begin(), all.end(), 0u);
+    same_ = mesh::WeldEqual(soup.positions, all);
+  }
+
+  Shells Run() {
+    JoinCorners();
+    result_.shell_of_face.resize(soup_.face_count());
+    std::vector<std::uint32_t> shell_at(soup_.face_vertices.size(), kNone);
+    std::vector<std::uint32_t> surface_at(soup_.positions.size(), kNone);
+    std::vector<std::size_t> facet_counts;
+    ForFaces([&](std::size_t face, std::size_t part, std::span<const std::uint32_t> corners) {
+      std::uint32_t& shell = shell_at[within_part_.Find(entry_[face])];
+      if (shell == kNone || result_.shells[shell].part != part) {
+        shell = static_cast<std::uint32_t>(result_.shells.size());
+        result_.shells.emplace_back().part = part;
+        facet_counts.push_back(0);
+        std::uint32_t& surface = surface_at[whole_.Find(same_[corners[0]])];
+        if (surface == kNone) surface = shell;
+        result_.shells[shell].surface = surface;
+      }
+      result_.shell_of_face[face] = shell;
+      result_.shells[shell].face_count += 1;
+      facet_counts[shell] += corners.size() < 3 ? 0 : corners.size() - 2;
+    });
+    AddFacets(facet_counts);
+    return std::move(result_);
+  }
+
+ private:
+  // face, its part, its corners.
+  template <typename Visit>
+  void ForFaces(const Visit& visit) const {
+    std::size_t at = 0;
+    std::size_t part = 0;
+    for (std::size_t face = 0; face < soup_.face_count(); ++face) {
+      while (part + 1 < soup_.parts.size() && face >= soup_.parts[part + 1].first_face) ++part;
+      const std::size_t size = soup_.face_sizes.empty() ? 3 : soup_.face_sizes[face];
+      visit(face, part, std::span(soup_.face_vertices).subspan(at, size));
+      at += size;
+    }
+  }
+
+  // Within a part each place has an entry of its own, so that parts that share vertices stay apart.
+  void JoinCorners() {
+    std::vector<std::uint32_t> part_at(soup_.positions.size(), kNone);
+    std::vector<std::uint32_t> first_at(soup_.positions.size(), kNone);
+    entry_.assign(soup_.face_count(), 0);
+    std::uint32_t next = 0;
+    ForFaces([&](std::size_t face, std::size_t part, std::span<const std::uint32_t> corners) {
+      std::uint32_t first = kNone;
+      for (const std::uint32_t corner : corners) {
+        const std::uint32_t place = same_[corner];
+        if (part_at[place] != part) {
+          part_at[place] = static_cast<std::uint32_t>(part);
+          first_at[place] = next++;
+        }
+        if (first == kNone) first = first_at[place];
+        within_part_.Join(first, first_at[place]);
+        whole_.Join(same_[corners[0]], place);
+      }
+      entry_[face] = first;
+    });
+  }
+
+  void AddFacets(const std::vector<std::size_t>& counts) {
+    result_.first_facet.assign(counts.size() + 1, 0);
+    std::partial_sum(counts.begin(), counts.end(), result_.first_facet.begin() + 1);
+    result_.facets.resize(result_.first_facet.back());
+    std::vector<std::size_t> next(result_.first_facet.begin(), result_.first_facet.end() - 1);
+    ForFaces([&](std::size_t face, std::size_t, std::span<const std::uint32_t> corners) {
+      const std::uint32_t shell = result_.shell_of_face[face];
+      Shell& entry = result_.shells[shell];
+      for (const std::uint32_t corner : corners) {
+        entry.box_min = entry.box_min.cwiseMin(soup_.positions[corner]);
+        entry.box_max = entry.box_max.cwiseMax(soup_.positions[corner]);
+      }
+      for (std::size_t k = 2; k < corners.size(); ++k) {
+        Facet& facet = result_.facets[next[shell]++];
+        facet.corner[0] = soup_.positions[corners[0]];
+        facet.corner[1] = soup_.positions[corners[k - 1]];
+        facet.corner[2] = soup_.positions[corners[k]];
+        entry.area += facet.AreaVector().norm();
+      }
+    });
+  }
+
+  const formats::PolygonSoup& soup_;
+  std::vector<std::uint32_t> same_;
+  Sets whole_;
+  Sets within_part_;
+  std::vector<std::uint32_t> entry_;  // of each face: a member of its set within the part
+  Shells result_;
+};
+
+}  // namespace
+
+Eigen::Vector3d Facet::AreaVector() const {
+  return 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+}
+
+double Facet::LongestEdge() const {
+  return std::max({(corner[1] - corner[0]).norm(), (corner[2] - corner[1]).norm(),
+                   (corner[0] - corner[2]).norm()});
+}
+
+Shells FindShells(const formats::PolygonSoup& soup) { return ShellFinder(soup).Run(); }
+
+}  // namespace capfit::character
