@@ -13,7 +13,7 @@ set -euo pipefail
 build=(
   g++ cmake ninja-build ccache pkg-config ca-certificates
   libabsl-dev libgrpc++-dev protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libssl-dev
-  libopenmesh-dev libeigen3-dev libtbb-dev
+  libopenmesh-dev libeigen3-dev libtbb-dev libdraco-dev libmeshoptimizer-dev
   libspdlog-dev libcli11-dev nlohmann-json3-dev libcairo2-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )
@@ -24,7 +24,7 @@ test=(
 )
 bench=(python3 python3-matplotlib)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3 mypy)
-run=(libgrpc++1.51 libtbb12 libspdlog1.10 libcairo2)
+run=(libgrpc++1.51 libtbb12 libspdlog1.10 libcairo2 libdraco7 libmeshoptimizer2d)
 
 wanted=()
 for group in "${@:-build}"; do

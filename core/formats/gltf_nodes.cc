@@ -7,7 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "core/formats/file_error.h"
-#include "core/formats/glb_file.h"
+#include "core/formats/gltf_json.h"
 
 namespace capfit::formats {
 namespace {
@@ -47,16 +47,6 @@ Eigen::Matrix4d ToParent(const json& node) {
   return to_parent.matrix();
 }
 
-std::vector<std::size_t> IndicesAt(const json& parent, const char* key, std::size_t limit) {
-  std::vector<std::size_t> indices;
-  for (const json& entry : ArrayAt(parent, key)) {
-    if (entry.is_number_unsigned() && entry.get<std::uint64_t>() < limit) {
-      indices.push_back(entry.get<std::size_t>());
-    }
-  }
-  return indices;
-}
-
 class NodeTree {
  public:
   explicit NodeTree(const json& gltf) : gltf_(gltf), nodes_(ArrayAt(gltf, "nodes")) {}
@@ -70,6 +60,7 @@ class NodeTree {
     if (placed.size() != nodes_.size()) {
       return FileError(ErrorReason::kMalformedFile, {}, "has nodes that are their own ancestors");
     }
+    result_.order = placed;
     const json& scenes = ArrayAt(gltf_, "scenes");
     if (scenes.empty()) {
       result_.drawn = placed;
@@ -83,19 +74,19 @@ class NodeTree {
  private:
   absl::Status FindChildren() {
     children_.resize(nodes_.size());
-    std::vector<bool> has_parent(nodes_.size(), false);
+    result_.parent.assign(nodes_.size(), GltfNodes::kNone);
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       children_[n] = IndicesAt(nodes_[n], "children", nodes_.size());
       for (const std::size_t child : children_[n]) {
-        if (has_parent[child]) {
+        if (result_.parent[child] != GltfNodes::kNone) {
           return FileError(ErrorReason::kMalformedFile, AtElement(absl::StrCat("node ", child)),
                            "it has two parents");
         }
-        has_parent[child] = true;
+        result_.parent[child] = n;
       }
     }
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      if (!has_parent[n]) roots_.push_back(n);
+      if (result_.parent[n] == GltfNodes::kNone) roots_.push_back(n);
     }
     return absl::OkStatus();
   }

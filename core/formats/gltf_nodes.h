@@ -12,7 +12,11 @@
 namespace capfit::formats {
 
 struct GltfNodes {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
   std::vector<Eigen::Matrix4d> to_world;  // of every node, also of those outside the scene
+  std::vector<std::size_t> parent;        // of every node, kNone for roots
+  std::vector<std::size_t> order;         // all nodes, parents before children
   std::vector<std::size_t> drawn;         // nodes of the scene, parents before children
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/base/status.h"
 #include "core/formats/file_error.h"
+#include "core/formats/gltf_file.h"
 #include "core/formats/read_glb.h"
 #include "core/formats/read_obj.h"
 #include "core/formats/read_off.h"
@@ -63,7 +64,7 @@ absl::StatusOr<PolygonSoup> ReadAs(MeshFormat format, std::span<const std::byte>
       break;
   }
   return FileError(ErrorReason::kUnsupportedFile, {},
-                   "has no known format: give an OBJ, PLY, STL, OFF or GLB file");
+                   "has no known format: give an OBJ, PLY, STL, OFF, GLB, VRM or glTF file");
 }
 
 }  // namespace
@@ -77,7 +78,7 @@ MeshFormat FormatFromFileName(const std::string& file_name) {
   if (ending == "ply") return MeshFormat::kPly;
   if (ending == "stl") return MeshFormat::kStl;
   if (ending == "off") return MeshFormat::kOff;
-  if (ending == "glb") return MeshFormat::kGlb;
+  if (ending == "glb" || ending == "vrm" || ending == "gltf") return MeshFormat::kGlb;
   return MeshFormat::kUnknown;
 }
 
@@ -87,6 +88,7 @@ MeshFormat FormatFromBytes(std::span<const std::byte> bytes) {
   if (StartsWithWord(text, "ply")) return MeshFormat::kPly;
   if (HasSizeOfBinaryStl(bytes)) return MeshFormat::kStl;
   if (StartsWithWord(text, "solid")) return MeshFormat::kStl;
+  if (LooksLikeGltfText(text)) return MeshFormat::kGlb;
   if (LooksLikeOff(text)) return MeshFormat::kOff;
   if (LooksLikeObj(text)) return MeshFormat::kObj;
   return MeshFormat::kUnknown;

@@ -1,4 +1,4 @@
-// Mesh files from memory: OBJ, PLY, STL, OFF and GLB.
+// Mesh files from memory: OBJ, PLY, STL, OFF and glTF 2.0.
 #ifndef CAPFIT_CORE_FORMATS_READ_MESH_H_
 #define CAPFIT_CORE_FORMATS_READ_MESH_H_
 
@@ -12,6 +12,7 @@
 
 namespace capfit::formats {
 
+// kGlb: glTF 2.0 in any of its packings: GLB, VRM, and JSON with its buffers inside (.gltf).
 enum class MeshFormat { kUnknown, kObj, kPly, kStl, kOff, kGlb };
 
 // From a file name's ending (case does not matter); kUnknown for others.

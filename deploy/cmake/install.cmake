@@ -46,12 +46,12 @@ target_compile_definitions(capfit_whole_core INTERFACE
 target_include_directories(capfit_whole_core INTERFACE "$<INSTALL_INTERFACE:${header_dir}>")
 target_link_libraries(capfit_whole_core INTERFACE
   Eigen3::Eigen TBB::tbb absl::status absl::statusor absl::strings absl::str_format
-  absl::flat_hash_map absl::flat_hash_set)
+  absl::flat_hash_map absl::flat_hash_set draco::draco meshoptimizer::meshoptimizer)
 
 install(TARGETS capfit_whole_core EXPORT capfitCore COMPONENT library)
 install(EXPORT capfitCore FILE capfitCoreTargets.cmake NAMESPACE capfit::
   DESTINATION "${package_dir}" COMPONENT library)
-# (Three headers of core/formats name a JSON library that is no part of the interface.)
+# (The headers of core/formats about glTF name libraries that are no part of the interface.)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/core" DESTINATION "${header_dir}" COMPONENT library
   FILES_MATCHING PATTERN "*.h" PATTERN "gl[bt]*_*.h" EXCLUDE)
 set(CAPFIT_INSTALLED_COMPONENTS core)
