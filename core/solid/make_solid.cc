@@ -134,7 +134,7 @@ class SolidMaker {
     }
     NetSurface net = ExtractSurface(grid, inside, lines, normals, pool_);
     watch.Lap("extract");
-    mesh::BodyMesh mesh(std::move(net.vertices), std::move(net.triangles), {}, {}, pool_);
+    mesh::BodyMesh mesh(std::move(net.vertices), std::move(net.triangles), {}, std::move(net.mates), pool_);
     watch.Lap("mesh");
     return Solid{std::move(mesh), grid.step, {}};
   }

@@ -17,6 +17,8 @@ namespace capfit::solid {
 struct NetSurface {
   std::vector<Eigen::Vector3d> vertices;  // in the caller's frame
   std::vector<mesh::Triangle> triangles;  // outward
+  std::vector<mesh::HalfEdge> mates;      // of the triangles' half-edges
+  std::vector<std::uint32_t> cells;       // of each vertex
 };
 
 // One vertex in each cell of eight nodes that the boundary of `set` (well-composed) passes, near
