@@ -10,6 +10,7 @@
 #include "absl/container/flat_hash_set.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/mesh/open_loops.h"
 #include "core/mesh/triangulate_loop.h"
 
 namespace capfit::mesh {
@@ -21,86 +22,20 @@ namespace {
 constexpr std::size_t kLongestExactLoop = 400;
 constexpr std::size_t kExactSteps = 45'000'000;
 
-constexpr std::uint32_t kNotOnPath = 0xFFFFFFFFu;
-
-using Loop = std::vector<HalfEdge>;
-
-// Takes the open half-edges apart into loops that visit no vertex twice.
-class LoopFinder {
- public:
-  explicit LoopFinder(const Surface& surface) : surface_(surface) {
-    for (HalfEdge h = 0; h < surface.mate.size(); ++h) {
-      if (surface.mate[h] == kNoMate) by_start_.emplace_back(Start(h), h);
-    }
-    std::sort(by_start_.begin(), by_start_.end());
-    std::uint32_t highest = 0;
-    for (const auto& [start, h] : by_start_) highest = std::max({highest, start, End(h)});
-    next_unused_.assign(std::size_t{highest} + 1, 0);
-    place_on_path_.assign(std::size_t{highest} + 1, kNotOnPath);
-    for (std::size_t i = by_start_.size(); i-- > 0;) next_unused_[by_start_[i].first] = i;
-    used_.assign(by_start_.size(), false);
-  }
-
-  std::optional<std::vector<Loop>> Run() {
-    for (std::size_t i = 0; i < by_start_.size(); ++i) {
-      if (!used_[i] && !WalkFrom(by_start_[i].first)) return std::nullopt;
-    }
-    return std::move(loops_);
-  }
-
- private:
-  [[nodiscard]] std::uint32_t Start(HalfEdge h) const { return StartOf(surface_.triangles, h); }
-  [[nodiscard]] std::uint32_t End(HalfEdge h) const { return EndOf(surface_.triangles, h); }
-
-  // Walks until the path is used up, cutting off each loop as soon as it closes. False where the
-  // walk gets stuck: the open edges do not form loops.
-  bool WalkFrom(std::uint32_t vertex) {
-    while (true) {
-      const std::optional<HalfEdge> h = TakeFrom(vertex);
-      if (!h.has_value()) return path_.empty();
-      place_on_path_[vertex] = static_cast<std::uint32_t>(path_.size());
-      path_.push_back(*h);
-      vertex = End(*h);
-      if (place_on_path_[vertex] != kNotOnPath) CutOffLoop(place_on_path_[vertex]);
-    }
-  }
-
-  std::optional<HalfEdge> TakeFrom(std::uint32_t vertex) {
-    std::size_t& i = next_unused_[vertex];
-    if (i >= by_start_.size() || by_start_[i].first != vertex) return std::nullopt;
-    used_[i] = true;
-    return by_start_[i++].second;
-  }
-
-  void CutOffLoop(std::uint32_t place) {
-    loops_.emplace_back(path_.begin() + place, path_.end());
-    for (const HalfEdge h : loops_.back()) place_on_path_[Start(h)] = kNotOnPath;
-    path_.resize(place);
-  }
-
-  const Surface& surface_;
-  std::vector<std::pair<std::uint32_t, HalfEdge>> by_start_;
-  std::vector<std::size_t> next_unused_;  // of a vertex: index into by_start_
-  std::vector<std::uint32_t> place_on_path_;
-  std::vector<bool> used_;
-  Loop path_;
-  std::vector<Loop> loops_;
-};
-
 class HoleCloser {
  public:
   HoleCloser(std::span<const Eigen::Vector3d> positions, Surface& surface)
       : positions_(positions), surface_(surface) {}
 
   absl::StatusOr<ClosedHoles> Run() {
-    const std::optional<std::vector<Loop>> loops = LoopFinder(surface_).Run();
+    const std::optional<std::vector<OpenLoop>> loops = FindOpenLoops(surface_);
     if (!loops.has_value()) {
       return Refused(ErrorReason::kHoleNotClosed,
                      "the open edges of the surface do not form loops that could be closed; mend "
                      "it in a modelling program");
     }
     NoteEdges(*loops);
-    for (const Loop& loop : *loops) CAPFIT_RETURN_IF_ERROR(Close(loop));
+    for (const OpenLoop& loop : *loops) CAPFIT_RETURN_IF_ERROR(Close(loop));
     return report_;
   }
 
@@ -110,9 +45,9 @@ class HoleCloser {
   }
 
   // All edges between two vertices of holes: no filling may use one again.
-  void NoteEdges(const std::vector<Loop>& loops) {
+  void NoteEdges(const std::vector<OpenLoop>& loops) {
     std::vector<bool> on_hole(positions_.size(), false);
-    for (const Loop& loop : loops) {
+    for (const OpenLoop& loop : loops) {
       for (const HalfEdge h : loop) on_hole[StartOf(surface_.triangles, h)] = true;
     }
     for (HalfEdge h = 0; h < surface_.mate.size(); ++h) {
@@ -122,7 +57,7 @@ class HoleCloser {
     }
   }
 
-  absl::Status Close(const Loop& loop) {
+  absl::Status Close(const OpenLoop& loop) {
     if (loop.size() == 2) {  // two open edges between the same vertices: a slit
       surface_.mate[loop[0]] = loop[1];
       surface_.mate[loop[1]] = loop[0];
@@ -175,7 +110,7 @@ class HoleCloser {
     report_.largest_middle = points[0] + from_first / static_cast<double>(points.size());
   }
 
-  void Append(const Loop& loop, const std::vector<std::uint32_t>& corners,
+  void Append(const OpenLoop& loop, const std::vector<std::uint32_t>& corners,
               const std::vector<Triangle>& filling) {
     const auto n = static_cast<std::uint32_t>(corners.size());
     const auto first = static_cast<HalfEdge>(surface_.mate.size());
