@@ -50,7 +50,6 @@ constexpr double kPersonsBox = 0.6;
 constexpr double kPersonsArea = 0.3;
 // Of a shell's vertices: all but rims and a few loose threads.
 constexpr double kNearlyAll = 0.9;
-constexpr double kMostOfHead = 0.8;
 constexpr double kSamplesOfNearness = 2000.0;
 // Names in a message.
 constexpr std::size_t kNamesTold = 8;
@@ -78,8 +77,11 @@ class Judge {
     if (parts_.empty()) parts_ = soup.parts;
     if (parts_.empty()) parts_.push_back({"", "", 0, soup.face_count(), -1});
     points_ = InnerPointsOf(joints);
+    for (const formats::SoupPart& part : parts_) {
+      const std::optional<PartKind> kind = KindFromName(part.name);
+      names_.push_back(kind ? kind : KindFromName(part.material));
+    }
     MeasureSpread();
-    MeasureParts();
     if (points_) Surround(pool);
   }
 
@@ -87,6 +89,7 @@ class Judge {
     CAPFIT_RETURN_IF_ERROR(CheckNames());
     FindSheets();
     CAPFIT_RETURN_IF_ERROR(FindGroups());
+    MeasureParts();
     if (points_) {
       JudgeByJoints();
     } else {
@@ -120,18 +123,14 @@ class Judge {
     if (points_) height_ = points_->height;
   }
 
+  // Of what hangs together with the body.
   void MeasureParts() {
     part_area_.assign(parts_.size(), 0.0);
     largest_of_part_.assign(parts_.size(), 0.0);
-    for (const Shell& s : shells_.shells) {
-      part_area_[s.part] += s.area;
-      largest_of_part_[s.part] = std::max(largest_of_part_[s.part], s.area);
-    }
-    names_.reserve(parts_.size());
-    for (const formats::SoupPart& part : parts_) {
-      std::optional<PartKind> kind = KindFromName(part.name);
-      if (!kind) kind = KindFromName(part.material);
-      names_.push_back(kind);
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (IsApart(s)) continue;
+      part_area_[shell(s).part] += shell(s).area;
+      largest_of_part_[shell(s).part] = std::max(largest_of_part_[shell(s).part], shell(s).area);
     }
   }
 
@@ -323,9 +322,10 @@ class Judge {
         carriers.Add(shells_.facets[f]);
       }
     }
+    FindWhatIsOnHead();
     for (std::size_t s = 0; s < count(); ++s) {
       if (IsApart(s) || is_carrier_.contains(s)) continue;
-      verdicts_[s] = IsOnHead(s) ? OnHeadVerdict(s) : OnBodyVerdict(s, carriers);
+      verdicts_[s] = is_on_head_[shell(s).part] != 0 ? OnHeadVerdict(s) : OnBodyVerdict(s, carriers);
     }
   }
 
@@ -372,15 +372,18 @@ class Judge {
     return best;
   }
 
-  // Moves with the head, or lies above the neck.
-  [[nodiscard]] bool IsOnHead(std::size_t s) const {
-    std::size_t above = 0;
-    const std::size_t begin = shells_.first_facet[s];
-    const std::size_t end = shells_.first_facet[s + 1];
-    for (std::size_t f = begin; f < end; ++f) {
-      above += points_->up.dot(shells_.facets[f].Middle() - points_->neck) > 0.0 ? 1 : 0;
+  // By part, of the facets of shells that carry nothing, how many lie above the neck: long hair
+  // hangs below it, but not most of it.
+  void FindWhatIsOnHead() {
+    std::vector<std::array<std::size_t, 2>> facets(parts_.size(), {0, 0});
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (IsApart(s) || is_carrier_.contains(s)) continue;
+      for (std::size_t f = shells_.first_facet[s]; f < shells_.first_facet[s + 1]; ++f) {
+        const Eigen::Vector3d from_neck = shells_.facets[f].Middle() - points_->neck;
+        facets[shell(s).part][points_->up.dot(from_neck) > 0.0 ? 1 : 0] += 1;
+      }
     }
-    return static_cast<double>(above) > kMostOfHead * static_cast<double>(end - begin);
+    for (const auto& [below, above] : facets) is_on_head_.push_back(above > below ? 1 : 0);
   }
 
   [[nodiscard]] Verdict OnHeadVerdict(std::size_t s) const {
@@ -428,10 +431,16 @@ class Judge {
     for (std::size_t s = 0; s < count(); ++s) {
       if (verdicts_[s].is_included) taken_area[shell(s).part] += shell(s).area;
     }
+    std::set<std::uint32_t> surfaces;
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (verdicts_[s].is_included) surfaces.insert(shell(s).surface);
+    }
     bool is_any = false;
     for (std::size_t s = 0; s < count(); ++s) {
       const std::size_t part = shell(s).part;
-      const bool may_join = !verdicts_[s].is_included && !IsApart(s) && !IsCrumb(s) &&
+      // For crumbs alone, as the eyeballs of a body, nobody gives up a surface that is one.
+      const bool may_join = !verdicts_[s].is_included && !IsApart(s) &&
+                            (surfaces.size() > 1 || !IsCrumb(s)) &&
                             verdicts_[s].kind != PartKind::kSkirt &&
                             taken_area[part] > 0.5 * part_area_[part];
       is_any = is_any || may_join;
@@ -581,6 +590,7 @@ class Judge {
   std::vector<float> around_head_;
   std::vector<float> between_legs_;
   std::set<std::size_t> is_carrier_;
+  std::vector<char> is_on_head_;  // by part
 };
 
 }  // namespace

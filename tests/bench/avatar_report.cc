@@ -1,0 +1,117 @@
+// What becomes of the parts of rigged avatars, held against their ground truth.
+//
+//   avatar_report FOLDER [--no-rig] [--no-names]      FOLDER: *.glb and truth.json
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "CLI/CLI.hpp"
+#include "core/body/skeleton_names.h"
+#include "core/character/find_character.h"
+#include "core/formats/read_mesh.h"
+#include "core/formats/soup_checks.h"
+
+namespace {
+
+using capfit::character::Character;
+using capfit::formats::PolygonSoup;
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+std::string ReadFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+double MsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Where the truth's part begins among the soup's faces: by its node's name, or its faces where it
+// is a range of them.
+std::size_t FirstFace(const json& part, const PolygonSoup& soup) {
+  const std::size_t within = part.value("first_face", std::size_t{0});
+  for (const capfit::formats::SoupPart& own : soup.parts) {
+    if (own.name == part["node"].get<std::string>()) return own.first_face + within;
+  }
+  return within;
+}
+
+void PrintParts(const json& truth, const PolygonSoup& soup, const Character& character) {
+  int wrong = 0;
+  for (const json& part : truth["parts"]) {
+    const std::size_t faces = part["faces"];
+    const std::size_t first = FirstFace(part, soup);
+    std::size_t taken = 0;
+    for (std::size_t f = first; f < first + faces; ++f) taken += character.is_left_out[f] == 0;
+    const std::string cover = part["cover"];
+    const bool is_right = cover == "yes" ? taken == faces : taken == 0;
+    wrong += is_right ? 0 : 1;
+    if (!is_right) {
+      std::printf("   WRONG %-24s %-10s cover %-8s taken %zu of %zu\n",
+                  part["name"].get<std::string>().c_str(), part["kind"].get<std::string>().c_str(),
+                  cover.c_str(), taken, faces);
+    }
+  }
+  std::printf("   %d of %zu parts wrong\n", wrong, truth["parts"].size());
+  for (const auto& part : character.parts) {
+    std::printf("     %-26s %-10s %-3s %4zu shells %6zu faces %5.2f %% %s\n", part.name.c_str(),
+                std::string(capfit::character::PartKindName(part.kind)).c_str(),
+                part.is_included ? "yes" : "no", part.shell_count, part.face_count,
+                100.0 * part.area_share, part.reason.c_str());
+  }
+}
+
+void Report(const std::filesystem::path& folder, const std::string& name, const json& truth,
+            bool has_rig,
+            bool has_names) {
+  const std::string bytes = ReadFile(folder / (name + ".glb"));
+  auto start = Clock::now();
+  auto soup = capfit::formats::ReadMesh(std::as_bytes(std::span(bytes)));
+  if (!soup.ok()) {
+    std::printf("%s: %s\n", name.c_str(), soup.status().ToString().c_str());
+    return;
+  }
+  const double read_ms = MsSince(start);
+  if (!has_rig) {
+    soup->joints.clear();
+    soup->influences.clear();
+  }
+  const std::vector<capfit::formats::SoupPart> parts = soup->parts;
+  if (!has_names) {
+    for (auto& part : soup->parts) part.name = part.material = "";
+  }
+  start = Clock::now();
+  const auto character = capfit::character::FindCharacter(
+      *soup, {}, capfit::body::LandmarksFromSkeleton(soup->joints), capfit::ThreadPool(2));
+  std::printf("%s: read %.1f ms, parts %.1f ms\n", name.c_str(), read_ms, MsSince(start));
+  if (!character.ok()) {
+    std::printf("   %s\n", character.status().ToString().c_str());
+    return;
+  }
+  soup->parts = parts;
+  PrintParts(truth, *soup, *character);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::filesystem::path folder;
+  bool no_rig = false;
+  CLI::App app("Avatars against their ground truth");
+  app.add_option("folder", folder, "*.glb and truth.json")->required();
+  app.add_flag("--no-rig", no_rig, "as if the files had no skeletons");
+  bool no_names = false;
+  app.add_flag("--no-names", no_names, "as if parts and materials had no names");
+  CLI11_PARSE(app, argc, argv);
+  const json truth = json::parse(ReadFile(folder / "truth.json"));
+  for (const auto& [name, entry] : truth.items()) Report(folder, name, entry, !no_rig, !no_names);
+  return 0;
+}
