@@ -50,7 +50,7 @@ constexpr double kPersonsBox = 0.6;
 constexpr double kPersonsArea = 0.3;
 // Of a shell's vertices: all but rims and a few loose threads.
 constexpr double kNearlyAll = 0.9;
-constexpr double kSamplesOfNearness = 2000.0;
+constexpr std::size_t kSamplesOfNearness = 500;
 // Names in a message.
 constexpr std::size_t kNamesTold = 8;
 
@@ -147,16 +147,14 @@ class Judge {
       std::vector<float>& sum = of_part[shell(s).part];
       for (std::size_t p = 0; p < points.size(); ++p) sum[p] += windings[s][p];
     }
-    carries_trunk_.assign(count(), 0);
-    carries_limb_.assign(count(), 0);
+    carried_.assign(count(), {});
     for (std::size_t s = 0; s < count(); ++s) {
       for (std::size_t p = 0; p < points.size(); ++p) {
         const float own = windings[s][p];
-        if (own < kGoesAround &&
-            (own < kGoesAroundPartly || of_part[shell(s).part][p] < kGoesAround)) {
-          continue;
+        if (own >= kGoesAround ||
+            (own >= kGoesAroundPartly && of_part[shell(s).part][p] >= kGoesAround)) {
+          carried_[s].push_back(p);
         }
-        (p < points_->trunk.size() ? carries_trunk_ : carries_limb_)[s] = 1;
       }
     }
     for (const std::vector<float>& w : WindingNumbers(shells_, points_->head, pool)) {
@@ -306,31 +304,50 @@ class Judge {
 
   void JudgeByJoints() {
     const std::optional<std::size_t> head = HeadShell();
-    CellSet carriers(kWornShare * height_);
     for (std::size_t s = 0; s < count(); ++s) {
-      if (IsApart(s)) continue;
-      if (Carries(s)) {
-        verdicts_[s] = CarriersVerdict(s);
-      } else if (head == s) {
-        verdicts_[s] = {KindOr(s, PartKind::kBody), true, "goes around the head"};
-      } else {
-        continue;
-      }
+      if (IsApart(s) || !(Carries(s) || head == s)) continue;
       is_carrier_.insert(s);
-      if (!verdicts_[s].is_included) continue;
-      for (std::size_t f = shells_.first_facet[s]; f < shells_.first_facet[s + 1]; ++f) {
-        carriers.Add(shells_.facets[f]);
+      const bool is_head = head == s;
+      verdicts_[s] = is_head ? Verdict{KindOr(s, PartKind::kBody), true, "goes around the head"}
+                             : CarriersVerdict(s);
+      if (verdicts_[s].is_included) AddCells(s);
+    }
+    for (const std::size_t s : is_carrier_) {
+      if (head != s && verdicts_[s].is_included && IsHeldOnly(s)) {
+        verdicts_[s] = {PartKind::kAccessory, false, "held, and stands off the body"};
       }
     }
     FindWhatIsOnHead();
     for (std::size_t s = 0; s < count(); ++s) {
       if (IsApart(s) || is_carrier_.contains(s)) continue;
-      verdicts_[s] = is_on_head_[shell(s).part] != 0 ? OnHeadVerdict(s) : OnBodyVerdict(s, carriers);
+      verdicts_[s] = is_on_head_[shell(s).part] != 0 ? OnHeadVerdict(s) : OnBodyVerdict(s);
     }
   }
 
-  [[nodiscard]] bool Carries(std::size_t s) const {
-    return carries_trunk_[s] != 0 || carries_limb_[s] != 0;
+  void AddCells(std::size_t s) {
+    CellSet& cells = cells_.try_emplace(shell(s).part, kWornShare * height_).first->second;
+    for (std::size_t f = shells_.first_facet[s]; f < shells_.first_facet[s + 1]; ++f) {
+      cells.Add(shells_.facets[f]);
+    }
+  }
+
+  // What only goes around what other parts go around too, and whose part is not worn on them: a
+  // sword's grip.
+  [[nodiscard]] bool IsHeldOnly(std::size_t s) const {
+    const std::size_t part = shell(s).part;
+    const auto is_anothers = [&](std::size_t point) {
+      return std::any_of(is_carrier_.begin(), is_carrier_.end(), [&](std::size_t other) {
+        return shell(other).part != part && shell(other).area > shell(s).area &&
+               std::binary_search(carried_[other].begin(), carried_[other].end(), point);
+      });
+    };
+    return std::all_of(carried_[s].begin(), carried_[s].end(), is_anothers) && !IsPartWorn(part);
+  }
+
+  [[nodiscard]] bool Carries(std::size_t s) const { return !carried_[s].empty(); }
+  // (The trunk's points come first.)
+  [[nodiscard]] bool CarriesTrunk(std::size_t s) const {
+    return Carries(s) && carried_[s].front() < points_->trunk.size();
   }
 
   // A body's or a garment's name where it has one; others lie, for it goes around limbs.
@@ -352,9 +369,9 @@ class Judge {
 
   // Whether the trunk is lost without it, as under a robe.
   [[nodiscard]] bool CarriesAlone(std::size_t s) const {
-    if (carries_trunk_[s] == 0) return false;
+    if (!CarriesTrunk(s)) return false;
     for (std::size_t other = 0; other < count(); ++other) {
-      if (other != s && carries_trunk_[other] != 0 && between_legs_[other] < kGoesBetweenLegs) {
+      if (other != s && CarriesTrunk(other) && between_legs_[other] < kGoesBetweenLegs) {
         return false;
       }
     }
@@ -397,31 +414,47 @@ class Judge {
     return ByKind(PartKind::kHair, "on the head without going around it");
   }
 
-  [[nodiscard]] Verdict OnBodyVerdict(std::size_t s, const CellSet& carriers) const {
+  [[nodiscard]] Verdict OnBodyVerdict(std::size_t s) {
     const std::optional<PartKind> named = names_[shell(s).part];
     const bool is_worn = !named || *named == PartKind::kBody || *named == PartKind::kClothing ||
                          *named == PartKind::kShoe;
     if (!is_worn) return ByKind(*named, "by its name");
     if (IsCrumb(s)) return {PartKind::kInner, false, "small beside the rest of its part"};
-    if (!IsWorn(s, carriers)) return {PartKind::kAccessory, false, "stands off the body"};
+    if (!IsPartWorn(shell(s).part)) return {PartKind::kAccessory, false, "stands off the body"};
     if (named || part_area_[shell(s).part] >= kSmallShare * area_) {
       return {KindOr(s, PartKind::kClothing), true, "worn close to the body"};
     }
     return {PartKind::kAccessory, false, "small and around no limb"};
   }
 
-  [[nodiscard]] bool IsWorn(std::size_t s, const CellSet& carriers) const {
-    const std::size_t begin = shells_.first_facet[s];
-    const std::size_t end = shells_.first_facet[s + 1];
-    const auto step = static_cast<std::size_t>(
-        std::max(1.0, static_cast<double>(end - begin) / kSamplesOfNearness));
+  // Whether the part as a whole, bags with their straps, lies close to the carriers of the others,
+  // or to its own carriers where it is none of the held ones.
+  [[nodiscard]] bool IsPartWorn(std::size_t part) const {
+    std::size_t facets = 0;
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (shell(s).part == part && !IsApart(s)) facets += FacetCount(s);
+    }
+    const std::size_t step = std::max<std::size_t>(1, facets / kSamplesOfNearness);
     std::size_t near = 0;
     std::size_t all = 0;
-    for (std::size_t f = begin; f < end; f += step) {
-      near += carriers.IsNear(shells_.facets[f].Middle()) ? 1 : 0;
-      ++all;
+    for (std::size_t s = 0; s < count(); ++s) {
+      if (shell(s).part != part || IsApart(s)) continue;
+      for (std::size_t f = shells_.first_facet[s]; f < shells_.first_facet[s + 1]; f += step) {
+        near += IsNearAnother(part, shells_.facets[f].Middle()) ? 1 : 0;
+        ++all;
+      }
     }
     return static_cast<double>(near) >= kNearlyAll * static_cast<double>(all);
+  }
+
+  [[nodiscard]] std::size_t FacetCount(std::size_t s) const {
+    return shells_.first_facet[s + 1] - shells_.first_facet[s];
+  }
+
+  [[nodiscard]] bool IsNearAnother(std::size_t part, const Eigen::Vector3d& point) const {
+    return std::any_of(cells_.begin(), cells_.end(), [&](const auto& entry) {
+      return entry.first != part && entry.second.IsNear(point);
+    });
   }
 
   // Pieces of a part that is mostly taken, which touch what is taken: fingers of a robot, soles.
@@ -585,11 +618,11 @@ class Judge {
   std::vector<char> is_sheet_;
   std::vector<std::uint32_t> group_;
   std::uint32_t main_ = 0;
-  std::vector<char> carries_trunk_;
-  std::vector<char> carries_limb_;
+  std::vector<std::vector<std::size_t>> carried_;  // the inner points that it goes around
   std::vector<float> around_head_;
   std::vector<float> between_legs_;
   std::set<std::size_t> is_carrier_;
+  std::map<std::size_t, CellSet> cells_;  // of carriers that are taken, by part
   std::vector<char> is_on_head_;  // by part
 };
 
