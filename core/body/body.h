@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/warning.h"
@@ -39,6 +41,24 @@ struct MedialCurve {
 // The curve through the points; neighbours that coincide are merged. At least two distinct points.
 [[nodiscard]] MedialCurve CurveThrough(const std::vector<Eigen::Vector3d>& points_m);
 
+// The shells that a body's mesh was made around, as they came: open, nested, or cutting through each
+// other. They, not the mesh, have to be inside of a set. Body frame.
+struct ShellSurface {
+  std::vector<Eigen::Vector3d> vertices_m;  // those that triangles use
+  std::vector<mesh::Triangle> triangles;
+  std::vector<Segment> vertex_segments;         // of the mesh's nearest vertex
+  std::vector<std::int32_t> vertex_of_source;   // as BodyMesh::vertex_of_source
+  std::vector<std::uint32_t> nearest_of_mesh;   // of each of the mesh's vertices the nearest here
+};
+
+// What has to be inside of a set: a view.
+struct EnclosedSurface {
+  std::span<const Eigen::Vector3d> vertices_m;
+  std::span<const mesh::Triangle> triangles;
+  std::span<const Segment> vertex_segments;
+  std::span<const std::int32_t> vertex_of_source;
+};
+
 // Body frame: metres, +Y up, facing +Z, the body's left at +X, the symmetry plane at x = 0 and the
 // lowest point at y = 0.
 struct Body {
@@ -50,7 +70,17 @@ struct Body {
   std::vector<Segment> vertex_segments;                        // one for each vertex of `mesh`
   std::array<std::optional<MedialCurve>, kChainCount> chains;  // by Part; nothing where missing
   std::vector<Warning> warnings;
+  std::optional<ShellSurface> shells = {};  // nothing where `mesh` is the surface that came
 
+  // The shells, or the mesh itself.
+  [[nodiscard]] EnclosedSurface enclosed() const& {
+    if (!shells) {
+      return {mesh.vertices(), mesh.triangles(), vertex_segments, mesh.vertex_of_source()};
+    }
+    return {shells->vertices_m, shells->triangles, shells->vertex_segments,
+            shells->vertex_of_source};
+  }
+  EnclosedSurface enclosed() && = delete;
   [[nodiscard]] const std::optional<Landmark>& landmark(LandmarkId id) const {
     return landmarks[static_cast<std::size_t>(id)];
   }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -51,6 +52,8 @@ constexpr double kPersonsArea = 0.3;
 // Of a shell's vertices: all but rims and a few loose threads.
 constexpr double kNearlyAll = 0.9;
 constexpr std::size_t kSamplesOfNearness = 500;
+// Beyond it a file has lost its shared vertices, or is no avatar; hair of cards has some thousands.
+constexpr std::size_t kMostShells = 20'000;
 // Names in a message.
 constexpr std::size_t kNamesTold = 8;
 
@@ -74,7 +77,7 @@ class Judge {
         const std::map<body::LandmarkId, Eigen::Vector3d>& joints, const ThreadPool& pool)
       : soup_(soup), options_(options), shells_(FindShells(soup)) {
     verdicts_.resize(shells_.shells.size());
-    if (parts_.empty()) parts_ = soup.parts;
+    parts_ = soup.parts;
     if (parts_.empty()) parts_.push_back({"", "", 0, soup.face_count(), -1});
     points_ = InnerPointsOf(joints);
     for (const formats::SoupPart& part : parts_) {
@@ -82,11 +85,17 @@ class Judge {
       names_.push_back(kind ? kind : KindFromName(part.material));
     }
     MeasureSpread();
-    if (points_) Surround(pool);
+    if (points_ && count() <= kMostShells) Surround(pool);
   }
 
   absl::StatusOr<Character> Run() {
     CAPFIT_RETURN_IF_ERROR(CheckNames());
+    if (count() > kMostShells) {
+      return Refused(ErrorReason::kNoSurface,
+                     absl::StrCat("the mesh falls apart into ", count(), " pieces, at most ",
+                                  kMostShells, " are looked at: do neighbouring faces share "
+                                  "vertices?"));
+    }
     FindSheets();
     CAPFIT_RETURN_IF_ERROR(FindGroups());
     MeasureParts();
@@ -127,8 +136,10 @@ class Judge {
   void MeasureParts() {
     part_area_.assign(parts_.size(), 0.0);
     largest_of_part_.assign(parts_.size(), 0.0);
+    shells_of_part_.assign(parts_.size(), {});
     for (std::size_t s = 0; s < count(); ++s) {
       if (IsApart(s)) continue;
+      shells_of_part_[shell(s).part].push_back(s);
       part_area_[shell(s).part] += shell(s).area;
       largest_of_part_[shell(s).part] = std::max(largest_of_part_[shell(s).part], shell(s).area);
     }
@@ -312,6 +323,7 @@ class Judge {
                              : CarriersVerdict(s);
       if (verdicts_[s].is_included) AddCells(s);
     }
+    FindLargestCarriers();
     for (const std::size_t s : is_carrier_) {
       if (head != s && verdicts_[s].is_included && IsHeldOnly(s)) {
         verdicts_[s] = {PartKind::kAccessory, false, "held, and stands off the body"};
@@ -324,6 +336,24 @@ class Judge {
     }
   }
 
+  // Of each inner point the largest carriers of two different parts.
+  void FindLargestCarriers() {
+    largest_carriers_.assign(points_->trunk.size() + points_->limbs.size(), {});
+    for (const std::size_t s : is_carrier_) {
+      for (const std::size_t point : carried_[s]) {
+        auto& [first, second] = largest_carriers_[point];
+        const Carrier own = {shell(s).part, shell(s).area};
+        if (first.part == own.part) {
+          first.area = std::max(first.area, own.area);
+        } else if (own.area > first.area) {
+          second = std::exchange(first, own);
+        } else if (own.area > second.area) {
+          second = own;
+        }
+      }
+    }
+  }
+
   void AddCells(std::size_t s) {
     CellSet& cells = cells_.try_emplace(shell(s).part, kWornShare * height_).first->second;
     for (std::size_t f = shells_.first_facet[s]; f < shells_.first_facet[s + 1]; ++f) {
@@ -333,13 +363,11 @@ class Judge {
 
   // What only goes around what other parts go around too, and whose part is not worn on them: a
   // sword's grip.
-  [[nodiscard]] bool IsHeldOnly(std::size_t s) const {
+  [[nodiscard]] bool IsHeldOnly(std::size_t s) {
     const std::size_t part = shell(s).part;
     const auto is_anothers = [&](std::size_t point) {
-      return std::any_of(is_carrier_.begin(), is_carrier_.end(), [&](std::size_t other) {
-        return shell(other).part != part && shell(other).area > shell(s).area &&
-               std::binary_search(carried_[other].begin(), carried_[other].end(), point);
-      });
+      const auto larger = [&](const Carrier& c) { return c.part != part && c.area > shell(s).area; };
+      return std::any_of(largest_carriers_[point].begin(), largest_carriers_[point].end(), larger);
     };
     return std::all_of(carried_[s].begin(), carried_[s].end(), is_anothers) && !IsPartWorn(part);
   }
@@ -429,16 +457,19 @@ class Judge {
 
   // Whether the part as a whole, bags with their straps, lies close to the carriers of the others,
   // or to its own carriers where it is none of the held ones.
-  [[nodiscard]] bool IsPartWorn(std::size_t part) const {
+  [[nodiscard]] bool IsPartWorn(std::size_t part) {
+    is_worn_part_.resize(parts_.size(), 0);
+    if (is_worn_part_[part] == 0) is_worn_part_[part] = LiesClose(part) ? 2 : 1;
+    return is_worn_part_[part] == 2;
+  }
+
+  [[nodiscard]] bool LiesClose(std::size_t part) const {
     std::size_t facets = 0;
-    for (std::size_t s = 0; s < count(); ++s) {
-      if (shell(s).part == part && !IsApart(s)) facets += FacetCount(s);
-    }
+    for (const std::size_t s : shells_of_part_[part]) facets += FacetCount(s);
     const std::size_t step = std::max<std::size_t>(1, facets / kSamplesOfNearness);
     std::size_t near = 0;
     std::size_t all = 0;
-    for (std::size_t s = 0; s < count(); ++s) {
-      if (shell(s).part != part || IsApart(s)) continue;
+    for (const std::size_t s : shells_of_part_[part]) {
       for (std::size_t f = shells_.first_facet[s]; f < shells_.first_facet[s + 1]; f += step) {
         near += IsNearAnother(part, shells_.facets[f].Middle()) ? 1 : 0;
         ++all;
@@ -610,6 +641,8 @@ class Judge {
   std::vector<std::optional<PartKind>> names_;
   std::vector<double> part_area_;
   std::vector<double> largest_of_part_;
+  std::vector<std::vector<std::size_t>> shells_of_part_;  // what hangs together with the body
+  std::vector<char> is_worn_part_;                        // 0: not asked yet, 1: no, 2: yes
   std::optional<InnerPoints> points_;
   double area_ = 0.0;
   double height_ = 0.0;
@@ -618,7 +651,12 @@ class Judge {
   std::vector<char> is_sheet_;
   std::vector<std::uint32_t> group_;
   std::uint32_t main_ = 0;
-  std::vector<std::vector<std::size_t>> carried_;  // the inner points that it goes around
+  struct Carrier {
+    std::size_t part = static_cast<std::size_t>(-1);
+    double area = 0.0;
+  };
+  std::vector<std::array<Carrier, 2>> largest_carriers_;  // by inner point
+  std::vector<std::vector<std::size_t>> carried_;         // the inner points that it goes around
   std::vector<float> around_head_;
   std::vector<float> between_legs_;
   std::set<std::size_t> is_carrier_;

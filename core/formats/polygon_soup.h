@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,10 @@ struct PolygonSoup {
     return face_sizes.empty() ? face_vertices.size() / 3 : face_sizes.size();
   }
 };
+
+// The faces alone of those whose `mark` is `value`; no positions, joints or parts.
+[[nodiscard]] PolygonSoup WithFaces(const PolygonSoup& soup, std::span<const char> mark,
+                                    char value);
 
 }  // namespace capfit::formats
 

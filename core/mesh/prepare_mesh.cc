@@ -74,10 +74,15 @@ std::string PointText(const Eigen::Vector3d& p) {
 class MeshMender {
  public:
   // `positions` stand for the soup's own.
-  MeshMender(const formats::PolygonSoup& soup, const std::vector<Eigen::Vector3d>& positions,
-             const ThreadPool& pool, const FitObserver& observer)
-      : positions_(positions), pool_(pool), observer_(observer) {
-    Triangulate(soup);
+  MeshMender(const formats::PolygonSoup& soup, std::span<const char> is_left_out,
+             const std::vector<Eigen::Vector3d>& positions, const ThreadPool& pool,
+             const FitObserver& observer)
+      : soup_(soup),
+        is_left_out_(is_left_out),
+        positions_(positions),
+        pool_(pool),
+        observer_(observer) {
+    Triangulate();
   }
 
   absl::StatusOr<PreparedMesh> Run() {
@@ -113,8 +118,11 @@ class MeshMender {
     return Refused(ErrorReason::kCancelled, "cancelled while the mesh was mended");
   }
 
-  void Triangulate(const formats::PolygonSoup& soup) {
-    TriangulatedFaces faces = TriangulateFaces(soup, positions_);
+  void Triangulate() {
+    TriangulatedFaces faces =
+        is_left_out_.empty()
+            ? TriangulateFaces(soup_, positions_)
+            : TriangulateFaces(formats::WithFaces(soup_, is_left_out_, 0), positions_);
     surface_.triangles = std::move(faces.triangles);
     degenerate_ = faces.degenerate;
   }
@@ -158,12 +166,14 @@ class MeshMender {
     for (const Triangle& t : surface_.triangles) used[t[0]] = used[t[1]] = used[t[2]] = 1;
     Box box;
     for (std::size_t v = 0; v < used.size(); ++v) {
-      if (used[v] != 0) {
-        box.Add(positions_[v]);
-      } else {
-        ++unused_;
+      if (used[v] != 0) box.Add(positions_[v]);
+    }
+    if (!is_left_out_.empty()) {  // what only the faces left out use is not unused
+      for (const std::uint32_t v : formats::WithFaces(soup_, is_left_out_, 1).face_vertices) {
+        used[v] = 1;
       }
     }
+    unused_ = std::count(used.begin(), used.end(), 0);
     diagonal_ = surface_.triangles.empty() ? 0.0 : box.diagonal();
     if (unused_ > 0) {
       Warn("UNUSED_VERTICES", unused_, absl::StrCat(unused_, " vertices belong to no face"));
@@ -205,7 +215,10 @@ class MeshMender {
                                   main->conflicts, " edges"));
     }
     turned_ = main->turned;
-    if (found.parts.size() > 1) KeepPart(found, main_index, surface_);
+    if (found.parts.size() == 1) return absl::OkStatus();
+    const double all = Area();
+    KeepPart(found, main_index, surface_);
+    left_out_share_ = 1.0 - Area() / all;
     return absl::OkStatus();
   }
 
@@ -353,7 +366,7 @@ class MeshMender {
   PreparedMesh Finish(BodyMesh mesh, const Overlap& overlap) {
     WarnOfDropped();
     WarnOfOverlap(overlap, mesh.volume());
-    return {std::move(mesh), std::move(warnings_)};
+    return {std::move(mesh), std::move(warnings_), left_out_share_};
   }
 
   BodyMesh MeshOfUsed() {
@@ -413,6 +426,8 @@ class MeshMender {
     warnings_.push_back({std::move(code), std::move(message), count});
   }
 
+  const formats::PolygonSoup& soup_;
+  std::span<const char> is_left_out_;
   const std::vector<Eigen::Vector3d>& positions_;
   const ThreadPool& pool_;
   const FitObserver& observer_;
@@ -427,6 +442,7 @@ class MeshMender {
   std::size_t duplicates_ = 0;
   std::size_t welded_ = 0;
   std::size_t turned_ = 0;
+  double left_out_share_ = 0.0;
   std::size_t own_triangles_ = 0;  // before holes were closed; 0: there were none
 };
 
@@ -434,10 +450,12 @@ class MeshMender {
 
 absl::StatusOr<PreparedMesh> PrepareMesh(const formats::PolygonSoup& soup,
                                          const formats::MeshLimits& limits, const ThreadPool& pool,
-                                         const FitObserver& observer) {
+                                         const FitObserver& observer,
+                                         std::span<const char> is_left_out) {
   CAPFIT_RETURN_IF_ERROR(formats::CheckSoup(soup, limits));
   const std::vector<Eigen::Vector3d> decimals = formats::RecoverDecimalsOfFloats(soup.positions);
-  return MeshMender(soup, decimals.empty() ? soup.positions : decimals, pool, observer).Run();
+  const std::vector<Eigen::Vector3d>& positions = decimals.empty() ? soup.positions : decimals;
+  return MeshMender(soup, is_left_out, positions, pool, observer).Run();
 }
 
 }  // namespace capfit::mesh

@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_MESH_PREPARE_MESH_H_
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -18,6 +19,7 @@ namespace capfit::mesh {
 struct PreparedMesh {
   BodyMesh mesh;                  // still in the caller's unit and axes
   std::vector<Warning> warnings;  // every repair, with counts
+  double left_out_share = 0.0;    // of the surface's area: parts that were not kept
 };
 
 // From any arrays to a mesh that keeps the promises of BodyMesh. A mesh that keeps them already
@@ -47,6 +49,8 @@ struct PreparedMesh {
 // left as it is; SURFACE_OVERLAPS tells of it where it encloses more than a thousandth of its
 // volume twice.
 //
+// `is_left_out`: for each face whether it is taken as not there; empty: all are.
+//
 // INVALID_ARGUMENT names the first offender: "mesh.arrays.triangle_indices[17] is 90210, must be
 // below 6890".
 // FAILED_PRECONDITION says why there is no body in it: NO_SURFACE, NO_VOLUME, TWO_BODIES (a second
@@ -54,7 +58,8 @@ struct PreparedMesh {
 // larger than a third of the surface), NOT_MANIFOLD. CANCELLED where the observer says so.
 [[nodiscard]] absl::StatusOr<PreparedMesh> PrepareMesh(
     const formats::PolygonSoup& soup, const formats::MeshLimits& limits = {},
-    const ThreadPool& pool = ThreadPool(1), const FitObserver& observer = NullObserver());
+    const ThreadPool& pool = ThreadPool(1), const FitObserver& observer = NullObserver(),
+    std::span<const char> is_left_out = {});
 
 }  // namespace capfit::mesh
 

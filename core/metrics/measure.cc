@@ -105,41 +105,64 @@ std::vector<SurfaceSample> SampleSurface(const FittedSurface& surface, int count
   return samples;
 }
 
-// Of each mesh vertex of the fitted parts, as far as one solid tells: outside the distance to the
-// union, inside a depth that the union's is not less than.
-std::vector<double> VertexDistances(const FittedSurface& fitted,
+// Of each of the vertices, as far as one solid tells: outside the distance to the union, inside a
+// depth that the union's is not less than.
+std::vector<double> VertexDistances(const std::vector<Eigen::Vector3d>& points_m,
                                     const std::vector<geometry::TaperedCapsule>& solids,
                                     const ThreadPool& pool) {
-  std::vector<Eigen::Vector3d> points_m;
-  points_m.reserve(fitted.vertices.size());
-  for (const std::uint32_t v : fitted.vertices) points_m.push_back(fitted.points_m[v]);
   const tighten::PointGrid grid(points_m);
   const tighten::UnionDistances nearest =
       grid.DistancesTo(solids, -std::numeric_limits<double>::infinity(), pool);
-  std::vector<double> distances(fitted.points_m.size(), 0.0);
+  std::vector<double> distances(points_m.size(), 0.0);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     double distance = nearest.distance_m[i];
     // What sticks out is told to the last digit.
     if (distance > -kGridErrorM) {
       distance = solids[static_cast<std::size_t>(nearest.solid[i])].SignedDistance(grid.point(i));
     }
-    distances[fitted.vertices[grid.order()[i]]] = distance;
+    distances[grid.order()[i]] = distance;
   }
   return distances;
+}
+
+// The same by the mesh's own numbers: 0 for vertices that are not fitted.
+std::vector<double> FittedDistances(const FittedSurface& fitted,
+                                    const std::vector<geometry::TaperedCapsule>& solids,
+                                    const ThreadPool& pool) {
+  std::vector<Eigen::Vector3d> points_m;
+  points_m.reserve(fitted.vertices.size());
+  for (const std::uint32_t v : fitted.vertices) points_m.push_back(fitted.points_m[v]);
+  const std::vector<double> told = VertexDistances(points_m, solids, pool);
+  std::vector<double> distances(fitted.points_m.size(), 0.0);
+  for (std::size_t i = 0; i < told.size(); ++i) distances[fitted.vertices[i]] = told[i];
+  return distances;
+}
+
+void CountVertex(double gap, body::Segment segment, Metrics& metrics) {
+  if (gap <= 0.0) return;
+  const auto count = [gap](auto& its) {
+    its.vertices_out += gap > kOutM ? 1 : 0;
+    its.max_out_m = std::max(its.max_out_m, gap);
+  };
+  count(metrics);
+  if (PartMetrics* const its = PartOf(body::PartOf(segment), metrics)) count(*its);
+}
+
+// Of shells, whose mesh only stands for them, all their own vertices count.
+void PutShellVertices(const body::ShellSurface& shells, const body::PartSelection& parts,
+                      const std::vector<geometry::TaperedCapsule>& solids, const ThreadPool& pool,
+                      Metrics& metrics) {
+  const std::vector<double> distances = VertexDistances(shells.vertices_m, solids, pool);
+  for (std::size_t v = 0; v < distances.size(); ++v) {
+    if (!parts.Includes(body::PartOf(shells.vertex_segments[v]))) continue;
+    CountVertex(distances[v], shells.vertex_segments[v], metrics);
+  }
 }
 
 void PutVertices(const body::Body& body, const FittedSurface& fitted,
                  const std::vector<double>& distances, Metrics& metrics) {
   for (const std::uint32_t vertex : fitted.vertices) {
-    const double gap = distances[vertex];
-    if (gap <= 0.0) continue;
-    const auto count = [gap](auto& its) {
-      its.vertices_out += gap > kOutM ? 1 : 0;
-      its.max_out_m = std::max(its.max_out_m, gap);
-    };
-    count(metrics);
-    const body::Part part = body::PartOf(body.vertex_segments[vertex]);
-    if (PartMetrics* const its = PartOf(part, metrics)) count(*its);
+    CountVertex(distances[vertex], body.vertex_segments[vertex], metrics);
   }
 }
 
@@ -235,8 +258,12 @@ void PutGaps(double diagonal_m, GapSums sums, AnyMetrics& metrics) {
 void PutSurface(const body::Body& body, const FittedSurface& fitted,
                 const std::vector<geometry::TaperedCapsule>& solids, const MeasureOptions& options,
                 const ThreadPool& pool, Metrics& metrics) {
-  const std::vector<double> distances = VertexDistances(fitted, solids, pool);
-  PutVertices(body, fitted, distances, metrics);
+  const std::vector<double> distances = FittedDistances(fitted, solids, pool);
+  if (body.shells) {
+    PutShellVertices(*body.shells, options.parts, solids, pool, metrics);
+  } else {
+    PutVertices(body, fitted, distances, metrics);
+  }
   PartGapSums parts = SumVertices(fitted, distances, pool);
   AddSamples(fitted, distances, solids, options.surface_samples, pool, parts);
   const double diagonal_m = fitted.box.diagonal().norm();
@@ -280,9 +307,10 @@ std::vector<double> SignedGaps(const body::Body& body, const capsule::PrimitiveS
                                const body::PartSelection& parts, const ThreadPool& pool) {
   const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set);
   const BoundaryDistance boundary(solids, kCreaseGridPoints, pool);
-  std::vector<double> gaps = boundary.SignedAt(body.mesh.vertices(), pool);
+  const body::EnclosedSurface surface = body.enclosed();
+  std::vector<double> gaps = boundary.SignedAt(surface.vertices_m, pool);
   for (std::size_t v = 0; v < gaps.size(); ++v) {
-    if (parts.Includes(body::PartOf(body.vertex_segments[v]))) continue;
+    if (parts.Includes(body::PartOf(surface.vertex_segments[v]))) continue;
     gaps[v] = std::numeric_limits<double>::quiet_NaN();
   }
   return gaps;

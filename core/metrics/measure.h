@@ -65,7 +65,7 @@ struct Metrics {
   double mirror_error = 0.0;  // volume of (set xor its mirror image) / volume of the set
   GapStatistics gap;
   double surface_out = 0.0;  // share of the fitted parts' area that is more than 0.1 mm out
-  int vertices_out = 0;      // of the fitted parts, more than 0.1 mm out
+  int vertices_out = 0;      // of body.enclosed() in the fitted parts, more than 0.1 mm out
   double max_out_m = 0.0;    // the worst of all their vertices; 0 when none is out
   // By Part; nothing where the part is not fitted or the body does not have it.
   std::array<std::optional<PartMetrics>, body::kPartCount> parts;
@@ -81,7 +81,7 @@ struct Metrics {
                               const MeasureOptions& options, const ThreadPool& pool,
                               const FitObserver& observer);
 
-// For each vertex of body.mesh the signed distance to the boundary of the set's union in metres: >
+// For each vertex of body.enclosed() the signed distance to the boundary of the set's union in metres: >
 // 0 outside of the set, < 0 where the set covers it. NaN for vertices of parts that are not
 // selected (the set does not stand for them). An empty set gives infinity. About 6 ms on one core
 // for 64k triangles and 64 primitives.

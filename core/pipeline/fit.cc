@@ -216,7 +216,7 @@ class BodyFit {
     result_.metrics.max_gap_m = max_gap_m_;
     if (options_.want_vertex_gaps) {
       result_.vertex_gaps = VertexGaps(
-          body_->mesh, metrics::SignedGaps(*body_, set_, options_.parts, pool_), caller_from_body_);
+          body_->enclosed().vertex_of_source, metrics::SignedGaps(*body_, set_, options_.parts, pool_), caller_from_body_);
     }
     return CheckCancelled(clock_);
   }
@@ -233,7 +233,11 @@ class BodyFit {
     // In the body frame, near the origin: the coordinates do not depend on the frame, digits do.
     std::vector<Eigen::Vector3d> centers_m;
     for (const geometry::Sphere& sphere : set_.spheres) centers_m.push_back(sphere.center_m);
-    result_.weights = skinning::MeanValueWeights(body_->mesh, centers_m, pool_, clock_);
+    std::optional<skinning::Carriers> carriers;
+    if (const std::optional<body::ShellSurface>& shells = body_->shells) {
+      carriers = {shells->vertices_m, shells->nearest_of_mesh, shells->vertex_of_source};
+    }
+    result_.weights = skinning::MeanValueWeights(body_->mesh, centers_m, pool_, clock_, carriers);
     return CheckCancelled(clock_);
   }
 

@@ -61,11 +61,12 @@ std::vector<PolygonResult> PolygonResults(
   return results;
 }
 
-std::vector<float> VertexGaps(const mesh::BodyMesh& mesh, std::span<const double> gaps_m,
+std::vector<float> VertexGaps(std::span<const std::int32_t> vertex_of_source,
+                              std::span<const double> gaps_m,
                               const geometry::Similarity& caller_from_body) {
   std::vector<float> gaps;
-  gaps.reserve(mesh.vertex_of_source().size());
-  for (const std::int32_t vertex : mesh.vertex_of_source()) {
+  gaps.reserve(vertex_of_source.size());
+  for (const std::int32_t vertex : vertex_of_source) {
     gaps.push_back(vertex < 0 ? std::numeric_limits<float>::quiet_NaN()
                               : static_cast<float>(caller_from_body.scale *
                                                    gaps_m[static_cast<std::size_t>(vertex)]));

@@ -27,9 +27,9 @@ namespace capfit::pipeline {
     std::span<const circle::PolygonApproximation> approximations,
     const geometry::Similarity& caller_from_body);
 
-// Values of the mesh's vertices in metres as FitResult::vertex_gaps: by the caller's vertices, in
-// the caller's unit, NaN where nothing is left of a vertex.
-[[nodiscard]] std::vector<float> VertexGaps(const mesh::BodyMesh& mesh,
+// Values of the vertices of body::Body::enclosed() in metres as FitResult::vertex_gaps: by the
+// caller's vertices, in the caller's unit, NaN where nothing is left of a vertex.
+[[nodiscard]] std::vector<float> VertexGaps(std::span<const std::int32_t> vertex_of_source,
                                             std::span<const double> gaps_m,
                                             const geometry::Similarity& caller_from_body);
 

@@ -15,12 +15,16 @@ namespace {
 class SourceMap {
  public:
   explicit SourceMap(const mesh::BodyMesh& mesh)
-      : vertex_of_source_(mesh.vertex_of_source()), share_(mesh.vertices().size(), 0.0) {
+      : SourceMap(mesh.vertex_of_source(), mesh.vertices().size()) {
+    FindHeirs(mesh);
+  }
+
+  SourceMap(std::span<const std::int32_t> vertex_of_source, std::size_t vertices)
+      : vertex_of_source_(vertex_of_source), share_(vertices, 0.0) {
     for (const std::int32_t vertex : vertex_of_source_) {
       if (vertex >= 0) share_[static_cast<std::size_t>(vertex)] += 1.0;
     }
     for (double& share : share_) share = share > 0.0 ? 1.0 / share : 0.0;
-    FindHeirs(mesh);
   }
 
   [[nodiscard]] std::span<const std::int32_t> vertex_of_source() const { return vertex_of_source_; }
@@ -79,7 +83,8 @@ void PutHit(const SurfaceHit& hit, int lane, std::vector<Lanes>& weights) {
 
 // Rows of up to four centres, starting with `first`.
 void FillRows(const mesh::BodyMesh& mesh, const SourceMap& sources,
-              std::span<const Eigen::Vector3d> centers, std::size_t first, DenseWeights& result) {
+              const std::optional<Carriers>& carriers, std::span<const Eigen::Vector3d> centers,
+              std::size_t first, DenseWeights& result) {
   const std::size_t count = std::min<std::size_t>(kLanes, centers.size() - first);
   std::array<Eigen::Vector3d, kLanes> batch;
   for (std::size_t k = 0; k < kLanes; ++k) batch[k] = centers[first + std::min(k, count - 1)];
@@ -88,8 +93,16 @@ void FillRows(const mesh::BodyMesh& mesh, const SourceMap& sources,
   for (int lane = 0; lane < kLanes; ++lane) {
     if (raw.hits[lane]) PutHit(*raw.hits[lane], lane, raw.weights);
   }
-  sources.PassOn(raw.weights);
-  MakeLinearlyPrecise(mesh.vertices(), batch, raw.weights);
+  if (carriers) {
+    std::vector<Lanes> carried(carriers->positions_m.size(), Lanes::Zero());
+    for (std::size_t v = 0; v < raw.weights.size(); ++v) {
+      carried[carriers->of_mesh_vertex[v]] += raw.weights[v];
+    }
+    raw.weights = std::move(carried);
+  } else {
+    sources.PassOn(raw.weights);
+  }
+  MakeLinearlyPrecise(carriers ? carriers->positions_m : mesh.vertices(), batch, raw.weights);
 
   const std::span<const std::int32_t> vertex_of_source = sources.vertex_of_source();
   for (std::size_t k = 0; k < count; ++k) {
@@ -108,16 +121,20 @@ void FillRows(const mesh::BodyMesh& mesh, const SourceMap& sources,
 
 DenseWeights MeanValueWeights(const mesh::BodyMesh& mesh,
                               std::span<const Eigen::Vector3d> centers_m, const ThreadPool& pool,
-                              const FitObserver& observer) {
+                              const FitObserver& observer,
+                              const std::optional<Carriers>& carriers) {
+  const SourceMap sources = carriers
+                                ? SourceMap(carriers->carrier_of_source,
+                                            carriers->positions_m.size())
+                                : SourceMap(mesh);
   DenseWeights result;
   result.sphere_count = centers_m.size();
-  result.vertex_count = mesh.vertex_of_source().size();
+  result.vertex_count = sources.vertex_of_source().size();
   result.weights.assign(result.sphere_count * result.vertex_count, 0.0f);
-  const SourceMap sources(mesh);
   const std::size_t batches = (centers_m.size() + kLanes - 1) / kLanes;
   pool.ForEach(batches, [&](std::size_t batch) {
     if (observer.IsCancelled()) return;
-    FillRows(mesh, sources, centers_m, batch * kLanes, result);
+    FillRows(mesh, sources, carriers, centers_m, batch * kLanes, result);
   });
   return result;
 }

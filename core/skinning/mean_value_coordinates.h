@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +30,14 @@ struct DenseWeights {
   std::span<const float> Row(std::size_t sphere) && = delete;
 };
 
+// Vertices that carry the weights in place of those of the mesh, where that is only a stand-in for
+// the surface that the caller has. Their positions are in the mesh's frame.
+struct Carriers {
+  std::span<const Eigen::Vector3d> positions_m;
+  std::span<const std::uint32_t> of_mesh_vertex;    // the carrier that gets its weight, a near one
+  std::span<const std::int32_t> carrier_of_source;  // as BodyMesh::vertex_of_source
+};
+
 // O(centres * triangles): about 0.6 ms for a centre and 64k triangles; centres in parallel.
 // Finite centres may lie inside, on or outside the surface: on a vertex all weight is that
 // vertex's, on a face or edge the weights are the barycentric ones. Weight of a vertex that no
@@ -35,7 +45,8 @@ struct DenseWeights {
 // on its own centre only, and its bits on nothing else. Cancelled: rows not reached are 0.
 [[nodiscard]] DenseWeights MeanValueWeights(const mesh::BodyMesh& mesh,
                                             std::span<const Eigen::Vector3d> centers_m,
-                                            const ThreadPool& pool, const FitObserver& observer);
+                                            const ThreadPool& pool, const FitObserver& observer,
+                                            const std::optional<Carriers>& carriers = {});
 
 // Centres carried by the deformed vertices: sum of weight * position. `vertices` are the caller's,
 // weights.vertex_count of them, all finite, in any frame and unit: a turn, move or uniform scale of

@@ -8,15 +8,16 @@ namespace capfit::tighten {
 CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts) {
   constexpr std::uint32_t kLeftOut = std::numeric_limits<std::uint32_t>::max();
   CoverTarget target;
-  std::vector<std::uint32_t> new_index(body.mesh.vertices().size(), kLeftOut);
+  const body::EnclosedSurface surface = body.enclosed();
+  std::vector<std::uint32_t> new_index(surface.vertices_m.size(), kLeftOut);
   for (std::size_t v = 0; v < new_index.size(); ++v) {
-    const body::Part part = body::PartOf(body.vertex_segments[v]);
+    const body::Part part = body::PartOf(surface.vertex_segments[v]);
     if (!parts.Includes(part)) continue;
     new_index[v] = static_cast<std::uint32_t>(target.points_m.size());
-    target.points_m.push_back(body.mesh.vertices()[v]);
+    target.points_m.push_back(surface.vertices_m[v]);
     target.point_parts.push_back(part);
   }
-  for (const mesh::Triangle& t : body.mesh.triangles()) {
+  for (const mesh::Triangle& t : surface.triangles) {
     const mesh::Triangle kept = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
     if (kept[0] == kLeftOut || kept[1] == kLeftOut || kept[2] == kLeftOut) continue;
     target.triangles.push_back(kept);
