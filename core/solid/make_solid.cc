@@ -15,6 +15,7 @@
 #include "core/base/chunk_sums.h"
 #include "core/base/status.h"
 #include "core/mesh/surface_sums.h"
+#include "core/solid/bridges.h"
 #include "core/solid/grid_lines.h"
 #include "core/solid/node_grid.h"
 #include "core/solid/occupancy.h"
@@ -36,6 +37,9 @@ constexpr double kMostRows = 20e6;
 constexpr double kBorder = 3.0;
 // Where the first node stands, as a share of a step: off the planes that modelled vertices lie on.
 constexpr double kOffset = 0.381966;
+
+// Gaps between pieces that are bridged, as a share of the diagonal: 4 cm on an adult.
+constexpr double kReach = 0.02;
 
 struct Box {
   Eigen::Vector3d min = Eigen::Vector3d::Constant(1e300);
@@ -115,10 +119,14 @@ class SolidMaker {
       lines[axis] = CastGridLines(points, shells, grid, axis, pool_);
       watch.Lap("cast");
     }
-    NodeSet inside = FindOccupied(grid, lines, normals, pool_);
+    NodeSet inside = FindOccupied(grid, shells, lines, normals, pool_);
     watch.Lap("occupied");
     std::size_t n = MakeWellComposed(grid, pool_, inside);
     watch.Lap("composed");
+    const std::size_t bridged = BridgeRegions(grid, lines, normals, kReach * diagonal, pool_, inside);
+    if (bridged > 0) MakeWellComposed(grid, pool_, inside);
+    if (watch.on) std::fprintf(stderr, "bridged %zu\n", bridged);
+    watch.Lap("bridged");
     std::size_t c = FillCavities(grid, inside);
     watch.Lap("cavities");
     const std::vector<std::size_t> regions = KeepLargestRegion(grid, inside);

@@ -15,11 +15,17 @@ constexpr double kCrackShare = 0.75;
 // part that the line grazes.
 constexpr float kSteep = 0.5f;
 
+// A shell that is thinner than this in the mean, in steps, is a plate or a cloth; and how wide the
+// space under it may be. A hand is 15 mm thick in the mean, cells have 4 to 6 mm.
+constexpr double kSheetThickness = 1.6;
+constexpr double kSheetGap = 4.0;
+
 // Goes along the lines of one axis.
 class LineReader {
  public:
-  LineReader(const NodeGrid& grid, int axis, std::span<const Eigen::Vector3f> normals)
-      : grid_(grid), axis_(axis), normals_(normals) {}
+  LineReader(const NodeGrid& grid, int axis, const Shells& shells,
+             std::span<const Eigen::Vector3f> normals)
+      : grid_(grid), axis_(axis), shells_(shells), normals_(normals) {}
 
   // fill(first, end): nodes along the axis inside of the line's intervals.
   template <typename Fill>
@@ -33,25 +39,32 @@ class LineReader {
   template <typename Mark>
   void Between(std::span<const Passage> line, const Mark& mark) const {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      const double width = line[i + 1].along - line[i].along;
-      if (width >= grid_.step || !IsSteep(line[i], line[i + 1])) continue;
-      const std::uint32_t first = FirstAt(line[i].along);
-      const std::uint32_t end = FirstAt(line[i + 1].along);
-      if (i % 2 == 0 && first == end) mark(NearestTo(0.5 * (line[i].along + line[i + 1].along)));
-      if (i % 2 == 1 && first < end && width < kCrackShare * grid_.step) mark(first);
+      const Passage& a = line[i];
+      const Passage& b = line[i + 1];
+      const double steps = (b.along - a.along) / grid_.step;
+      if (steps >= (i % 2 == 0 ? 1.0 : kSheetGap)) continue;
+      if (!AreOpposed(normals_[a.triangle], normals_[b.triangle], axis_, kSteep)) continue;
+      const std::uint32_t first = FirstAt(a.along);
+      const std::uint32_t end = FirstAt(b.along);
+      if (i % 2 == 0) {
+        if (first == end) mark(NearestTo(0.5 * (a.along + b.along)));
+      } else if (steps < kCrackShare || IsUnderSheet(a, b)) {
+        for (std::uint32_t node = first; node < end; ++node) mark(node);
+      }
     }
   }
 
  private:
-  [[nodiscard]] bool IsSteep(const Passage& a, const Passage& b) const {
-    const float one = normals_[a.triangle][axis_];
-    const float other = normals_[b.triangle][axis_];
-    return std::min(std::abs(one), std::abs(other)) > kSteep && one * other < 0.0f;
+  [[nodiscard]] bool IsUnderSheet(const Passage& a, const Passage& b) const {
+    const std::uint32_t one = shells_.shell_of_triangle[a.triangle];
+    const std::uint32_t other = shells_.shell_of_triangle[b.triangle];
+    return one != other && (IsSheet(one) || IsSheet(other));
   }
-  // The first node at or after a place.
+  [[nodiscard]] bool IsSheet(std::uint32_t shell) const {
+    return 2.0 * shells_.volumes[shell] < kSheetThickness * grid_.step * shells_.areas[shell];
+  }
   [[nodiscard]] std::uint32_t FirstAt(double along) const {
-    const double node = std::ceil((along - grid_.low[axis_]) / grid_.step);
-    return static_cast<std::uint32_t>(std::clamp(node, 1.0, grid_.size[axis_] - 1.0));
+    return FirstNodeAt(grid_, axis_, along);
   }
   [[nodiscard]] std::uint32_t NearestTo(double along) const {
     const double node = std::round((along - grid_.low[axis_]) / grid_.step);
@@ -60,6 +73,7 @@ class LineReader {
 
   const NodeGrid& grid_;
   int axis_;
+  const Shells& shells_;
   std::span<const Eigen::Vector3f> normals_;
 };
 
@@ -74,25 +88,18 @@ void FillColumn(std::uint64_t* words, std::uint32_t first, std::uint32_t end) {
   }
 }
 
-GridNode NodeOn(int axis, std::size_t row, std::size_t column, std::uint32_t along) {
-  const auto r = static_cast<std::uint32_t>(row);
-  const auto c = static_cast<std::uint32_t>(column);
-  if (axis == 0) return {along, c, r};
-  if (axis == 1) return {r, along, c};
-  return {c, r, along};
-}
-
 }  // namespace
 
-NodeSet FindOccupied(const NodeGrid& grid, const std::array<GridLines, 3>& lines,
+NodeSet FindOccupied(const NodeGrid& grid, const Shells& shells,
+                     const std::array<GridLines, 3>& lines,
                      std::span<const Eigen::Vector3f> normals, const ThreadPool& pool) {
   NodeSet inside(grid);
   std::array<std::vector<std::vector<GridNode>>, 3> marks;
   for (int axis = 0; axis < 3; ++axis) {
-    const LineReader reader(grid, axis, normals);
+    const LineReader reader(grid, axis, shells, normals);
     marks[axis].resize(lines[axis].rows.size());
     pool.ForEach(lines[axis].rows.size(), [&](std::size_t row) {
-      const std::size_t columns = lines[axis].rows[row].begin.size() - 1;
+      const std::size_t columns = lines[axis].columns();
       for (std::size_t column = 0; column < columns; ++column) {
         const std::span<const Passage> line = lines[axis].Line(row, column);
         if (line.empty()) continue;
@@ -103,7 +110,7 @@ NodeSet FindOccupied(const NodeGrid& grid, const std::array<GridLines, 3>& lines
           });
         }
         reader.Between(line, [&](std::uint32_t along) {
-          marks[axis][row].push_back(NodeOn(axis, row, column, along));
+          marks[axis][row].push_back(NodeOnLine(axis, row, column, along));
         });
       }
     });

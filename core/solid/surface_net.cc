@@ -20,8 +20,8 @@ constexpr float kHold = 0.03f;
 constexpr float kMargin = 0.04f;
 
 // Cells are taken together where all their crossings' planes pass this near to the common vertex, in
-// steps: 0.2 mm in cells of 5 mm.
-constexpr float kFlat = 0.05f;
+// steps: 1 mm in cells of 5 mm, and a tenth of that in the mean.
+constexpr float kFlat = 0.2f;
 
 // Where an edge between two nodes is crossed; t < 0: nothing known.
 struct EdgePoint {
@@ -112,7 +112,7 @@ class NetBuilder {
     for (int axis = 0; axis < 3; ++axis) {
       points_[axis].resize(edge_numbers_[axis].count());
       pool_.ForEach(lines[axis].rows.size(), [&](std::size_t row) {
-        const std::size_t columns = lines[axis].rows[row].begin.size() - 1;
+        const std::size_t columns = lines[axis].columns();
         for (std::size_t column = 0; column < columns; ++column) {
           TakeLine(axis, row, column, lines[axis].Line(row, column), normals);
         }
