@@ -35,9 +35,10 @@ class LineReader {
     }
   }
 
-  // mark(node): sheets and cracks of the line that lie between nodes.
-  template <typename Mark>
-  void Between(std::span<const Passage> line, const Mark& mark) const {
+  // crack(node): nodes of the line in cracks and under sheets; sheet(node): the line passes a whole
+  // sheet between the node and the one before it.
+  template <typename Crack, typename Sheet>
+  void Between(std::span<const Passage> line, const Crack& crack, const Sheet& sheet) const {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       const Passage& a = line[i];
       const Passage& b = line[i + 1];
@@ -47,9 +48,9 @@ class LineReader {
       const std::uint32_t first = FirstAt(a.along);
       const std::uint32_t end = FirstAt(b.along);
       if (i % 2 == 0) {
-        if (first == end) mark(NearestTo(0.5 * (a.along + b.along)));
+        if (first == end) sheet(first);
       } else if (steps < kCrackShare || IsUnderSheet(a, b)) {
-        for (std::uint32_t node = first; node < end; ++node) mark(node);
+        for (std::uint32_t node = first; node < end; ++node) crack(node);
       }
     }
   }
@@ -65,10 +66,6 @@ class LineReader {
   }
   [[nodiscard]] std::uint32_t FirstAt(double along) const {
     return FirstNodeAt(grid_, axis_, along);
-  }
-  [[nodiscard]] std::uint32_t NearestTo(double along) const {
-    const double node = std::round((along - grid_.low[axis_]) / grid_.step);
-    return static_cast<std::uint32_t>(std::clamp(node, 1.0, grid_.size[axis_] - 2.0));
   }
 
   const NodeGrid& grid_;
@@ -88,19 +85,46 @@ void FillColumn(std::uint64_t* words, std::uint32_t first, std::uint32_t end) {
   }
 }
 
+// What lines tell of the space between their nodes.
+struct Marks {
+  std::vector<GridNode> cracks;  // nodes to fill
+  std::vector<GridNode> sheets;  // there is one between each of these and the node before it
+};
+
+// The node before on the axis.
+GridNode Before(GridNode node, int axis) {
+  --(axis == 0 ? node.u : axis == 1 ? node.v : node.w);
+  return node;
+}
+
+// Gives each sheet a node, unless one beside it is inside already.
+void AddSheets(const std::array<std::vector<Marks>, 3>& marks, NodeSet& inside) {
+  std::vector<GridNode> added;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const Marks& row : marks[axis]) {
+      for (const GridNode& node : row.sheets) {
+        const GridNode before = Before(node, axis);
+        if (!inside.Has(node.u, node.v, node.w) && !inside.Has(before.u, before.v, before.w)) {
+          added.push_back(before);
+        }
+      }
+    }
+  }
+  for (const GridNode& node : added) inside.Add(node.u, node.v, node.w);
+}
+
 }  // namespace
 
 NodeSet FindOccupied(const NodeGrid& grid, const Shells& shells,
                      const std::array<GridLines, 3>& lines,
                      std::span<const Eigen::Vector3f> normals, const ThreadPool& pool) {
   NodeSet inside(grid);
-  std::array<std::vector<std::vector<GridNode>>, 3> marks;
+  std::array<std::vector<Marks>, 3> marks;
   for (int axis = 0; axis < 3; ++axis) {
     const LineReader reader(grid, axis, shells, normals);
     marks[axis].resize(lines[axis].rows.size());
     pool.ForEach(lines[axis].rows.size(), [&](std::size_t row) {
-      const std::size_t columns = lines[axis].columns();
-      for (std::size_t column = 0; column < columns; ++column) {
+      for (std::size_t column = 0; column < lines[axis].columns(); ++column) {
         const std::span<const Passage> line = lines[axis].Line(row, column);
         if (line.empty()) continue;
         if (axis == 0) {
@@ -109,17 +133,22 @@ NodeSet FindOccupied(const NodeGrid& grid, const Shells& shells,
             FillColumn(words, first, end);
           });
         }
-        reader.Between(line, [&](std::uint32_t along) {
-          marks[axis][row].push_back(NodeOnLine(axis, row, column, along));
-        });
+        const auto add_to = [&](std::vector<GridNode>& nodes) {
+          return [&nodes, axis, row, column](std::uint32_t along) {
+            nodes.push_back(NodeOnLine(axis, row, column, along));
+          };
+        };
+        Marks& found = marks[axis][row];
+        reader.Between(line, add_to(found.cracks), add_to(found.sheets));
       }
     });
   }
   for (const auto& of_axis : marks) {
-    for (const auto& of_row : of_axis) {
-      for (const GridNode& node : of_row) inside.Add(node.u, node.v, node.w);
+    for (const Marks& row : of_axis) {
+      for (const GridNode& node : row.cracks) inside.Add(node.u, node.v, node.w);
     }
   }
+  AddSheets(marks, inside);
   return inside;
 }
 
