@@ -13,8 +13,6 @@ namespace {
 
 // Surfaces face each other where a line meets both at least this steeply (as cosine).
 constexpr float kFacing = 0.3f;
-// Smaller regions, in nodes, are crumbs that nobody misses.
-constexpr std::size_t kCrumb = 32;
 // How much wider than its narrowest place a gap is filled: by half, and these steps.
 constexpr double kWider = 1.5;
 constexpr double kWiderSteps = 2.0;
@@ -44,7 +42,7 @@ class GapFinder {
 
   [[nodiscard]] bool IsAnyApart() const {
     return std::count_if(sizes_.begin(), sizes_.end(),
-                         [](std::size_t size) { return size >= kCrumb; }) > 1;
+                         [](std::size_t size) { return size >= kCrumbNodes; }) > 1;
   }
 
   [[nodiscard]] std::vector<Gap> GapsOfRow(const GridLines& lines, int axis,
@@ -75,7 +73,7 @@ class GapFinder {
     const std::uint32_t b = RegionAt(gap, gap.end);
     if (a == b || a == NodeRegions::kNoRegion || b == NodeRegions::kNoRegion) return false;
     gap.regions = std::minmax(a, b);
-    return sizes_[a] >= kCrumb && sizes_[b] >= kCrumb;
+    return sizes_[a] >= kCrumbNodes && sizes_[b] >= kCrumbNodes;
   }
   [[nodiscard]] std::uint32_t RegionAt(const Gap& gap, std::uint32_t along) const {
     return regions_.RegionAt(NodeOnLine(gap.axis, gap.row, gap.column, along));

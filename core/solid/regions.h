@@ -10,6 +10,9 @@
 
 namespace capfit::solid {
 
+// Regions of fewer nodes are crumbs that nobody misses.
+inline constexpr std::size_t kCrumbNodes = 32;
+
 // The regions of a set, or of the nodes that it leaves out, as runs along the columns.
 class NodeRegions {
  public:

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <utility>
 
 #include "core/base/chunk_sums.h"
@@ -26,6 +25,10 @@ constexpr float kFlat = 0.2f;
 // How far beyond the node inside the surface is where no shell passes the edge, in steps: little, as
 // such nodes were added to what the shells enclose.
 constexpr float kUnknown = 0.2f;
+
+// Where blocks taken together meet in an edge of more than two triangles, which none of the bodies
+// at hand does, they are taken apart again; a round or two do.
+constexpr int kMostRounds = 8;
 
 // The 27 nodes of a block as bits u + 4 * (v + 4 * w), and its corners.
 constexpr std::uint64_t kNodes = 0x0000'0777'0777'0777u;
@@ -433,19 +436,18 @@ NetSurface ExtractSurface(const NodeGrid& grid, const NodeSet& set,
   NetBuilder builder(grid, set, pool);
   builder.TakeCrossings(lines, normals);
   std::vector<std::uint32_t> apart;
-  NetSurface net;
-  while (true) {
+  for (int round = 0;; ++round) {
     builder.MergeFlatBlocks(apart);
-    net = builder.Build();
-    const mesh::EdgeMates mates = mesh::FindEdgeMates(net.triangles, net.vertices.size(), pool);
+    NetSurface net = builder.Build();
+    mesh::EdgeMates mates = mesh::FindEdgeMates(net.triangles, net.vertices.size(), pool);
     if (mates.IsClosedAndOriented()) {
-      net.mates = mates.mate;
+      net.mates = std::move(mates.mate);
       return net;
     }
+    if (round == kMostRounds) return net;
     for (const mesh::HalfEdge h : mates.crowded) {
       for (const std::uint32_t v : net.triangles[h / 3]) apart.push_back(net.cells[v]);
     }
-    for (const mesh::HalfEdge h : mates.crowded) std::fprintf(stderr, "crowded %u\n", h);
   }
 }
 
