@@ -8,85 +8,7 @@
 namespace capfit::solid {
 namespace {
 
-// Nodes [first, end) of a column.
-struct Run {
-  std::uint32_t first = 0;
-  std::uint32_t end = 0;
-};
-
-// The runs of set (or clear) nodes of all columns, joined to regions.
-class RunRegions {
- public:
-  RunRegions(const NodeGrid& grid, const NodeSet& set, bool of_clear) : grid_(grid) {
-    begin_.push_back(0);
-    for (std::size_t column = 0; column < grid.columns(); ++column) {
-      AddRuns(set.words().data() + column * grid.words_per_column(), of_clear);
-      begin_.push_back(static_cast<std::uint32_t>(runs_.size()));
-    }
-    parent_.resize(runs_.size());
-    for (std::uint32_t r = 0; r < parent_.size(); ++r) parent_[r] = r;
-    for (std::size_t w = 0; w < grid.size[2]; ++w) {
-      for (std::size_t v = 0; v < grid.size[1]; ++v) {
-        const std::size_t column = w * grid.size[1] + v;
-        if (v + 1 < grid.size[1]) Join(column, column + 1);
-        if (w + 1 < grid.size[2]) Join(column, column + grid.size[1]);
-      }
-    }
-  }
-
-  [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
-  [[nodiscard]] std::uint32_t RegionOf(std::uint32_t run) {
-    while (parent_[run] != run) run = parent_[run] = parent_[parent_[run]];
-    return run;
-  }
-  // visit(column, run) in the order of the columns.
-  template <typename Visit>
-  void ForEach(const Visit& visit) {
-    for (std::size_t column = 0; column + 1 < begin_.size(); ++column) {
-      for (std::uint32_t r = begin_[column]; r < begin_[column + 1]; ++r) visit(column, r);
-    }
-  }
-
- private:
-  void AddRuns(const std::uint64_t* words, bool of_clear) {
-    bool is_open = false;
-    for (std::size_t k = 0; k < grid_.words_per_column(); ++k) {
-      const std::uint64_t word = of_clear ? ~words[k] : words[k];
-      const std::uint64_t before = word << 1 | (is_open ? 1u : 0u);
-      ForEachBit(word ^ before, [&](unsigned bit) {
-        const auto at = static_cast<std::uint32_t>(64 * k + bit);
-        if (is_open) {
-          runs_.back().end = at;
-        } else {
-          runs_.push_back({at, at});
-        }
-        is_open = !is_open;
-      });
-    }
-    if (is_open) runs_.back().end = grid_.size[0];
-  }
-
-  // Both lists are in order.
-  void Join(std::size_t one, std::size_t other) {
-    std::uint32_t a = begin_[one];
-    std::uint32_t b = begin_[other];
-    while (a < begin_[one + 1] && b < begin_[other + 1]) {
-      if (std::max(runs_[a].first, runs_[b].first) < std::min(runs_[a].end, runs_[b].end)) {
-        const std::uint32_t ra = RegionOf(a);
-        const std::uint32_t rb = RegionOf(b);
-        parent_[std::max(ra, rb)] = std::min(ra, rb);
-      }
-      ++(runs_[a].end < runs_[b].end ? a : b);
-    }
-  }
-
-  const NodeGrid& grid_;
-  std::vector<Run> runs_;
-  std::vector<std::uint32_t> begin_;  // by column
-  std::vector<std::uint32_t> parent_;
-};
-
-void SetRun(const NodeGrid& grid, std::size_t column, const Run& run, bool value, NodeSet& set) {
+void SetRun(const NodeGrid& grid, std::size_t column, const NodeRegions::Run& run, bool value, NodeSet& set) {
   std::uint64_t* const words = set.words().data() + column * grid.words_per_column();
   for (std::uint32_t first = run.first; first < run.end;) {
     const std::uint32_t stop = std::min(run.end, (first / 64 + 1) * 64);
@@ -103,8 +25,80 @@ void SetRun(const NodeGrid& grid, std::size_t column, const Run& run, bool value
 
 }  // namespace
 
+NodeRegions::NodeRegions(const NodeGrid& grid, const NodeSet& set, bool of_clear) : grid_(grid) {
+  begin_.push_back(0);
+  for (std::size_t column = 0; column < grid.columns(); ++column) {
+    AddRuns(set.words().data() + column * grid.words_per_column(), of_clear);
+    begin_.push_back(static_cast<std::uint32_t>(runs_.size()));
+  }
+  parent_.resize(runs_.size());
+  for (std::uint32_t r = 0; r < parent_.size(); ++r) parent_[r] = r;
+  for (std::size_t w = 0; w < grid.size[2]; ++w) {
+    for (std::size_t v = 0; v < grid.size[1]; ++v) {
+      const std::size_t column = w * grid.size[1] + v;
+      if (v + 1 < grid.size[1]) Join(column, column + 1);
+      if (w + 1 < grid.size[2]) Join(column, column + grid.size[1]);
+    }
+  }
+  for (std::uint32_t& parent : parent_) parent = parent_[parent];  // parents come first
+}
+
+std::uint32_t NodeRegions::RegionAt(const GridNode& node) const {
+  const std::size_t column = std::size_t{node.w} * grid_.size[1] + node.v;
+  const auto first = runs_.begin() + begin_[column];
+  const auto last = runs_.begin() + begin_[column + 1];
+  const auto run = std::partition_point(first, last, [&](const Run& r) { return r.end <= node.u; });
+  if (run == last || run->first > node.u) return kNoRegion;
+  return RegionOf(static_cast<std::uint32_t>(run - runs_.begin()));
+}
+
+std::vector<std::size_t> NodeRegions::Sizes() const {
+  std::vector<std::size_t> sizes(runs_.size(), 0);
+  for (std::uint32_t run = 0; run < runs_.size(); ++run) {
+    sizes[RegionOf(run)] += runs_[run].end - runs_[run].first;
+  }
+  return sizes;
+}
+
+void NodeRegions::AddRuns(const std::uint64_t* words, bool of_clear) {
+  bool is_open = false;
+  for (std::size_t k = 0; k < grid_.words_per_column(); ++k) {
+    const std::uint64_t word = of_clear ? ~words[k] : words[k];
+    const std::uint64_t before = word << 1 | (is_open ? 1u : 0u);
+    ForEachBit(word ^ before, [&](unsigned bit) {
+      const auto at = static_cast<std::uint32_t>(64 * k + bit);
+      if (is_open) {
+        runs_.back().end = at;
+      } else {
+        runs_.push_back({at, at});
+      }
+      is_open = !is_open;
+    });
+  }
+  if (is_open) runs_.back().end = grid_.size[0];
+}
+
+// Both lists are in order.
+void NodeRegions::Join(std::size_t one, std::size_t other) {
+  std::uint32_t a = begin_[one];
+  std::uint32_t b = begin_[other];
+  while (a < begin_[one + 1] && b < begin_[other + 1]) {
+    if (std::max(runs_[a].first, runs_[b].first) < std::min(runs_[a].end, runs_[b].end)) {
+      const std::uint32_t ra = Root(a);
+      const std::uint32_t rb = Root(b);
+      parent_[std::max(ra, rb)] = std::min(ra, rb);
+    }
+    ++(runs_[a].end < runs_[b].end ? a : b);
+  }
+}
+
+std::uint32_t NodeRegions::Root(std::uint32_t run) {
+  while (parent_[run] != run) run = parent_[run] = parent_[parent_[run]];
+  return run;
+}
+
 std::size_t FillCavities(const NodeGrid& grid, NodeSet& set) {
-  RunRegions clear(grid, set, true);
+  NodeRegions clear(grid, set, true);
   const std::uint32_t outside = clear.RegionOf(0);  // the first column is clear
   std::size_t filled = 0;
   clear.ForEach([&](std::size_t column, std::uint32_t run) {
@@ -116,11 +110,8 @@ std::size_t FillCavities(const NodeGrid& grid, NodeSet& set) {
 }
 
 std::vector<std::size_t> KeepLargestRegion(const NodeGrid& grid, NodeSet& set) {
-  RunRegions regions(grid, set, false);
-  std::vector<std::size_t> size(regions.runs().size(), 0);
-  regions.ForEach([&](std::size_t, std::uint32_t run) {
-    size[regions.RegionOf(run)] += regions.runs()[run].end - regions.runs()[run].first;
-  });
+  NodeRegions regions(grid, set, false);
+  std::vector<std::size_t> size = regions.Sizes();
   const auto largest = static_cast<std::uint32_t>(
       std::max_element(size.begin(), size.end()) - size.begin());
   regions.ForEach([&](std::size_t column, std::uint32_t run) {

@@ -40,6 +40,7 @@ class ShellFinder {
       for (const mesh::OpenLoop& loop : *loops) Close(surface, loop);
     }
     shells_.volumes.assign(parts.parts.size(), 0.0);
+    shells_.areas.assign(parts.parts.size(), 0.0);
     TurnOutward();
   }
 
@@ -102,7 +103,9 @@ class ShellFinder {
       const std::uint32_t shell = shells_.shell_of_triangle[t];
       if (origin[shell] == 0xFFFFFFFFu) origin[shell] = corners[0];
       const Eigen::Vector3d a = positions_[corners[0]] - positions_[origin[shell]];
-      shells_.volumes[shell] += a.dot(mesh::AreaVector(positions_, corners)) / 3.0;
+      const Eigen::Vector3d area = mesh::AreaVector(positions_, corners);
+      shells_.volumes[shell] += a.dot(area) / 3.0;
+      shells_.areas[shell] += area.norm();
     }
     for (std::size_t t = 0; t < shells_.triangles.size(); ++t) {
       if (shells_.volumes[shells_.shell_of_triangle[t]] >= 0.0) continue;

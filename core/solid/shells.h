@@ -30,6 +30,7 @@ struct Shells {
   std::vector<mesh::Triangle> triangles;
   std::vector<std::uint32_t> shell_of_triangle;
   std::vector<double> volumes;  // of each shell, >= 0
+  std::vector<double> areas;    // of each shell as closed
   std::vector<Rim> rims;
   double area = 0.0;  // of all triangles but those across holes
 };

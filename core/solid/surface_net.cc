@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <utility>
 
 #include "core/base/chunk_sums.h"
@@ -20,8 +19,20 @@ constexpr float kHold = 0.03f;
 constexpr float kMargin = 0.04f;
 
 // Cells are taken together where all their crossings' planes pass this near to the common vertex, in
-// steps: 0.2 mm in cells of 5 mm.
-constexpr float kFlat = 0.05f;
+// steps: 1 mm in cells of 5 mm, and a tenth of that in the mean.
+constexpr float kFlat = 0.2f;
+
+// How far beyond the node inside the surface is where no shell passes the edge, in steps: little, as
+// such nodes were added to what the shells enclose.
+constexpr float kUnknown = 0.2f;
+
+// Where blocks taken together meet in an edge of more than two triangles, which none of the bodies
+// at hand does, they are taken apart again; a round or two do.
+constexpr int kMostRounds = 8;
+
+// The 27 nodes of a block as bits u + 4 * (v + 4 * w), and its corners.
+constexpr std::uint64_t kNodes = 0x0000'0777'0777'0777u;
+constexpr std::uint64_t kCorners = 0x0000'0505'0000'0505u;
 
 // Where an edge between two nodes is crossed; t < 0: nothing known.
 struct EdgePoint {
@@ -112,7 +123,7 @@ class NetBuilder {
     for (int axis = 0; axis < 3; ++axis) {
       points_[axis].resize(edge_numbers_[axis].count());
       pool_.ForEach(lines[axis].rows.size(), [&](std::size_t row) {
-        const std::size_t columns = lines[axis].rows[row].begin.size() - 1;
+        const std::size_t columns = lines[axis].columns();
         for (std::size_t column = 0; column < columns; ++column) {
           TakeLine(axis, row, column, lines[axis].Line(row, column), normals);
         }
@@ -228,7 +239,8 @@ class NetBuilder {
         const EdgePoint& point = points_[axis][edge_numbers_[axis].Of(i, word, u % 64)];
         Eigen::Vector3f place(static_cast<float>(at[0]), static_cast<float>(at[1]),
                               static_cast<float>(at[2]));
-        place[axis] = point.t < 0.0f ? 0.5f : point.t;
+        const bool is_first_inside = set_.Has(u, cell.v + at[1], cell.w + at[2]);
+        place[axis] = point.t >= 0.0f ? point.t : is_first_inside ? kUnknown : 1.0f - kUnknown;
         visit(place, point.normal);
       }
     }
@@ -317,33 +329,37 @@ class NetBuilder {
   // Whether the boundary passes the block's 27 nodes in a single sheet that its eight corners tell
   // of alone: every node between corners is as one of them.
   [[nodiscard]] bool IsSimple(const GridNode& low) const {
-    std::array<std::array<std::array<bool, 3>, 3>, 3> in;  // w, v, u
+    // Bit u + 4 * (v + 4 * w).
+    std::uint64_t in = 0;
     for (std::uint32_t w = 0; w < 3; ++w) {
       for (std::uint32_t v = 0; v < 3; ++v) {
-        for (std::uint32_t u = 0; u < 3; ++u) {
-          in[w][v][u] = set_.Has(low.u + u, low.v + v, low.w + w);
-        }
+        const std::size_t i = set_.WordOf(low.u, low.v + v, low.w + w);
+        std::uint64_t three = set_.words()[i] >> (low.u % 64);
+        if (low.u % 64 == 62) three |= set_.words()[i + 1] << 2;
+        in |= (three & 7u) << (4 * (v + 4 * w));
       }
     }
     unsigned corners = 0;
-    for (unsigned c = 0; c < 8; ++c) corners |= (in[c / 4 * 2][c / 2 % 2 * 2][c % 2 * 2] ? 1u : 0u) << c;
-    if (!IsOneSheet(corners)) return false;
-    for (std::uint32_t w = 0; w < 3; ++w) {
-      for (std::uint32_t v = 0; v < 3; ++v) {
-        for (std::uint32_t u = 0; u < 3; ++u) {
-          bool is_like_one = false;
-          for (const std::uint32_t cw : {w & 2u, w + (w & 1u)}) {
-            for (const std::uint32_t cv : {v & 2u, v + (v & 1u)}) {
-              for (const std::uint32_t cu : {u & 2u, u + (u & 1u)}) {
-                is_like_one = is_like_one || in[cw][cv][cu] == in[w][v][u];
-              }
-            }
-          }
-          if (!is_like_one) return false;
-        }
-      }
+    for (unsigned c = 0; c < 8; ++c) corners |= (in >> CornerBit(c) & 1u) << c;
+    return IsOneSheet(corners) && IsAsItsEnds(in);
+  }
+
+  // Bit of corner 4 * w + 2 * v + u among the 27 nodes.
+  [[nodiscard]] static unsigned CornerBit(unsigned c) {
+    return 2 * (c % 2) + 8 * (c / 2 % 2) + 32 * (c / 4);
+  }
+
+  // Whether every node between corners of the block is as one of them. A node is written as two
+  // bits an axis, so the middle of an axis is 1 and its ends 0 and 2.
+  [[nodiscard]] static bool IsAsItsEnds(std::uint64_t in) {
+    // Spread the corners: what is set, or clear, at both ends of an axis must be so between them.
+    std::uint64_t any = in & kCorners;
+    std::uint64_t all = in & kCorners;
+    for (const unsigned shift : {1u, 4u, 16u}) {
+      any |= any << shift | any >> shift;
+      all |= all << shift & all >> shift;
     }
-    return true;
+    return (in & kNodes & ~any) == 0 && (~in & kNodes & all) == 0;
   }
 
   [[nodiscard]] Eigen::Vector3d ToCaller(const GridNode& corner, const Eigen::Vector3f& at) const {
@@ -420,19 +436,18 @@ NetSurface ExtractSurface(const NodeGrid& grid, const NodeSet& set,
   NetBuilder builder(grid, set, pool);
   builder.TakeCrossings(lines, normals);
   std::vector<std::uint32_t> apart;
-  NetSurface net;
-  while (true) {
+  for (int round = 0;; ++round) {
     builder.MergeFlatBlocks(apart);
-    net = builder.Build();
-    const mesh::EdgeMates mates = mesh::FindEdgeMates(net.triangles, net.vertices.size(), pool);
+    NetSurface net = builder.Build();
+    mesh::EdgeMates mates = mesh::FindEdgeMates(net.triangles, net.vertices.size(), pool);
     if (mates.IsClosedAndOriented()) {
-      net.mates = mates.mate;
+      net.mates = std::move(mates.mate);
       return net;
     }
+    if (round == kMostRounds) return net;
     for (const mesh::HalfEdge h : mates.crowded) {
       for (const std::uint32_t v : net.triangles[h / 3]) apart.push_back(net.cells[v]);
     }
-    for (const mesh::HalfEdge h : mates.crowded) std::fprintf(stderr, "crowded %u\n", h);
   }
 }
 

@@ -17,7 +17,7 @@ namespace capfit::solid {
 struct NetSurface {
   std::vector<Eigen::Vector3d> vertices;  // in the caller's frame
   std::vector<mesh::Triangle> triangles;  // outward
-  std::vector<mesh::HalfEdge> mates;      // of the triangles' half-edges
+  std::vector<mesh::HalfEdge> mates;      // of the half-edges; empty: not closed after all
   std::vector<std::uint32_t> cells;       // of each vertex
 };
 
@@ -25,7 +25,7 @@ struct NetSurface {
 // all planes in which the shells' triangles cross the cell's edges; two triangles for each edge
 // between a node inside and one outside. Closed and consistently oriented, one sheet in each cell.
 // Then cells are taken together by eights where the surface is flat, so that the number of
-// triangles falls to about a third and hands, faces and hems keep theirs. O(words + cells).
+// triangles falls to a third or so and hands, faces and hems keep theirs. O(words + cells).
 //
 // Gibson, Constrained elastic surface nets, 1998; Ju et al., Dual contouring of Hermite data, 2002.
 [[nodiscard]] NetSurface ExtractSurface(const NodeGrid& grid, const NodeSet& set,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace capfit::solid {
@@ -12,7 +13,7 @@ class DiagonalFinder {
  public:
   DiagonalFinder(const NodeGrid& grid, const NodeSet& set) : grid_(grid), set_(set) {}
 
-  // What to add so that the cells between columns w and w + 1 have one diagonal less.
+  // What to add so that there are fewer diagonals between columns w and w + 1.
   [[nodiscard]] std::vector<GridNode> Look(std::size_t w) const {
     std::vector<GridNode> found;
     for (std::size_t v = 0; v + 1 < grid_.size[1]; ++v) {
@@ -23,7 +24,18 @@ class DiagonalFinder {
     return found;
   }
 
+  // The same for the cells around one node.
+  void LookAround(const GridNode& node, std::vector<GridNode>& found) const {
+    for (const std::size_t w : {node.w - 1, node.w}) {
+      for (const std::size_t v : {node.v - 1, node.v}) {
+        LookAt({(node.u - 1) / 64, v, w}, found);
+        if (node.u % 64 == 0) LookAt({node.u / 64, v, w}, found);
+      }
+    }
+  }
+
  private:
+  // Of a word of cells.
   struct Place {
     std::size_t k, v, w;
   };
@@ -103,19 +115,20 @@ class DiagonalFinder {
 }  // namespace
 
 std::size_t MakeWellComposed(const NodeGrid& grid, const ThreadPool& pool, NodeSet& set) {
+  const DiagonalFinder finder(grid, set);
+  std::vector<std::vector<GridNode>> by_column(grid.size[2]);
+  pool.ForEach(grid.size[2] - 1, [&](std::size_t w) { by_column[w] = finder.Look(w); });
+  std::vector<GridNode> fresh;
+  for (const auto& nodes : by_column) fresh.insert(fresh.end(), nodes.begin(), nodes.end());
   std::size_t added = 0;
-  std::vector<std::vector<GridNode>> found(grid.size[2]);
-  while (true) {
-    const DiagonalFinder finder(grid, set);
-    pool.ForEach(grid.size[2] - 1, [&](std::size_t w) { found[w] = finder.Look(w); });
-    std::size_t round = 0;
-    for (const std::vector<GridNode>& nodes : found) {
-      for (const GridNode& node : nodes) set.Add(node.u, node.v, node.w);
-      round += nodes.size();
-    }
-    if (round == 0) return added;
-    added += round;
+  while (!fresh.empty()) {
+    added += fresh.size();
+    for (const GridNode& node : fresh) set.Add(node.u, node.v, node.w);
+    std::vector<GridNode> next;
+    for (const GridNode& node : fresh) finder.LookAround(node, next);
+    fresh = std::move(next);
   }
+  return added;
 }
 
 }  // namespace capfit::solid
