@@ -3,9 +3,6 @@
 namespace capfit::formats {
 namespace {
 
-// A word of a file that is longer says no more.
-constexpr std::size_t kMostCharacters = 20;
-
 std::string NameOfAxis(int axis) { return {static_cast<char>('x' + axis)}; }
 
 }  // namespace
@@ -42,10 +39,10 @@ absl::Status TooManyTriangles(const FilePlace& place, const MeshLimits& limits) 
                    {{"limit", absl::StrCat(limits.max_triangles())}});
 }
 
-std::string Printable(std::string_view word) {
+std::string Printable(std::string_view word, std::size_t most_characters) {
   std::string printable;
-  for (const char c : word.substr(0, kMostCharacters)) printable += c >= ' ' && c <= '~' ? c : '?';
-  return word.size() > kMostCharacters ? printable + "..." : printable;
+  for (const char c : word.substr(0, most_characters)) printable += c >= ' ' && c <= '~' ? c : '?';
+  return word.size() > most_characters ? printable + "..." : printable;
 }
 
 std::string Quoted(std::string_view word) { return "'" + Printable(word) + "'"; }

@@ -66,7 +66,7 @@ template <typename Value>
 [[nodiscard]] absl::Status TooManyTriangles(const FilePlace& place, const MeshLimits& limits);
 
 // A word of the file as it may stand in a message: short and printable.
-[[nodiscard]] std::string Printable(std::string_view word);
+[[nodiscard]] std::string Printable(std::string_view word, std::size_t most_characters = 20);
 // The same in quotes.
 [[nodiscard]] std::string Quoted(std::string_view word);
 

@@ -90,11 +90,11 @@ absl::StatusOr<std::span<const std::byte>> BytesOf(GltfFile& file, std::size_t v
                                                    const Rows& rows, const FilePlace& place) {
   CAPFIT_ASSIGN_OR_RETURN(const std::span<const std::byte> view, file.View(view_index));
   if (rows.end() > view.size()) {
-    return FileError(ErrorReason::kOutOfRange, place,
-                     absl::StrCat("it is out of range: it needs ", rows.end(),
-                                  " bytes of buffer view ", view_index, ", which has ",
-                                  view.size()),
-                     ValueAndLimit(rows.end(), view.size()));
+    return FileError(
+        ErrorReason::kOutOfRange, place,
+        absl::StrCat("it is out of range: it needs ", rows.end(), " bytes of buffer view ",
+                     view_index, ", which has ", view.size()),
+        ValueAndLimit(rows.end(), view.size()));
   }
   return rows.count == 0 ? std::span<const std::byte>()
                          : view.subspan(rows.offset, rows.end() - rows.offset);
@@ -166,8 +166,7 @@ absl::Status GltfAccessor::ReadLayout(const json& accessor, const FilePlace& pla
   return absl::OkStatus();
 }
 
-absl::Status GltfAccessor::FindBytes(GltfFile& file, const json& accessor,
-                                     const FilePlace& place) {
+absl::Status GltfAccessor::FindBytes(GltfFile& file, const json& accessor, const FilePlace& place) {
   if (!accessor.contains("bufferView")) {
     bytes_ = kZeros;
     stride_ = 0;
@@ -203,9 +202,8 @@ absl::Status GltfAccessor::ReplaceSparse(GltfFile& file, const json& sparse,
   const std::size_t index_size = SizeOf(*index_type);
   CAPFIT_ASSIGN_OR_RETURN(const std::span<const std::byte> index_bytes,
                           SparseBytes(file, indices, *count, index_size, place));
-  CAPFIT_ASSIGN_OR_RETURN(
-      const std::span<const std::byte> values,
-      SparseBytes(file, ValueAt(sparse, "values"), *count, element, place));
+  CAPFIT_ASSIGN_OR_RETURN(const std::span<const std::byte> values,
+                          SparseBytes(file, ValueAt(sparse, "values"), *count, element, place));
   CAPFIT_RETURN_IF_ERROR(file.Claim(count_ * element, place));
   auto all = std::make_shared<std::vector<std::byte>>(count_ * element);
   for (std::size_t i = 0; i < count_; ++i) {

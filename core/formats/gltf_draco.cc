@@ -119,7 +119,8 @@ absl::Status CheckHeader(std::span<const std::byte> packed, draco::DracoHeader& 
   const int version = DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor);
   const bool has_metadata = (header.flags & METADATA_FLAG_MASK) != 0;
   if (header.encoder_type != draco::TRIANGULAR_MESH ||
-      header.encoder_method > draco::MESH_EDGEBREAKER_ENCODING || version < kOldestBitstream || has_metadata) {
+      header.encoder_method > draco::MESH_EDGEBREAKER_ENCODING || version < kOldestBitstream ||
+      has_metadata) {
     return FileError(ErrorReason::kUnsupportedFile, place,
                      "its Draco data is a point cloud, has metadata, or is older than version 2.2: "
                      "export uncompressed");
@@ -162,7 +163,8 @@ std::optional<GltfAccessor> ValuesOf(const draco::Mesh& mesh,
   const auto stride = static_cast<std::size_t>(attribute.byte_stride());
   const auto components = static_cast<std::size_t>(attribute.num_components());
   if (!type.has_value() || components == 0 ||
-      stride != components * static_cast<std::size_t>(draco::DataTypeLength(attribute.data_type()))) {
+      stride !=
+          components * static_cast<std::size_t>(draco::DataTypeLength(attribute.data_type()))) {
     return std::nullopt;
   }
   if (!attribute.is_mapping_identity() && attribute.indices_map_size() < mesh.num_points()) {
@@ -172,7 +174,8 @@ std::optional<GltfAccessor> ValuesOf(const draco::Mesh& mesh,
   std::vector<std::byte> bytes(mesh.num_points() * stride);
   for (std::uint32_t p = 0; p < mesh.num_points(); ++p) {
     const std::uint32_t value = attribute.mapped_index(draco::PointIndex(p)).value();
-    if (value >= attribute.size() || (value + std::uint64_t{1}) * stride > held) return std::nullopt;
+    if (value >= attribute.size() || (value + std::uint64_t{1}) * stride > held)
+      return std::nullopt;
     attribute.GetValue(draco::AttributeValueIndex(value), bytes.data() + p * stride);
   }
   return GltfAccessor::FromBytes(std::move(bytes), components, *type, false);

@@ -25,11 +25,12 @@ struct DracoPrimitive {
 };
 
 // The faces of `packed` and the attributes of those numbers. Any bytes give an error or that; what
-// they claim is held against `limits` and the file's memory before Draco takes any. Refused besides:
-// point clouds, metadata and bitstreams before 2.2, which no glTF file has.
-[[nodiscard]] absl::StatusOr<DracoPrimitive> DecodeDraco(
-    std::span<const std::byte> packed, std::span<const std::uint32_t> attributes,
-    const MeshLimits& limits, GltfFile& file, const FilePlace& place);
+// they claim is held against `limits` and the file's memory before Draco takes any. Refused
+// besides: point clouds, metadata and bitstreams before 2.2, which no glTF file has.
+[[nodiscard]] absl::StatusOr<DracoPrimitive> DecodeDraco(std::span<const std::byte> packed,
+                                                         std::span<const std::uint32_t> attributes,
+                                                         const MeshLimits& limits, GltfFile& file,
+                                                         const FilePlace& place);
 
 }  // namespace capfit::formats
 

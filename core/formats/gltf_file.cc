@@ -26,6 +26,7 @@ static_assert(std::endian::native == std::endian::little, "glTF is little-endian
 constexpr std::size_t kMostJsonBytes = 8 << 20;
 // A longer string in it is a buffer or an image and takes no more than itself.
 constexpr std::size_t kLongString = 1024;
+constexpr std::size_t kLongestExtension = 64;
 constexpr std::size_t kMostUnpackedBytes = 256 << 20;
 
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
@@ -80,7 +81,7 @@ absl::Status CheckRequiredExtensions(const json& gltf) {
     if (std::find(kRead.begin(), kRead.end(), name) != kRead.end()) continue;
     if (IsBesideTheGeometry(name)) continue;
     return FileError(ErrorReason::kUnsupportedFile, {},
-                     absl::StrCat("requires the extension ", Printable(name),
+                     absl::StrCat("requires the extension ", Printable(name, kLongestExtension),
                                   ", which is not read: export without it"));
   }
   return absl::OkStatus();

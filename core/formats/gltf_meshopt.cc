@@ -91,16 +91,15 @@ absl::StatusOr<MeshoptLayout> ReadMeshoptLayout(const json& extension, std::size
   const std::optional<std::size_t> stride = IndexAt(extension, "byteStride", kMeshoptStride + 1);
   const MeshoptLayout layout = {*mode, *filter, count.value_or(0), stride.value_or(0)};
   if (!count.has_value() || !IsDecodable(layout)) {
-    return FileError(ErrorReason::kMalformedFile, place,
-                     absl::StrCat("its ", kMeshoptExtension,
-                                  " has a count, stride or filter that cannot be"));
+    return FileError(
+        ErrorReason::kMalformedFile, place,
+        absl::StrCat("its ", kMeshoptExtension, " has a count, stride or filter that cannot be"));
   }
   if (layout.size() > kMostUnpackedPerByte * packed_bytes) {
-    return FileError(
-        ErrorReason::kOutOfRange, place,
-        absl::StrCat("its ", kMeshoptExtension, " claims to unpack to ", layout.size(),
-                     " bytes, which ", packed_bytes, " packed ones cannot hold"),
-        ValueAndLimit(layout.size(), kMostUnpackedPerByte * packed_bytes));
+    return FileError(ErrorReason::kOutOfRange, place,
+                     absl::StrCat("its ", kMeshoptExtension, " claims to unpack to ", layout.size(),
+                                  " bytes, which ", packed_bytes, " packed ones cannot hold"),
+                     ValueAndLimit(layout.size(), kMostUnpackedPerByte * packed_bytes));
   }
   return layout;
 }

@@ -18,17 +18,15 @@ constexpr std::array<const char*, 2> kWeights = {"WEIGHTS_0", "WEIGHTS_1"};
 
 // Draco's number of an attribute.
 std::optional<std::uint32_t> PackedId(const json& packed, const std::string& name) {
-  const auto id =
-      IndexAt(ValueAt(packed, "attributes"), name.c_str(), std::size_t{1} << 32);
+  const auto id = IndexAt(ValueAt(packed, "attributes"), name.c_str(), std::size_t{1} << 32);
   return id.has_value() ? std::optional(static_cast<std::uint32_t>(*id)) : std::nullopt;
 }
 
 absl::Status TooFew(const FilePlace& place, const std::string& what, std::size_t count,
                     std::size_t vertices) {
-  return FileError(
-      ErrorReason::kCountMismatch, place,
-      absl::StrCat("it has ", vertices, " vertices with only ", count, " of ", what),
-      ValueAndLimit(count, vertices));
+  return FileError(ErrorReason::kCountMismatch, place,
+                   absl::StrCat("it has ", vertices, " vertices with only ", count, " of ", what),
+                   ValueAndLimit(count, vertices));
 }
 
 }  // namespace
@@ -85,8 +83,7 @@ absl::Status GltfPrimitive::Unpack(const json& packed, const MeshLimits& limits)
   const std::optional<std::size_t> view = IndexAt(packed, "bufferView", views);
   if (!view.has_value()) return BadIndexAt(place_, packed, "bufferView", views);
   std::vector<std::uint32_t> wanted;
-  for (const char* const name :
-       {"POSITION", kJoints[0], kJoints[1], kWeights[0], kWeights[1]}) {
+  for (const char* const name : {"POSITION", kJoints[0], kJoints[1], kWeights[0], kWeights[1]}) {
     const std::optional<std::uint32_t> id = PackedId(packed, name);
     vertex_key_.push_back(id.value_or(kNone));
     if (id.has_value()) wanted.push_back(*id);
@@ -98,12 +95,10 @@ absl::Status GltfPrimitive::Unpack(const json& packed, const MeshLimits& limits)
   return absl::OkStatus();
 }
 
-absl::StatusOr<GltfAccessor> GltfPrimitive::AttributeAt(const std::string& name,
-                                                        const char* type) {
+absl::StatusOr<GltfAccessor> GltfPrimitive::AttributeAt(const std::string& name, const char* type) {
   CAPFIT_ASSIGN_OR_RETURN(const std::size_t index,
                           AccessorAt(ValueAt(*primitive_, "attributes"), name.c_str()));
-  const std::optional<std::uint32_t> id =
-      PackedId(ExtensionAt(*primitive_, kDracoExtension), name);
+  const std::optional<std::uint32_t> id = PackedId(ExtensionAt(*primitive_, kDracoExtension), name);
   if (!unpacked_.has_value() || !id.has_value()) return GltfAccessor::Create(*file_, index, type);
   const auto found = unpacked_->attributes.find(*id);
   const std::size_t components = std::string_view(type) == "VEC3" ? 3 : 4;

@@ -66,8 +66,7 @@ class GltfPrimitive {
   [[nodiscard]] absl::StatusOr<std::size_t> AccessorAt(const nlohmann::json& parent,
                                                        const char* key) const;
   // Of an attribute, plain or unpacked.
-  [[nodiscard]] absl::StatusOr<GltfAccessor> AttributeAt(const std::string& name,
-                                                         const char* type);
+  [[nodiscard]] absl::StatusOr<GltfAccessor> AttributeAt(const std::string& name, const char* type);
 
   struct Target {
     std::size_t accessor = 0;

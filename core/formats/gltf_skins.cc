@@ -114,11 +114,10 @@ class SkeletonReader {
     CAPFIT_ASSIGN_OR_RETURN(const GltfAccessor matrices,
                             GltfAccessor::Create(file_, *index, "MAT4"));
     if (matrices.count() < nodes.size()) {
-      return FileError(
-          ErrorReason::kCountMismatch, place,
-          absl::StrCat("it has ", nodes.size(), " joints with only ", matrices.count(),
-                       " matrices"),
-          ValueAndLimit(matrices.count(), nodes.size()));
+      return FileError(ErrorReason::kCountMismatch, place,
+                       absl::StrCat("it has ", nodes.size(), " joints with only ", matrices.count(),
+                                    " matrices"),
+                       ValueAndLimit(matrices.count(), nodes.size()));
     }
     for (std::size_t j = 0; j < nodes.size(); ++j) {
       Eigen::Matrix4d inverse_bind;
@@ -157,9 +156,8 @@ class SkeletonReader {
   void FindParents() {
     skeleton_.nearest_joint.assign(json_.size(), -1);
     for (const std::size_t n : nodes_.order) {
-      const std::int32_t above = nodes_.parent[n] == GltfNodes::kNone
-                                     ? -1
-                                     : skeleton_.nearest_joint[nodes_.parent[n]];
+      const std::int32_t above =
+          nodes_.parent[n] == GltfNodes::kNone ? -1 : skeleton_.nearest_joint[nodes_.parent[n]];
       const std::int32_t joint = joint_of_node_[n];
       skeleton_.nearest_joint[n] = joint >= 0 ? joint : above;
       if (joint >= 0) skeleton_.joints[static_cast<std::size_t>(joint)].parent = above;

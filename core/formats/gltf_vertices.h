@@ -44,8 +44,7 @@ struct SkinInfluences {
     const FilePlace& place);
 
 // The strongest four, summing to 1, on the skeleton's joints.
-[[nodiscard]] JointInfluences StrongestFour(const SkinInfluences& influences,
-                                            const GltfSkin& skin);
+[[nodiscard]] JointInfluences StrongestFour(const SkinInfluences& influences, const GltfSkin& skin);
 
 // If all joints that hold these vertices would place them alike (to a hundred-thousandth of
 // `largest`, their largest coordinate), as in the bind pose: that placing, the skin's first.

@@ -67,8 +67,10 @@ bool IsIdentity(const Placing& placing) {
   return placing == Placing(Eigen::Matrix4d::Identity().topRows<3>());
 }
 
-Eigen::Vector3d Placed(const Placing& placing, const Eigen::Vector3d& stored) {
-  return placing * stored.homogeneous();
+Eigen::Matrix4d TransformOf(const Placing& placing) {
+  Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
+  transform.topRows<3>() = placing;
+  return transform;
 }
 
 class GlbReader {
@@ -246,10 +248,11 @@ class GlbReader {
 
   absl::StatusOr<Placing> PlaceAlike(const GltfPrimitive& primitive, const DrawnMesh& drawn,
                                      std::size_t base, const Placing& placing) {
+    const Eigen::Matrix4d transform = TransformOf(placing);
     double largest = 0.0;
     for (std::size_t i = base; i < soup_.positions.size(); ++i) {
       const Eigen::Vector3d stored = soup_.positions[i];
-      const Eigen::Vector3d placed = Placed(placing, stored);
+      const Eigen::Vector3d placed = (transform * stored.homogeneous()).head<3>();
       if (!IsPosition(placed)) return BadPosition(stored, placed, primitive, i - base, drawn.node);
       largest = std::max(largest, stored.cwiseAbs().maxCoeff());
       soup_.positions[i] = placed;

@@ -31,7 +31,9 @@ TEST(FormatTest, ComesFromTheFileNamesEnding) {
   EXPECT_EQ(FormatFromFileName("body.obj.Stl"), MeshFormat::kStl);
   EXPECT_EQ(FormatFromFileName("body.off"), MeshFormat::kOff);
   EXPECT_EQ(FormatFromFileName("body.glb"), MeshFormat::kGlb);
-  EXPECT_EQ(FormatFromFileName("body.gltf"), MeshFormat::kUnknown);
+  EXPECT_EQ(FormatFromFileName("body.gltf"), MeshFormat::kGlb);
+  EXPECT_EQ(FormatFromFileName("avatar.vrm"), MeshFormat::kGlb);
+  EXPECT_EQ(FormatFromFileName("body.fbx"), MeshFormat::kUnknown);
   EXPECT_EQ(FormatFromFileName("obj"), MeshFormat::kUnknown);
 }
 
@@ -42,6 +44,7 @@ MeshFormat FormatOf(const std::string& bytes) {
 TEST(FormatTest, ComesFromTheFirstBytes) {
   EXPECT_EQ(FormatOf("ply\nformat ascii 1.0\n"), MeshFormat::kPly);
   EXPECT_EQ(FormatOf("glTF\2\0\0\0"), MeshFormat::kGlb);
+  EXPECT_EQ(FormatOf("\xEF\xBB\xBF \n{\"asset\": {}}"), MeshFormat::kGlb);
   EXPECT_EQ(FormatOf("solid x\nfacet normal 0 0 1\n"), MeshFormat::kStl);
   EXPECT_EQ(FormatOf("solid, but binary" + std::string(63, ' ') + Bytes(1u) + std::string(50, 1)),
             MeshFormat::kStl);

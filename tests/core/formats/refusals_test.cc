@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Refused{"Empty", MeshFormat::kObj, "", "MISSING mesh.file is empty"},
                     Refused{"UnknownFormat", MeshFormat::kUnknown, "plain prose",
                             "UNSUPPORTED_FILE mesh.file has no known format: give an OBJ, PLY, "
-                            "STL, OFF or GLB file"}),
+                            "STL, OFF, GLB, VRM or glTF file"}),
     NameOf);
 
 INSTANTIATE_TEST_SUITE_P(
