@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace capfit {
 
@@ -13,6 +15,10 @@ struct Warning {
   std::string message;     // one sentence: what, where, how many, and the next step if there is one
   std::int64_t count = 0;  // how many of it; 0 where counting makes no sense
 };
+
+inline void Append(std::vector<Warning> more, std::vector<Warning>& warnings) {
+  for (Warning& warning : more) warnings.push_back(std::move(warning));
+}
 
 }  // namespace capfit
 

@@ -42,13 +42,10 @@ FitOptions EffectiveOptions(const FitOptions& asked, const geometry::Similarity&
   return effective;
 }
 
-BodyFacts FactsOf(const formats::PolygonSoup& soup, const mesh::BodyMesh& fitted,
-                  const body::Body& body) {
+BodyFacts FactsOf(const formats::PolygonSoup& soup, const body::Body& body) {
   BodyFacts facts;
   facts.vertex_count = static_cast<std::int64_t>(soup.positions.size());
   facts.face_count = static_cast<std::int64_t>(soup.face_count());
-  facts.box_min = fitted.box_min();
-  facts.box_max = fitted.box_max();
   facts.height_m = body.height_m;
   facts.is_symmetric = body.is_symmetric;
   return facts;

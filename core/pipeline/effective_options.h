@@ -4,7 +4,6 @@
 
 #include "core/body/body.h"
 #include "core/formats/polygon_soup.h"
-#include "core/mesh/body_mesh.h"
 #include "core/pipeline/fit.h"
 
 namespace capfit::pipeline {
@@ -13,9 +12,8 @@ namespace capfit::pipeline {
 [[nodiscard]] FitOptions EffectiveOptions(const FitOptions& asked,
                                           const geometry::Similarity& body_from_caller);
 
-// FitResult::body. `fitted`: the prepared mesh, in the caller's unit and axes.
-[[nodiscard]] BodyFacts FactsOf(const formats::PolygonSoup& soup, const mesh::BodyMesh& fitted,
-                                const body::Body& body);
+// FitResult::body but for its box.
+[[nodiscard]] BodyFacts FactsOf(const formats::PolygonSoup& soup, const body::Body& body);
 
 }  // namespace capfit::pipeline
 

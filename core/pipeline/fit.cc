@@ -7,13 +7,13 @@
 #include "core/base/version.h"
 #include "core/circle/error_curve.h"
 #include "core/coverage/cover_body.h"
-#include "core/mesh/prepare_mesh.h"
 #include "core/pipeline/effective_options.h"
 #include "core/pipeline/engines.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
 #include "core/pipeline/sphere_names.h"
 #include "core/pipeline/stage_clock.h"
+#include "core/pipeline/take_body.h"
 #include "core/pipeline/to_caller_frame.h"
 #include "core/refine/refine.h"
 
@@ -23,10 +23,6 @@ namespace {
 absl::Status CheckCancelled(const FitObserver& observer) {
   if (observer.IsCancelled()) return absl::CancelledError("the caller gave up");
   return absl::OkStatus();
-}
-
-void Append(std::vector<Warning> more, std::vector<Warning>& warnings) {
-  for (Warning& warning : more) warnings.push_back(std::move(warning));
 }
 
 // Another set for the same budget, before anything is enclosed.
@@ -45,8 +41,8 @@ class BodyFit {
         clock_(clock),
         result_(result) {}
 
-  absl::Status Run(const formats::PolygonSoup& soup, const mesh::BodyMesh& mesh) {
-    CAPFIT_RETURN_IF_ERROR(Understand(soup, mesh));
+  absl::Status Run(const formats::PolygonSoup& soup) {
+    CAPFIT_RETURN_IF_ERROR(Understand(soup));
     CAPFIT_RETURN_IF_ERROR(BuildWithinLimits());
     CAPFIT_RETURN_IF_ERROR(Cover());
     CAPFIT_RETURN_IF_ERROR(Measure());
@@ -55,21 +51,18 @@ class BodyFit {
   }
 
  private:
-  absl::Status Understand(const formats::PolygonSoup& soup, const mesh::BodyMesh& mesh) {
-    clock_.Begin(Stage::kBody);
-    body::BodyOptions body_options;
-    body_options.unit = options_.unit;
-    body_options.up = options_.up;
-    body_options.landmarks = options_.landmarks;
-    body_options.skeleton = soup.joints;
-    body_options.required = options_.require_parts;
-    CAPFIT_ASSIGN_OR_RETURN(body_, body::FindBody(mesh, body_options, pool_, clock_));
-    Append(body_->warnings, result_.warnings);
+  absl::Status Understand(const formats::PolygonSoup& soup) {
+    CAPFIT_ASSIGN_OR_RETURN(TakenBody taken,
+                            TakeBody(soup, options_, pool_, clock_, result_.warnings));
+    result_.parts = std::move(taken.parts);
+    body_ = std::move(taken.body);
     result_.body_from_caller = body_->body_from_caller;
     caller_from_body_ = body_->body_from_caller.Inverse();
     target_ = tighten::TargetOf(*body_, options_.parts);
     result_.effective_options = EffectiveOptions(asked_, body_->body_from_caller);
-    result_.body = FactsOf(soup, mesh, *body_);
+    result_.body = FactsOf(soup, *body_);
+    result_.body.box_min = taken.box_min;
+    result_.body.box_max = taken.box_max;
     result_.landmarks = LandmarkResults(*body_, caller_from_body_);
     return CheckCancelled(clock_);
   }
@@ -268,11 +261,7 @@ absl::StatusOr<FitResult> Fit(const formats::PolygonSoup& soup, const FitOptions
   FitResult result;
   result.version = std::string(Version());
   StageClock clock(options, observer, result);
-  clock.Begin(Stage::kMesh);
-  CAPFIT_ASSIGN_OR_RETURN(mesh::PreparedMesh prepared, mesh::PrepareMesh(soup, {}, pool, clock));
-  Append(std::move(prepared.warnings), result.warnings);
-  CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock));
-  const absl::Status status = BodyFit(options, pool, clock, result).Run(soup, prepared.mesh);
+  const absl::Status status = BodyFit(options, pool, clock, result).Run(soup);
   if (!status.ok()) return WithWarnings(status, result.warnings);
   clock.End();
   return result;

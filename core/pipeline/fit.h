@@ -16,6 +16,7 @@
 #include "core/base/warning.h"
 #include "core/body/find_body.h"
 #include "core/capsule/primitive_set.h"
+#include "core/character/find_character.h"
 #include "core/metrics/measure.h"
 #include "core/section/feature_polygon.h"
 #include "core/skinning/mean_value_coordinates.h"
@@ -69,6 +70,7 @@ struct FitOptions {
   body::Unit unit = body::Unit::kAuto;
   body::UpAxis up = body::UpAxis::kAuto;
   std::map<body::LandmarkId, Eigen::Vector3d> landmarks;  // the caller's, in the caller's frame
+  character::CharacterOptions character;  // which parts of the file are the body
   std::uint64_t seed = 0;
   bool want_polygons = false;     // return the feature polygons with their circles
   bool want_vertex_gaps = false;  // return each vertex's signed distance to the set
@@ -119,6 +121,8 @@ struct FitResult {
   // vertices of parts that were not selected, and for those of which mending left nothing (no face
   // uses them). Welded copies have the same value.
   std::vector<float> vertex_gaps;
+  // What became of the parts of a file of several; empty where the mesh was one surface.
+  std::vector<character::CharacterPart> parts;
   std::vector<Warning> warnings;
   geometry::Similarity body_from_caller;  // scale: metres per caller's unit
   // What held in the end: the options with their defaults filled in and the engine's limits

@@ -1,0 +1,175 @@
+#include "core/pipeline/take_body.h"
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/base/status.h"
+#include "core/body/attach_shells.h"
+#include "core/body/find_body.h"
+#include "core/body/skeleton_names.h"
+#include "core/formats/soup_checks.h"
+#include "core/mesh/prepare_mesh.h"
+#include "core/mesh/triangulate_faces.h"
+#include "core/solid/make_solid.h"
+
+namespace capfit::pipeline {
+namespace {
+
+using Joints = std::map<body::LandmarkId, Eigen::Vector3d>;
+
+// A surface that leaves more of the file's area than this behind is perhaps not all of the body.
+constexpr double kCrumbs = 0.02;
+
+// The mesh to understand, and, where it is a solid, the shells that it was made around.
+struct TakenMesh {
+  mesh::BodyMesh mesh;
+  std::vector<mesh::Triangle> shells;  // indices into the soup's positions; empty: none
+  std::vector<Warning> warnings;
+};
+
+class BodyTaker {
+ public:
+  BodyTaker(const formats::PolygonSoup& soup, const FitOptions& options, const ThreadPool& pool,
+            StageClock& clock, std::vector<Warning>& warnings)
+      : soup_(soup), options_(options), pool_(pool), clock_(clock), warnings_(warnings) {}
+
+  absl::StatusOr<TakenBody> Run() {
+    clock_.Begin(Stage::kMesh);
+    CAPFIT_RETURN_IF_ERROR(formats::CheckSoup(soup_, {}));
+    CAPFIT_ASSIGN_OR_RETURN(const TakenMesh taken, TakeMesh());
+    clock_.Begin(Stage::kBody);
+    CAPFIT_ASSIGN_OR_RETURN(TakenBody found, Understand(taken));
+    if (!character_ || character_->has_joints) return Finish(std::move(found), taken);
+    return LookAgain(std::move(found), taken);
+  }
+
+ private:
+  [[nodiscard]] bool IsOnePart() const {
+    const character::CharacterOptions& asked = options_.character;
+    return soup_.parts.size() <= 1 && asked.include.empty() && asked.exclude.empty();
+  }
+
+  absl::StatusOr<TakenMesh> TakeMesh() {
+    absl::Status refusal;
+    if (IsOnePart()) {
+      absl::StatusOr<mesh::PreparedMesh> prepared = mesh::PrepareMesh(soup_, {}, pool_, clock_);
+      if (prepared.ok() && prepared->left_out_share < kCrumbs) return FromPrepared(*prepared);
+      if (!prepared.ok() && !MayBeShells(prepared.status())) return prepared.status();
+      refusal = prepared.status();
+    }
+    absl::StatusOr<character::Character> found =
+        character::FindCharacter(soup_, options_.character, RigJoints(), pool_);
+    // What the mesh room says of one part is nearer to the cause.
+    if (!found.ok()) return refusal.ok() ? found.status() : refusal;
+    character_ = *std::move(found);
+    absl::StatusOr<TakenMesh> taken = TakeCharacter();
+    return taken.ok() || refusal.ok() ? std::move(taken) : refusal;
+  }
+
+  [[nodiscard]] static bool MayBeShells(const absl::Status& refusal) {
+    return refusal.code() == absl::StatusCode::kFailedPrecondition;
+  }
+
+  [[nodiscard]] Joints RigJoints() const {
+    return options_.landmarks.empty() ? body::LandmarksFromSkeleton(soup_.joints)
+                                      : options_.landmarks;
+  }
+
+  static TakenMesh FromPrepared(mesh::PreparedMesh& prepared) {
+    return {std::move(prepared.mesh), {}, std::move(prepared.warnings)};
+  }
+
+  // What belongs to the character: mended, if it is one surface, else a solid around it.
+  absl::StatusOr<TakenMesh> TakeCharacter() {
+    absl::Status refusal;
+    if (character_->surface_count == 1) {
+      absl::StatusOr<mesh::PreparedMesh> prepared =
+          mesh::PrepareMesh(soup_, {}, pool_, clock_, character_->is_left_out);
+      if (prepared.ok()) return FromPrepared(*prepared);
+      refusal = prepared.status();
+      if (!MayBeShells(refusal)) return refusal;
+    }
+    std::vector<mesh::Triangle> triangles =
+        mesh::TriangulateFaces(formats::WithFaces(soup_, character_->is_left_out, 0),
+                               soup_.positions)
+            .triangles;
+    absl::StatusOr<solid::Solid> made =
+        solid::MakeSolid(soup_.positions, triangles, {}, pool_, clock_);
+    if (!made.ok()) return refusal.ok() ? made.status() : refusal;
+    return TakenMesh{std::move(made->mesh), std::move(triangles), std::move(made->warnings)};
+  }
+
+  absl::StatusOr<TakenBody> Understand(const TakenMesh& taken) {
+    body::BodyOptions body_options;
+    body_options.unit = options_.unit;
+    body_options.up = options_.up;
+    body_options.landmarks = options_.landmarks;
+    body_options.skeleton = soup_.joints;
+    body_options.required = options_.require_parts;
+    absl::StatusOr<body::Body> body = body::FindBody(taken.mesh, body_options, pool_, clock_);
+    if (!body.ok()) {
+      Tell(taken);
+      return body.status();
+    }
+    return TakenBody{*std::move(body), {}, taken.mesh.box_min(), taken.mesh.box_max()};
+  }
+
+  void Tell(const TakenMesh& taken) {
+    if (character_) Append(character_->warnings, warnings_);
+    Append(taken.warnings, warnings_);
+  }
+
+  TakenBody Finish(TakenBody found, const TakenMesh& taken) {
+    Tell(taken);
+    Append(found.body.warnings, warnings_);
+    if (character_) found.parts = character_->parts;
+    if (!taken.shells.empty()) {
+      body::AttachShells(soup_.positions, taken.shells, pool_, found.body);
+    }
+    return found;
+  }
+
+  // Without a skeleton only names and sizes were known; now landmarks are.
+  absl::StatusOr<TakenBody> LookAgain(TakenBody found, const TakenMesh& taken) {
+    absl::StatusOr<character::Character> again = character::FindCharacter(
+        soup_, options_.character, JointsOf(found.body), pool_);
+    if (!again.ok() || again->is_left_out == character_->is_left_out) {
+      if (again.ok()) character_ = *std::move(again);
+      return Finish(std::move(found), taken);
+    }
+    character_ = *std::move(again);
+    CAPFIT_ASSIGN_OR_RETURN(const TakenMesh better, TakeCharacter());
+    CAPFIT_ASSIGN_OR_RETURN(TakenBody anew, Understand(better));
+    return Finish(std::move(anew), better);
+  }
+
+  [[nodiscard]] static Joints JointsOf(const body::Body& body) {
+    const geometry::Similarity caller_from_body = body.body_from_caller.Inverse();
+    Joints joints;
+    for (int i = 0; i < body::kLandmarkCount; ++i) {
+      const auto id = static_cast<body::LandmarkId>(i);
+      const std::optional<body::Landmark>& landmark = body.landmark(id);
+      if (landmark) joints[id] = caller_from_body.Apply(landmark->position_m);
+    }
+    return joints;
+  }
+
+  const formats::PolygonSoup& soup_;
+  const FitOptions& options_;
+  const ThreadPool& pool_;
+  StageClock& clock_;
+  std::vector<Warning>& warnings_;
+  std::optional<character::Character> character_;
+};
+
+}  // namespace
+
+absl::StatusOr<TakenBody> TakeBody(const formats::PolygonSoup& soup, const FitOptions& options,
+                                   const ThreadPool& pool, StageClock& clock,
+                                   std::vector<Warning>& warnings) {
+  return BodyTaker(soup, options, pool, clock, warnings).Run();
+}
+
+}  // namespace capfit::pipeline
