@@ -66,6 +66,23 @@ void AddPartsFlag(CLI::App& command, std::vector<std::string>& parts) {
       ->group(kWhatToFit);
 }
 
+void AddCharacterFlags(CLI::App& command, character::CharacterOptions& options) {
+  // A name may hold blanks and commas: one for each flag.
+  const auto add_names = [&](const char* flag, std::vector<std::string>& names, const char* help) {
+    command.add_option(flag, names, help)
+        ->type_name("NAME")
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->group(kWhatToFit);
+  };
+  add_names("--include", options.include,
+            "Mesh or material of the file that is the body's, * and ? allowed; repeat for more");
+  add_names("--exclude", options.exclude,
+            "Mesh or material of the file that is not; see `capfit inspect`");
+  command.add_flag("--hair", options.hair, "Enclose the hair too")->group(kWhatToFit);
+  command.add_flag("--skirt", options.skirt, "Enclose skirts and dresses too")->group(kWhatToFit);
+}
+
 void AddFitFlags(CLI::App& command, FitFlags& flags) {
   pipeline::FitOptions& options = flags.options;
   AddFrameFlags(command, options.unit, options.up);
@@ -76,6 +93,7 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
       ->type_name("FILE")
       ->group(kInput);
   AddPartsFlag(command, flags.parts);
+  AddCharacterFlags(command, options.character);
   AddPartWords(command, "--require-parts", flags.require_parts,
                "Refuse a body without these, instead of a warning")
       ->group(kWhatToFit);

@@ -24,6 +24,8 @@ struct FitFlags {
 void AddFitFlags(CLI::App& command, FitFlags& flags);
 // --unit and --up alone, for commands that only look at a body.
 void AddFrameFlags(CLI::App& command, body::Unit& unit, body::UpAxis& up);
+// --include, --exclude, --hair and --skirt alone.
+void AddCharacterFlags(CLI::App& command, character::CharacterOptions& options);
 // --parts alone.
 void AddPartsFlag(CLI::App& command, std::vector<std::string>& parts);
 

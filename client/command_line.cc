@@ -14,6 +14,7 @@
 #include "client/exit_code.h"
 #include "client/help_format.h"
 #include "client/info_command.h"
+#include "client/inspect_command.h"
 #include "client/picture/mannequin_command.h"
 #include "client/picture/render_command.h"
 #include "core/base/version.h"
@@ -32,6 +33,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
       "2 an input or option is refused; 3 the server cannot be reached, is full, took too long or "
       "failed.");
   AddApproximateCommand(app, exit_code);
+  AddInspectCommand(app, exit_code);
   AddEvaluateCommand(app, exit_code);
   AddAnimateCommand(app, exit_code);
   AddRenderCommand(app, exit_code);

@@ -38,6 +38,11 @@ const std::vector<Feature>& Features() {
       {"skinning.dense", [](FitOptions& o) { o.skinning = pipeline::SkinningMode::kDense; }},
       {"option.landmarks",
        [](FitOptions& o) { o.landmarks[body::LandmarkId::kNeck] = Eigen::Vector3d::Zero(); }},
+      {"option.mesh_parts",
+       [](FitOptions& o) {
+         o.character.exclude = {"hat"};
+         o.character.hair = true;
+       }},
       {"option.require_parts", [](FitOptions& o) { o.require_parts.torso = true; }},
       {"option.seed", [](FitOptions& o) { o.seed = 1; }},
       {"option.sex", [](FitOptions& o) { o.sex = section::Sex::kFemale; }},

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/base/status.h"
+#include "client/picture/result_body.h"
 #include "core/mesh/prepare_mesh.h"
 
 namespace capfit::client {
@@ -19,10 +20,17 @@ constexpr double kFarCentre = 0.25;         // of the diagonal
 constexpr double kSmallestDiagonal = 0.12;  // of the mesh's diagonal
 constexpr double kLargestDiagonal = 2.0;    // of the mesh's diagonal
 
-// Of what mending keeps; of a mesh that cannot be mended, of the vertices that faces use.
-AlignedBox3d BoxOf(const formats::PolygonSoup& soup) {
-  if (const auto prepared = mesh::PrepareMesh(soup); prepared.ok()) {
-    return {prepared->mesh.box_min(), prepared->mesh.box_max()};
+// Of what a fit takes; of a mesh that it cannot take, of the vertices that faces use.
+AlignedBox3d BoxOf(const formats::PolygonSoup& soup,
+                   const character::CharacterOptions& character) {
+  if (soup.parts.size() <= 1) {
+    if (const auto prepared = mesh::PrepareMesh(soup); prepared.ok()) {
+      return {prepared->mesh.box_min(), prepared->mesh.box_max()};
+    }
+  } else if (const auto taken = UnderstandBody(soup, character, body::Unit::kAuto,
+                                               body::UpAxis::kAuto, ThreadPool());
+             taken.ok()) {
+    return {taken->box_min, taken->box_max};
   }
   AlignedBox3d box;
   for (const std::uint32_t vertex : soup.face_vertices) {
@@ -82,7 +90,7 @@ absl::Status CheckForeign(const std::vector<geometry::Sphere>& spheres, const Al
 }  // namespace
 
 absl::Status CheckBelongs(const ResultSet& result, const formats::PolygonSoup& body) {
-  const AlignedBox3d box = BoxOf(body);
+  const AlignedBox3d box = BoxOf(body, result.character);
   if (box.isEmpty()) return absl::OkStatus();  // other checks say what is wrong with it
   if (result.body) return CheckOwn(*result.body, box);
   return result.spheres.empty() ? absl::OkStatus() : CheckForeign(result.spheres, box);

@@ -234,7 +234,7 @@ void MeasureGaps(const Inputs& in, const body::Body& body, const ThreadPool& poo
   const geometry::Similarity& frame = body.body_from_caller;
   const std::vector<double> gaps_m =
       metrics::SignedGaps(body, InBodyFrame(in.result, frame), PartsOfResult(in.result), pool);
-  for (const std::int32_t vertex : body.mesh.vertex_of_source()) {
+  for (const std::int32_t vertex : body.enclosed().vertex_of_source) {
     figure.gaps.push_back(vertex < 0 ? std::numeric_limits<double>::quiet_NaN()
                                      : gaps_m[static_cast<std::size_t>(vertex)] / frame.scale);
   }
@@ -243,11 +243,16 @@ void MeasureGaps(const Inputs& in, const body::Body& body, const ThreadPool& poo
 // Which of the caller's vertices lie on parts that the result stands for.
 std::vector<bool> FittedVertices(const ResultSet& result, const body::Body& body) {
   const PartFlags parts = FittedParts(result);
+  const body::EnclosedSurface surface = body.enclosed();
   std::vector<bool> is_fitted;
-  for (const std::int32_t vertex : body.mesh.vertex_of_source()) {
-    is_fitted.push_back(vertex < 0 ||
-                        parts[static_cast<std::size_t>(
-                            body::PartOf(body.vertex_segments[static_cast<std::size_t>(vertex)]))]);
+  for (const std::int32_t vertex : surface.vertex_of_source) {
+    if (vertex < 0) {
+      // Of one surface, what mending dropped; of many shells, hair and what else was left out.
+      is_fitted.push_back(!body.shells.has_value());
+      continue;
+    }
+    const body::Segment segment = surface.vertex_segments[static_cast<std::size_t>(vertex)];
+    is_fitted.push_back(parts[static_cast<std::size_t>(body::PartOf(segment))]);
   }
   return is_fitted;
 }
@@ -273,9 +278,9 @@ absl::StatusOr<Inputs> ReadInputs(const RenderArguments& arguments) {
     CAPFIT_RETURN_IF_ERROR(CheckBelongs(in.result, in.soup));
   }
   // A mesh that is no body is drawn all the same, with less said about it.
-  absl::StatusOr<body::Body> understood =
-      UnderstandBody(in.soup, body::BodyOptions(), ThreadPool());
-  if (understood.ok()) in.body = *std::move(understood);
+  absl::StatusOr<pipeline::TakenBody> understood = UnderstandBody(
+      in.soup, in.result.character, body::Unit::kAuto, body::UpAxis::kAuto, ThreadPool());
+  if (understood.ok()) in.body = std::move(understood->body);
   in.turn = TurnUpright(in.soup.positions, in.result, ToUp(arguments.up));
   return in;
 }

@@ -7,7 +7,6 @@
 #include "client/picture/file_bytes.h"
 #include "core/base/status.h"
 #include "core/formats/read_mesh.h"
-#include "core/mesh/prepare_mesh.h"
 
 namespace capfit::client {
 namespace {
@@ -27,11 +26,17 @@ absl::StatusOr<formats::PolygonSoup> ReadBodyFile(const std::string& path) {
   return formats::ReadMesh(std::as_bytes(std::span(bytes)), formats::FormatFromFileName(path));
 }
 
-absl::StatusOr<body::Body> UnderstandBody(const formats::PolygonSoup& soup,
-                                          const body::BodyOptions& options,
-                                          const ThreadPool& pool) {
-  CAPFIT_ASSIGN_OR_RETURN(const mesh::PreparedMesh prepared, mesh::PrepareMesh(soup));
-  return body::FindBody(prepared.mesh, options, pool, NullObserver());
+absl::StatusOr<pipeline::TakenBody> UnderstandBody(const formats::PolygonSoup& soup,
+                                                   const character::CharacterOptions& character,
+                                                   body::Unit unit, body::UpAxis up,
+                                                   const ThreadPool& pool) {
+  pipeline::FitOptions options;
+  options.character = character;
+  options.unit = unit;
+  options.up = up;
+  NullObserver observer;
+  std::vector<Warning> unheard;
+  return pipeline::TakeBody(soup, options, pool, observer, unheard);
 }
 
 capsule::PrimitiveSet InBodyFrame(const ResultSet& result,

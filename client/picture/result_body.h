@@ -8,6 +8,7 @@
 #include "client/picture/result_set.h"
 #include "core/base/thread_pool.h"
 #include "core/body/find_body.h"
+#include "core/pipeline/take_body.h"
 #include "core/capsule/primitive_set.h"
 #include "core/formats/polygon_soup.h"
 
@@ -16,10 +17,11 @@ namespace capfit::client {
 // The mesh of a file, or of standard input, whose format the bytes tell.
 [[nodiscard]] absl::StatusOr<formats::PolygonSoup> ReadBodyFile(const std::string& path);
 
-// The mesh checked, mended and understood, as a fit does it.
-[[nodiscard]] absl::StatusOr<body::Body> UnderstandBody(const formats::PolygonSoup& soup,
-                                                        const body::BodyOptions& options,
-                                                        const ThreadPool& pool);
+// The mesh checked, mended and understood, as a fit does it: with the parts of the file that the
+// result was asked for, in the unit and with the up axis that are told.
+[[nodiscard]] absl::StatusOr<pipeline::TakenBody> UnderstandBody(
+    const formats::PolygonSoup& soup, const character::CharacterOptions& character,
+    body::Unit unit, body::UpAxis up, const ThreadPool& pool);
 
 // The result as the core knows it, in the body frame.
 [[nodiscard]] capsule::PrimitiveSet InBodyFrame(const ResultSet& result,

@@ -171,12 +171,26 @@ std::string Word(const json& object, const char* name) {
   return word.is_string() ? word.get<std::string>() : "";
 }
 
+// The words of a list; others in it are left out.
+std::vector<std::string> Words(const json& object, const char* name) {
+  std::vector<std::string> words;
+  const json list = object.value(name, json());
+  for (const json& word : list.is_array() ? list : json::array()) {
+    if (word.is_string()) words.push_back(word.get<std::string>());
+  }
+  return words;
+}
+
 // options.parts: what the result is meant to cover, though the body may not have all of it.
 void ReadOptions(const json& root, ResultSet& set) {
   const json options = root.value("options", json());
   if (!options.is_object()) return;
   set.quality = Word(options, "quality");
   set.engine = Word(options, "engine");
+  set.character.include = Words(options, "include_parts");
+  set.character.exclude = Words(options, "exclude_parts");
+  set.character.hair = options.value("include_hair", json()) == true;
+  set.character.skirt = options.value("include_skirt", json()) == true;
   if (!options.contains("parts") || !options["parts"].is_array()) return;
   const auto has = [&](const char* word) {
     return std::find(options["parts"].begin(), options["parts"].end(), word) !=

@@ -13,6 +13,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/body/anatomy.h"
+#include "core/character/find_character.h"
 #include "core/geometry/sphere.h"
 
 namespace capfit::client {
@@ -48,6 +49,7 @@ struct ResultSet {
   std::optional<ResultBodyFacts> body;              // what was fitted
   std::optional<body::PartSelection> parts;         // what was asked for
   std::vector<std::string> fitted_parts;            // what was there and was fitted: "left_arm"
+  character::CharacterOptions character;            // which parts of the file were asked for
   std::string quality;                              // "paper"; "" where not told
   std::string engine;                               // whose limits held; "" for none
   std::optional<Eigen::Matrix3d> body_from_caller;  // the turn from the mesh's axes to the body's

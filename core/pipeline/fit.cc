@@ -54,13 +54,14 @@ class BodyFit {
   absl::Status Understand(const formats::PolygonSoup& soup) {
     CAPFIT_ASSIGN_OR_RETURN(TakenBody taken,
                             TakeBody(soup, options_, pool_, clock_, result_.warnings));
-    result_.parts = std::move(taken.parts);
     body_ = std::move(taken.body);
     result_.body_from_caller = body_->body_from_caller;
     caller_from_body_ = body_->body_from_caller.Inverse();
     target_ = tighten::TargetOf(*body_, options_.parts);
     result_.effective_options = EffectiveOptions(asked_, body_->body_from_caller);
     result_.body = FactsOf(soup, *body_);
+    result_.body.parts = std::move(taken.parts);
+    if (result_.body.parts.size() > kMostPartsTold) result_.body.parts.resize(kMostPartsTold);
     result_.body.box_min = taken.box_min;
     result_.body.box_max = taken.box_max;
     result_.landmarks = LandmarkResults(*body_, caller_from_body_);

@@ -36,6 +36,9 @@ inline constexpr double kMinPolygonError = 0.001;
 inline constexpr double kMaxPolygonError = 2.0;
 inline constexpr int kDefaultMaxPrimitives = 64;
 inline constexpr double kMaxToleranceM = 0.1;
+inline constexpr std::size_t kMostPartNames = 64;      // in each of the two lists
+inline constexpr std::size_t kLongestPartName = 256;   // bytes
+inline constexpr std::size_t kMostPartsTold = 1000;
 
 // kEnclose: nothing of the fitted parts is left outside (but for tolerance_m). kBestFit: the
 // smallest E_r.
@@ -104,6 +107,9 @@ struct BodyFacts {
   Eigen::Vector3d box_max = Eigen::Vector3d::Zero();  // caller's unit and axes
   double height_m = 0.0;                              // along the body's own up axis
   bool is_symmetric = false;                          // as body::Body
+  // What became of the parts of a file of several, at most kMostPartsTold; empty where the mesh was
+  // one surface.
+  std::vector<character::CharacterPart> parts;
 };
 
 // Everything in the caller's unit and axes, but for metrics in metres where the name says so.
@@ -121,8 +127,6 @@ struct FitResult {
   // vertices of parts that were not selected, and for those of which mending left nothing (no face
   // uses them). Welded copies have the same value.
   std::vector<float> vertex_gaps;
-  // What became of the parts of a file of several; empty where the mesh was one surface.
-  std::vector<character::CharacterPart> parts;
   std::vector<Warning> warnings;
   geometry::Similarity body_from_caller;  // scale: metres per caller's unit
   // What held in the end: the options with their defaults filled in and the engine's limits

@@ -59,6 +59,20 @@ absl::Status CheckParts(const body::PartSelection& parts) {
                       "is empty, must name at least one of torso, arms, legs, head, hands, feet");
 }
 
+absl::Status CheckPartNames(const std::string& field, const std::vector<std::string>& names) {
+  if (names.size() > kMostPartNames) return TooLarge(field, names.size(), "names", kMostPartNames);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string element = absl::StrCat(field, "[", i, "]");
+    if (names[i].size() > kLongestPartName) {
+      return TooLarge(element, names[i].size(), "bytes", kLongestPartName);
+    }
+    if (names[i].empty()) {
+      return InvalidField(ErrorReason::kMissing, element, "is empty, must name a part");
+    }
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckTolerance(const FitOptions& options) {
   if (!(options.tolerance_m >= 0.0 && options.tolerance_m <= kMaxToleranceM)) {
     return OutOfRange("options.tolerance_m", options.tolerance_m, 0.0, kMaxToleranceM);
@@ -94,6 +108,8 @@ absl::Status ValidateOptions(const FitOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckEngine(options));
   CAPFIT_RETURN_IF_ERROR(CheckParts(options.parts));
   CAPFIT_RETURN_IF_ERROR(CheckLandmarks(options));
+  CAPFIT_RETURN_IF_ERROR(CheckPartNames("options.include_parts", options.character.include));
+  CAPFIT_RETURN_IF_ERROR(CheckPartNames("options.exclude_parts", options.character.exclude));
   if (options.grows_only && options.quality != Quality::kPaper) {
     return InvalidField(ErrorReason::kConflict, "grows_only",
                         "is for quality paper, must be false for others");

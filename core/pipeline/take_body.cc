@@ -32,14 +32,14 @@ struct TakenMesh {
 class BodyTaker {
  public:
   BodyTaker(const formats::PolygonSoup& soup, const FitOptions& options, const ThreadPool& pool,
-            StageClock& clock, std::vector<Warning>& warnings)
-      : soup_(soup), options_(options), pool_(pool), clock_(clock), warnings_(warnings) {}
+            FitObserver& observer, std::vector<Warning>& warnings)
+      : soup_(soup), options_(options), pool_(pool), observer_(observer), warnings_(warnings) {}
 
   absl::StatusOr<TakenBody> Run() {
-    clock_.Begin(Stage::kMesh);
+    observer_.OnStage(Stage::kMesh, 0.0);
     CAPFIT_RETURN_IF_ERROR(formats::CheckSoup(soup_, {}));
     CAPFIT_ASSIGN_OR_RETURN(const TakenMesh taken, TakeMesh());
-    clock_.Begin(Stage::kBody);
+    observer_.OnStage(Stage::kBody, 0.0);
     CAPFIT_ASSIGN_OR_RETURN(TakenBody found, Understand(taken));
     if (!character_ || character_->has_joints) return Finish(std::move(found), taken);
     return LookAgain(std::move(found), taken);
@@ -54,7 +54,7 @@ class BodyTaker {
   absl::StatusOr<TakenMesh> TakeMesh() {
     absl::Status refusal;
     if (IsOnePart()) {
-      absl::StatusOr<mesh::PreparedMesh> prepared = mesh::PrepareMesh(soup_, {}, pool_, clock_);
+      absl::StatusOr<mesh::PreparedMesh> prepared = mesh::PrepareMesh(soup_, {}, pool_, observer_);
       if (prepared.ok() && prepared->left_out_share < kCrumbs) return FromPrepared(*prepared);
       if (!prepared.ok() && !MayBeShells(prepared.status())) return prepared.status();
       refusal = prepared.status();
@@ -86,7 +86,7 @@ class BodyTaker {
     absl::Status refusal;
     if (character_->surface_count == 1) {
       absl::StatusOr<mesh::PreparedMesh> prepared =
-          mesh::PrepareMesh(soup_, {}, pool_, clock_, character_->is_left_out);
+          mesh::PrepareMesh(soup_, {}, pool_, observer_, character_->is_left_out);
       if (prepared.ok()) return FromPrepared(*prepared);
       refusal = prepared.status();
       if (!MayBeShells(refusal)) return refusal;
@@ -96,7 +96,7 @@ class BodyTaker {
                                soup_.positions)
             .triangles;
     absl::StatusOr<solid::Solid> made =
-        solid::MakeSolid(soup_.positions, triangles, {}, pool_, clock_);
+        solid::MakeSolid(soup_.positions, triangles, {}, pool_, observer_);
     if (!made.ok()) return refusal.ok() ? made.status() : refusal;
     return TakenMesh{std::move(made->mesh), std::move(triangles), std::move(made->warnings)};
   }
@@ -108,7 +108,7 @@ class BodyTaker {
     body_options.landmarks = options_.landmarks;
     body_options.skeleton = soup_.joints;
     body_options.required = options_.require_parts;
-    absl::StatusOr<body::Body> body = body::FindBody(taken.mesh, body_options, pool_, clock_);
+    absl::StatusOr<body::Body> body = body::FindBody(taken.mesh, body_options, pool_, observer_);
     if (!body.ok()) {
       Tell(taken);
       return body.status();
@@ -159,7 +159,7 @@ class BodyTaker {
   const formats::PolygonSoup& soup_;
   const FitOptions& options_;
   const ThreadPool& pool_;
-  StageClock& clock_;
+  FitObserver& observer_;
   std::vector<Warning>& warnings_;
   std::optional<character::Character> character_;
 };
@@ -167,9 +167,9 @@ class BodyTaker {
 }  // namespace
 
 absl::StatusOr<TakenBody> TakeBody(const formats::PolygonSoup& soup, const FitOptions& options,
-                                   const ThreadPool& pool, StageClock& clock,
+                                   const ThreadPool& pool, FitObserver& observer,
                                    std::vector<Warning>& warnings) {
-  return BodyTaker(soup, options, pool, clock, warnings).Run();
+  return BodyTaker(soup, options, pool, observer, warnings).Run();
 }
 
 }  // namespace capfit::pipeline

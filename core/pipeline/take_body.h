@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/base/warning.h"
 #include "core/body/body.h"
 #include "core/character/find_character.h"
 #include "core/formats/polygon_soup.h"
 #include "core/pipeline/fit.h"
-#include "core/pipeline/stage_clock.h"
 
 namespace capfit::pipeline {
 
@@ -30,10 +30,11 @@ struct TakenBody {
 // belongs to the character is one surface, that is mended; else one solid is made around all of it
 // (solid room), and body.shells holds the surfaces themselves. Without a skeleton the parts are
 // judged a second time, with the landmarks found the first time, and if that changes what belongs
-// to the character, the body is made anew. Adds to `warnings`, also before an error.
+// to the character, the body is made anew. Of the options those of the mesh count: unit, up,
+// landmarks, character and require_parts. Adds to `warnings`, also before an error.
 [[nodiscard]] absl::StatusOr<TakenBody> TakeBody(const formats::PolygonSoup& soup,
                                                  const FitOptions& options, const ThreadPool& pool,
-                                                 StageClock& clock,
+                                                 FitObserver& observer,
                                                  std::vector<Warning>& warnings);
 
 }  // namespace capfit::pipeline

@@ -64,6 +64,15 @@ constexpr Table<Stage, v1::Stage, 9> kStages = {{{Stage::kMesh, v1::STAGE_MESH},
                                                  {Stage::kSkinning, v1::STAGE_SKINNING}}};
 static_assert(kStages.size() == kStageCount);
 
+constexpr Table<character::PartKind, v1::MeshPartKind, 8> kMeshPartKinds = {
+    {{character::PartKind::kBody, v1::MESH_PART_KIND_BODY},
+     {character::PartKind::kClothing, v1::MESH_PART_KIND_CLOTHING},
+     {character::PartKind::kShoe, v1::MESH_PART_KIND_SHOE},
+     {character::PartKind::kSkirt, v1::MESH_PART_KIND_SKIRT},
+     {character::PartKind::kHair, v1::MESH_PART_KIND_HAIR},
+     {character::PartKind::kInner, v1::MESH_PART_KIND_INNER},
+     {character::PartKind::kAccessory, v1::MESH_PART_KIND_ACCESSORY},
+     {character::PartKind::kFragment, v1::MESH_PART_KIND_FRAGMENT}}};
 constexpr Table<section::Sex, v1::Sex, 4> kSexes = {{{section::Sex::kAuto, v1::SEX_AUTO},
                                                      {section::Sex::kFemale, v1::SEX_FEMALE},
                                                      {section::Sex::kMale, v1::SEX_MALE},
@@ -113,6 +122,7 @@ v1::MeshFileFormat ToWire(formats::MeshFormat format) { return WireOf(kFormats, 
 v1::LandmarkMethod ToWire(body::LandmarkMethod method) { return WireOf(kMethods, method); }
 v1::BodyPart ToWire(body::Part part) { return WireOf(kParts, part); }
 v1::Stage ToWire(Stage stage) { return WireOf(kStages, stage); }
+v1::MeshPartKind ToWire(character::PartKind kind) { return WireOf(kMeshPartKinds, kind); }
 v1::Sex ToWire(section::Sex sex) { return WireOf(kSexes, sex); }
 v1::FitMode ToWire(pipeline::FitMode mode) { return WireOf(kFitModes, mode); }
 v1::Quality ToWire(pipeline::Quality quality) { return WireOf(kQualities, quality); }
@@ -129,6 +139,9 @@ std::optional<body::LandmarkMethod> FromWire(v1::LandmarkMethod method) {
 }
 std::optional<body::Part> FromWire(v1::BodyPart part) { return CoreOf(kParts, part); }
 std::optional<Stage> FromWire(v1::Stage stage) { return CoreOf(kStages, stage); }
+std::optional<character::PartKind> FromWire(v1::MeshPartKind kind) {
+  return CoreOf(kMeshPartKinds, kind);
+}
 std::optional<section::Sex> FromWire(v1::Sex sex) { return CoreOf(kSexes, sex); }
 std::optional<pipeline::FitMode> FromWire(v1::FitMode mode) { return CoreOf(kFitModes, mode); }
 std::optional<pipeline::Quality> FromWire(v1::Quality quality) {

@@ -19,6 +19,7 @@
 #include "core/body/anatomy.h"
 #include "core/body/find_body.h"
 #include "core/capsule/capsule_profile.h"
+#include "core/character/part_words.h"
 #include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 #include "core/section/feature_polygon.h"
@@ -35,6 +36,7 @@ namespace capfit::wire {
 [[nodiscard]] v1::FitMode ToWire(pipeline::FitMode mode);
 [[nodiscard]] v1::Quality ToWire(pipeline::Quality quality);
 [[nodiscard]] v1::SkinningForm ToWire(pipeline::SkinningMode mode);
+[[nodiscard]] v1::MeshPartKind ToWire(character::PartKind kind);
 [[nodiscard]] v1::CapsuleProfile ToWire(capsule::CapsuleProfile profile);
 
 [[nodiscard]] std::optional<body::Unit> FromWire(v1::LengthUnit unit);
@@ -46,6 +48,7 @@ namespace capfit::wire {
 [[nodiscard]] std::optional<section::Sex> FromWire(v1::Sex sex);
 [[nodiscard]] std::optional<pipeline::FitMode> FromWire(v1::FitMode mode);
 [[nodiscard]] std::optional<pipeline::Quality> FromWire(v1::Quality quality);
+[[nodiscard]] std::optional<character::PartKind> FromWire(v1::MeshPartKind kind);
 // Nothing for the forms that the core does not have as well.
 [[nodiscard]] std::optional<pipeline::SkinningMode> FromWire(v1::SkinningForm form);
 

@@ -139,6 +139,25 @@ void WriteBudget(const pipeline::FitOptions& options, v1::FitOptions& wire) {
   if (options.max_capsules) limit.set_max_capsules(*options.max_capsules);
 }
 
+// Of v1::FitOptions and v1::EffectiveOptions, whose fields have the same names.
+template <typename Options>
+character::CharacterOptions CharacterFromWire(const Options& wire) {
+  character::CharacterOptions options;
+  options.include.assign(wire.include_parts().begin(), wire.include_parts().end());
+  options.exclude.assign(wire.exclude_parts().begin(), wire.exclude_parts().end());
+  options.hair = wire.include_hair();
+  options.skirt = wire.include_skirt();
+  return options;
+}
+
+template <typename Options>
+void CharacterToWire(const character::CharacterOptions& options, Options& wire) {
+  for (const std::string& name : options.include) wire.add_include_parts(name);
+  for (const std::string& name : options.exclude) wire.add_exclude_parts(name);
+  wire.set_include_hair(options.hair);
+  wire.set_include_skirt(options.skirt);
+}
+
 }  // namespace
 
 absl::StatusOr<pipeline::FitOptions> OptionsFromWire(const v1::ApproximateBodyHeader& header) {
@@ -162,6 +181,7 @@ absl::StatusOr<pipeline::FitOptions> OptionsFromWire(const v1::ApproximateBodyHe
   options.want_vertex_gaps = wire.want_vertex_gaps();
   options.tolerance_m = wire.tolerance_m();
   options.engine = wire.engine();
+  options.character = CharacterFromWire(wire);
   return options;
 }
 
@@ -188,6 +208,7 @@ void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeade
   wire.set_want_vertex_gaps(options.want_vertex_gaps);
   wire.set_tolerance_m(options.tolerance_m);
   wire.set_engine(options.engine);
+  CharacterToWire(options.character, wire);
 }
 
 absl::Status WithWirePaths(const absl::Status& status, const v1::FitOptions& options) {
@@ -227,6 +248,7 @@ v1::EffectiveOptions EffectiveOptionsToWire(const pipeline::FitOptions& options)
   wire.set_caller_landmark_count(static_cast<int>(options.landmarks.size()));
   wire.set_want_feature_polygons(options.want_polygons);
   wire.set_want_vertex_gaps(options.want_vertex_gaps);
+  CharacterToWire(options.character, wire);
   return wire;
 }
 
@@ -251,6 +273,7 @@ absl::StatusOr<pipeline::FitOptions> EffectiveOptionsFromWire(const v1::Effectiv
   CAPFIT_RETURN_IF_ERROR(Read("summary.options.up_axis", wire.up_axis(), options.up));
   options.want_polygons = wire.want_feature_polygons();
   options.want_vertex_gaps = wire.want_vertex_gaps();
+  options.character = CharacterFromWire(wire);
   return options;
 }
 

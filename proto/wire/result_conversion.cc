@@ -125,11 +125,33 @@ void FactsToWire(const pipeline::BodyFacts& facts, v1::BodyFacts& wire) {
   SetVector(facts.box_max, *wire.mutable_box_max());
   wire.set_height_m(facts.height_m);
   wire.set_is_symmetric(facts.is_symmetric);
+  for (const character::CharacterPart& part : facts.parts) {
+    v1::MeshPart& one = *wire.add_parts();
+    one.set_name(PlainText(part.name));
+    one.set_material(PlainText(part.material));
+    one.set_kind(ToWire(part.kind));
+    one.set_is_included(part.is_included);
+    one.set_reason(PlainText(part.reason));
+    one.set_shell_count(static_cast<std::int64_t>(part.shell_count));
+    one.set_face_count(static_cast<std::int64_t>(part.face_count));
+    one.set_area_share(part.area_share);
+  }
 }
 
 pipeline::BodyFacts FactsFromWire(const v1::BodyFacts& wire) {
-  return {wire.vertex_count(),      wire.face_count(), VectorOf(wire.box_min()),
-          VectorOf(wire.box_max()), wire.height_m(),   wire.is_symmetric()};
+  pipeline::BodyFacts facts = {
+      wire.vertex_count(),      wire.face_count(), VectorOf(wire.box_min()),
+      VectorOf(wire.box_max()), wire.height_m(),   wire.is_symmetric(),
+      {}};
+  for (const v1::MeshPart& part : wire.parts()) {
+    facts.parts.push_back({part.name(), part.material(),
+                           FromWire(part.kind()).value_or(character::PartKind::kFragment),
+                           part.is_included(), part.reason(),
+                           static_cast<std::size_t>(std::max<std::int64_t>(0, part.shell_count())),
+                           static_cast<std::size_t>(std::max<std::int64_t>(0, part.face_count())),
+                           part.area_share()});
+  }
+  return facts;
 }
 
 // Whether the capsule's ends are two spheres in order.

@@ -58,6 +58,10 @@ TEST(Features, HaveAWordForEveryOption) {
       {"want_feature_polygons", {"option.feature_polygons"}},
       {"tolerance_m", {"option.tolerance_m"}},
       {"require_parts", {"option.require_parts"}},
+      {"include_parts", {"option.mesh_parts"}},
+      {"exclude_parts", {"option.mesh_parts"}},
+      {"include_hair", {"option.mesh_parts"}},
+      {"include_skirt", {"option.mesh_parts"}},
       {"want_vertex_gaps", {"option.vertex_gaps"}},
       {"engine", {"budget.engine"}}};
   std::set<std::string> words = {"call.unary"};

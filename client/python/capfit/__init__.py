@@ -10,12 +10,12 @@
 from capfit.answer import ProgressFunction
 from capfit.client import DEFAULT_PORT, Client
 from capfit.errors import CapfitError, FitWarning
-from capfit.result import (BodyFacts, FeaturePolygon, GapStatistics, Landmark, Metrics, PartMetrics,
-                           Result, Similarity)
+from capfit.result import (BodyFacts, FeaturePolygon, GapStatistics, Landmark, MeshPart, Metrics,
+                           PartMetrics, Result, Similarity)
 from capfit.server_info import Engine, ServerInfo, ServerLimits
 
 __all__ = [
     "BodyFacts", "CapfitError", "Client", "DEFAULT_PORT", "Engine", "FeaturePolygon", "FitWarning",
-    "GapStatistics", "Landmark", "Metrics", "PartMetrics", "ProgressFunction", "Result",
+    "GapStatistics", "Landmark", "MeshPart", "Metrics", "PartMetrics", "ProgressFunction", "Result",
     "ServerInfo", "ServerLimits", "Similarity",
 ]

@@ -5,7 +5,7 @@ import functools
 import inspect
 import re
 import time
-from typing import Any, Callable, Optional, TypeVar, cast
+from typing import Any, Callable, Iterable, Optional, TypeVar, cast
 
 import grpc
 from numpy.typing import ArrayLike
@@ -95,6 +95,10 @@ class Client:
         seed: int = 0,
         want_feature_polygons: bool = False,
         want_vertex_gaps: bool = False,
+        include_parts: Iterable[str] = (),
+        exclude_parts: Iterable[str] = (),
+        include_hair: bool = False,
+        include_skirt: bool = False,
         request_id: str = "",
         timeout: float = 300.0,
         on_progress: Optional[ProgressFunction] = None,
@@ -120,6 +124,9 @@ class Client:
         landmarks           {name: (x, y, z)} that you know better
         seed                the same seed gives the same bits
         want_feature_polygons, want_vertex_gaps    whether they come too
+        include_parts, exclude_parts    names of meshes or materials of the file that are the
+                            body's, or not; "*" and "?" stand for other characters
+        include_hair, include_skirt    whether they are enclosed too
         request_id          name of the job in the server's logs
         timeout             seconds for the whole call, upload and queueing included
         on_progress         called with the stage's name and the fraction done, on this thread
@@ -141,7 +148,9 @@ class Client:
             max_polygon_error=max_polygon_error, engine=engine, parts=parts,
             require_parts=require_parts, fit_mode=fit_mode, quality=quality,
             tolerance_m=tolerance_m, sex=sex, skinning=skinning, landmarks=landmarks, seed=seed,
-            want_feature_polygons=want_feature_polygons, want_vertex_gaps=want_vertex_gaps)
+            want_feature_polygons=want_feature_polygons, want_vertex_gaps=want_vertex_gaps,
+            include_parts=include_parts, exclude_parts=exclude_parts, include_hair=include_hair,
+            include_skirt=include_skirt)
         header = service_pb2.ApproximateBodyHeader(mesh=mesh, options=options,
                                                    request_id=request_id)
         first = service_pb2.ApproximateBodyRequest(header=header)

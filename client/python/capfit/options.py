@@ -29,6 +29,10 @@ def fit_options(
     seed: int,
     want_feature_polygons: bool,
     want_vertex_gaps: bool,
+    include_parts: Iterable[str],
+    exclude_parts: Iterable[str],
+    include_hair: bool,
+    include_skirt: bool,
 ) -> Any:
     """A v1.FitOptions; what each means: Client.approximate.
 
@@ -46,8 +50,11 @@ def fit_options(
     _add_landmarks(options, landmarks or {})
     for name, value in (("engine", engine), ("tolerance_m", tolerance_m), ("seed", seed),
                         ("want_feature_polygons", want_feature_polygons),
-                        ("want_vertex_gaps", want_vertex_gaps)):
+                        ("want_vertex_gaps", want_vertex_gaps), ("include_hair", include_hair),
+                        ("include_skirt", include_skirt)):
         _set(options, name, value)
+    for name, names in (("include_parts", include_parts), ("exclude_parts", exclude_parts)):
+        getattr(options, name).extend([names] if isinstance(names, str) else names)
     return options
 
 

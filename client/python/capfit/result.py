@@ -90,6 +90,20 @@ class Similarity:
 
 
 @dataclass(frozen=True)
+class MeshPart:
+    """Pieces of one part of a file, and what they were taken for."""
+
+    name: str
+    material: str
+    kind: str  # "body", "clothing", "shoe", "skirt", "hair", "inner", "accessory", "fragment"
+    is_included: bool
+    reason: str
+    shell_count: int
+    face_count: int
+    area_share: float
+
+
+@dataclass(frozen=True)
 class BodyFacts:
     """The mesh that was fitted, as it came."""
 
@@ -99,6 +113,7 @@ class BodyFacts:
     box_max: Tuple[float, float, float]
     height_m: float
     is_symmetric: bool
+    parts: Tuple[MeshPart, ...] = ()  # of a file of several; empty: the mesh was one surface
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,8 +7,8 @@ from typing import Any, Dict, List, Optional
 import numpy
 
 from capfit.errors import FitWarning
-from capfit.result import (BodyFacts, FeaturePolygon, GapStatistics, Landmark, Metrics, PartMetrics,
-                           Result, Similarity)
+from capfit.result import (BodyFacts, FeaturePolygon, GapStatistics, Landmark, MeshPart, Metrics,
+                           PartMetrics, Result, Similarity)
 
 FORMAT = "capfit-result"
 FORMAT_VERSION = 1
@@ -128,4 +128,5 @@ def _similarity_of(members: Document) -> Similarity:
 def _body_of(members: Document) -> BodyFacts:
     known = _known(BodyFacts, members)
     known.update({name: tuple(members[name]) for name in ("box_min", "box_max")})
+    known["parts"] = tuple(MeshPart(**_known(MeshPart, part)) for part in members.get("parts", ()))
     return BodyFacts(**known)

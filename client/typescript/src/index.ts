@@ -11,5 +11,5 @@ export type { Progress, ProgressFunction } from "./result_collector";
 export type { ResultJson } from "./result_json";
 export type {
   BodyPart, BodyPartGroup, CapsuleProfile, FitMode, LandmarkMethod, LengthUnit, MeshFileFormat,
-  Quality, Sex, SkinningForm, Stage, UpAxis,
+  MeshPartKind, Quality, Sex, SkinningForm, Stage, UpAxis,
 } from "./words";

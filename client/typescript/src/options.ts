@@ -51,6 +51,14 @@ export interface FitOptions {
   wantVertexGaps?: boolean;
   /** How far a vertex may stick out, in metres: 0 to 0.1. Default: 0. */
   toleranceM?: number;
+  /** Names of meshes or materials of the file that are the body's; * and ? stand for others. */
+  includeParts?: readonly string[];
+  /** Names of those that are not. */
+  excludeParts?: readonly string[];
+  /** Whether hair is enclosed too. Default: false. */
+  includeHair?: boolean;
+  /** Whether skirts are enclosed too. Default: false. */
+  includeSkirt?: boolean;
 }
 
 // One writer for each option, so that a new one cannot be forgotten here.
@@ -91,6 +99,10 @@ const writers: Writers = {
     wire.wantVertexGaps = booleanOf(value, "options.want_vertex_gaps");
   },
   toleranceM: (value, wire) => { wire.toleranceM = numberOf(value, "options.tolerance_m"); },
+  includeParts: (value, wire) => { wire.includeParts = namesOf(value, "options.include_parts"); },
+  excludeParts: (value, wire) => { wire.excludeParts = namesOf(value, "options.exclude_parts"); },
+  includeHair(value, wire) { wire.includeHair = booleanOf(value, "options.include_hair"); },
+  includeSkirt(value, wire) { wire.includeSkirt = booleanOf(value, "options.include_skirt"); },
 };
 
 /** Throws CapfitError for names and words that the contract does not know. */
@@ -126,6 +138,13 @@ function partsOf(value: unknown, field: string): BodyPartGroupName[] {
     throw invalidField("UNKNOWN_VALUE", field, 'must be "all" or a list of parts', value);
   }
   return words.map((word, index) => bodyPartGroups.toWire(word, `${field}[${index}]`));
+}
+
+function namesOf(value: unknown, field: string): string[] {
+  if (!Array.isArray(value)) {
+    throw invalidField("UNKNOWN_VALUE", field, "must be a list of names", value);
+  }
+  return value.map((name, index) => stringOf(name, `${field}[${index}]`));
 }
 
 function landmarksOf(value: unknown): WireLandmark[] {

@@ -8,6 +8,7 @@ import type {
 } from "./generated/capfit/v1/EffectiveOptions";
 import type { Engine__Output as WireEngine } from "./generated/capfit/v1/Engine";
 import type { GapStatistics__Output } from "./generated/capfit/v1/GapStatistics";
+import type { MeshPart__Output as WireMeshPart } from "./generated/capfit/v1/MeshPart";
 import type { Metrics__Output as WireMetrics } from "./generated/capfit/v1/Metrics";
 import type { PartMetrics__Output as WirePartMetrics } from "./generated/capfit/v1/PartMetrics";
 import type { ServerLimits__Output } from "./generated/capfit/v1/ServerLimits";
@@ -16,6 +17,7 @@ import type { Vector } from "./options";
 import { type ResultJson, resultJson } from "./result_json";
 import type {
   BodyPart, BodyPartGroup, CapsuleProfile, FitMode, LandmarkMethod, LengthUnit, MeshFileFormat,
+  MeshPartKind,
   Quality, Sex, SkinningForm, Stage, UpAxis,
 } from "./words";
 
@@ -98,8 +100,17 @@ export type EffectiveOptions = Replaced<
   }
 >;
 
+/** Pieces of one part of a file, and what they were taken for. */
+export type MeshPart = Replaced<
+  WireMeshPart,
+  { kind: MeshPartKind | null; shellCount: number; faceCount: number }
+>;
+
 /** The mesh that was fitted, as it came. */
-export type BodyFacts = Replaced<WireBodyFacts, { boxMin: Vector; boxMax: Vector }>;
+export type BodyFacts = Replaced<
+  WireBodyFacts,
+  { boxMin: Vector; boxMax: Vector; parts: MeshPart[] }
+>;
 
 /** y = scale * (rotation * x) + translation. */
 export interface Similarity {

@@ -22,7 +22,8 @@ import type {
 } from "./result";
 import {
   type BodyPart, type BodyPartGroup, bodyPartGroups, bodyParts, capsuleProfiles, fitModes,
-  landmarkMethods, lengthUnits, meshFileFormats, qualities, sexes, skinningForms, stages, upAxes,
+  landmarkMethods, lengthUnits, meshFileFormats, meshPartKinds, qualities, sexes, skinningForms,
+  stages, upAxes,
 } from "./words";
 
 // What the contract promises to be there.
@@ -106,7 +107,12 @@ function stageSecondsOf(times: readonly StageTime__Output[]): Summary["stages"] 
 }
 
 function bodyOf(body: BodyFacts__Output): BodyFacts {
-  return { ...body, boxMin: vectorOf(body.boxMin), boxMax: vectorOf(body.boxMax) };
+  return {
+    ...body,
+    boxMin: vectorOf(body.boxMin),
+    boxMax: vectorOf(body.boxMax),
+    parts: body.parts.map((part) => ({ ...part, kind: meshPartKinds.fromWire(part.kind) })),
+  };
 }
 
 function optionsOf(options: EffectiveOptions__Output): EffectiveOptions {

@@ -8,6 +8,7 @@ import { FitMode as FitModeName } from "./generated/capfit/v1/FitMode";
 import { LandmarkMethod as LandmarkMethodName } from "./generated/capfit/v1/LandmarkMethod";
 import { LengthUnit as LengthUnitName } from "./generated/capfit/v1/LengthUnit";
 import { MeshFileFormat as MeshFileFormatName } from "./generated/capfit/v1/MeshFileFormat";
+import { MeshPartKind as MeshPartKindName } from "./generated/capfit/v1/MeshPartKind";
 import { Quality as QualityName } from "./generated/capfit/v1/Quality";
 import { Sex as SexName } from "./generated/capfit/v1/Sex";
 import { SkinningForm as SkinningFormName } from "./generated/capfit/v1/SkinningForm";
@@ -68,6 +69,7 @@ export const fitModes = vocabulary(FitModeName, "FIT_MODE");
 export const landmarkMethods = vocabulary(LandmarkMethodName, "LANDMARK_METHOD");
 export const lengthUnits = vocabulary(LengthUnitName, "LENGTH_UNIT");
 export const meshFileFormats = vocabulary(MeshFileFormatName, "MESH_FILE_FORMAT");
+export const meshPartKinds = vocabulary(MeshPartKindName, "MESH_PART_KIND");
 export const qualities = vocabulary(QualityName, "QUALITY");
 export const sexes = vocabulary(SexName, "SEX");
 export const skinningForms = vocabulary(SkinningFormName, "SKINNING_FORM");
@@ -88,6 +90,8 @@ export type LandmarkMethod = (typeof landmarkMethods.words)[number];
 export type LengthUnit = (typeof lengthUnits.words)[number];
 /** A file format that can be read. */
 export type MeshFileFormat = (typeof meshFileFormats.words)[number];
+/** What a part of a file is to the character. */
+export type MeshPartKind = (typeof meshPartKinds.words)[number];
 /** How much work goes into a fit. */
 export type Quality = (typeof qualities.words)[number];
 /** Whether the bust may be split in three. */

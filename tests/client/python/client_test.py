@@ -150,14 +150,15 @@ class FitTest(ServerTest):
             parts="torso, arms legs,head", require_parts=["arms"], fit_mode="enclose",
             quality="Tight", tolerance_m=0.002, sex="female", skinning="dense",
             landmarks={"crotch": (0, 0.75, 0)}, seed=2**64 - 1, want_feature_polygons=False,
-            want_vertex_gaps=True).options
+            want_vertex_gaps=True, include_hair=True).options
         self.assertEqual(options, {
             "budget": {"max_spheres": 32, "max_capsules": 32}, "fit_mode": "enclose",
             "quality": "tight", "parts": ["torso", "arms", "legs", "head"],
             "require_parts": ["arms"], "sex": "female", "skinning": "dense", "seed": 2**64 - 1,
             "tolerance_m": 0.002, "engine": "nvcloth", "capsule_profile": "tangent_hull",
             "unit": "metre", "up_axis": "y", "caller_landmark_count": 1,
-            "want_feature_polygons": False, "want_vertex_gaps": True})
+            "want_feature_polygons": False, "want_vertex_gaps": True, "include_parts": [],
+            "exclude_parts": [], "include_hair": True, "include_skirt": False})
         for budget in ({"max_primitives": 33}, {"max_polygon_error": 0.25}, {"max_spheres": 30}):
             self.assertEqual(self.client.approximate(self.body, **budget).options["budget"], budget)
 
