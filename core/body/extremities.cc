@@ -192,13 +192,12 @@ class RoleFinder {
   [[nodiscard]] int Contradictions() const {
     int contradictions = 0;
     for (int role = 0; rig_ && role < kTipCount; ++role) {
-      const auto [first, last] = EndsOf(static_cast<Tip>(role));
       if (roles_[role] < 0) continue;
-      const auto a = static_cast<std::size_t>(first);
-      const auto b = static_cast<std::size_t>(last);
-      if (!rig_->vertex[a] && !rig_->vertex[b]) continue;
-      const Candidate& candidate = candidates_[roles_[role]];
-      if (!candidate.holds[a] && !candidate.holds[b]) ++contradictions;
+      const auto [first, last] = EndsOf(static_cast<Tip>(role));
+      const std::array<bool, kRigEndCount>& holds = candidates_[roles_[role]].holds;
+      const bool holds_its_end =
+          holds[static_cast<std::size_t>(first)] || holds[static_cast<std::size_t>(last)];
+      if (!holds_its_end) ++contradictions;
     }
     return contradictions;
   }
@@ -351,8 +350,7 @@ std::vector<Candidate> Candidates(std::span<const Branch> branches,
     candidates[i] = {b, girth, is_stump, level, std::move(vertices), {}};
     for (std::size_t end = 0; rig && end < rig->vertex.size(); ++end) {
       const std::vector<std::uint32_t>& held = candidates[i].vertices;
-      candidates[i].holds[end] =
-          rig->vertex[end] && std::binary_search(held.begin(), held.end(), *rig->vertex[end]);
+      candidates[i].holds[end] = std::binary_search(held.begin(), held.end(), rig->vertex[end]);
     }
   });
   std::erase_if(candidates,

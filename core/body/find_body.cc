@@ -84,10 +84,9 @@ struct Found {
 void TurnToToldSides(const BodyOptions& options, const Found& found, IntrinsicFrame& frame) {
   const WorkingCopy& copy = found.copy;
   double agreement = 0.0;
-  const bool is_rig_told =
-      options.landmarks.empty() && found.rig_ends && found.rig_ends->left.has_value();
+  const bool is_rig_told = options.landmarks.empty() && found.rig_ends.has_value();
   if (is_rig_told) {
-    agreement = frame.left.dot(*found.rig_ends->left);
+    agreement = frame.left.dot(found.rig_ends->left);
     frame.facing_trust = 1.0;
   }
   for (const auto& [id, position] :
@@ -361,7 +360,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   WorkingCopy copy = MakeWorkingCopy(mesh, pool);
   const SurfaceGraph graph(copy.points, copy.triangles, copy.mates, pool);
   const Rig rig = ReadRig(options.skeleton);
-  const std::optional<RigEnds> rig_ends = FindRigEnds(rig, copy);
+  const std::optional<RigEnds> rig_ends = FindRigEnds(rig, copy, pool);
   const Extremities extremities =
       FindExtremities(copy.points, copy.vertex_areas, graph, pool, rig_ends);
   std::vector<Warning> warnings;

@@ -410,9 +410,8 @@ bool IsLeft(const Rings& rings, Tip a, Tip b, const IntrinsicFrame& frame) {
 
 // From the hips to the neck.
 Eigen::Vector3d TrunkAxis(const Rings& rings, const std::optional<RigEnds>& rig) {
-  Eigen::Vector3d axis = TrunkDirection(rings).normalized();
-  if (rig && rig->up && !(rig->up->dot(axis) >= kTakenCosineToRig)) axis = *rig->up;
-  return axis;
+  const Eigen::Vector3d axis = TrunkDirection(rings).normalized();
+  return rig && !(rig->up.dot(axis) >= kTakenCosineToRig) ? rig->up : axis;
 }
 
 }  // namespace
@@ -448,8 +447,8 @@ IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
     // Limbs in stride can mirror each other in a plane that is turned against the trunk.
     plane = {width.direction, width.direction.dot(width.center)};
   }
-  if (rig && rig->left && std::abs(rig->left->dot(plane.normal)) < kTakenCosineToRig) {
-    plane = {*rig->left, rig->left->dot(rig->middle)};
+  if (rig && std::abs(rig->left.dot(plane.normal)) < kTakenCosineToRig) {
+    plane = {rig->left, rig->left.dot(rig->middle)};
   }
   frame.left = plane.normal;
   frame.plane_offset = plane.offset;

@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/base/status.h"
+#include "core/body/inside.h"
 #include "core/body/landmarks.h"
 #include "core/body/skeleton_names.h"
 #include "core/body/snap.h"
@@ -41,25 +41,10 @@ constexpr double kMostBadBones = 2.0 / 3.0;
 
 std::string Centimetres(double length_m) { return absl::StrFormat("%.0f cm", 100.0 * length_m); }
 
-// By the section at its height.
-bool IsInside(const CutSurface& surface, const Eigen::Vector3d& at) {
-  int winding = 0;  // by the crossings of a ray along +X
-  for (const SectionLoop& loop : surface.Cut({at, Eigen::Vector3d::UnitY()})) {
-    for (std::size_t i = 0; i < loop.outline.size(); ++i) {
-      const Eigen::Vector3d& a = loop.outline[i];
-      const Eigen::Vector3d& b = loop.outline[(i + 1) % loop.outline.size()];
-      if ((a.z() <= at.z()) == (b.z() <= at.z())) continue;
-      const double x = a.x() + (at.z() - a.z()) / (b.z() - a.z()) * (b.x() - a.x());
-      if (x > at.x()) winding += a.z() <= at.z() ? 1 : -1;
-    }
-  }
-  return winding != 0;
-}
-
 class Judge {
  public:
   Judge(const Extremities& extremities, const Shape& shape)
-      : stature_m_(shape.top_m), points_(shape.points), surface_(shape.surface) {
+      : stature_m_(shape.top_m), surface_(shape.surface) {
     low_ = high_ = shape.points.front();
     for (const Eigen::Vector3d& p : shape.points) {
       low_ = low_.cwiseMin(p);
@@ -78,21 +63,13 @@ class Judge {
 
   // Whether it lies in the surface or near it.
   [[nodiscard]] bool IsInBody(const Eigen::Vector3d& at) const {
-    const double near_m = kNearSurface * stature_m_;
-    if (IsInside(*surface_, at)) return true;
-    return std::any_of(points_.begin(), points_.end(), [&](const Eigen::Vector3d& p) {
-      return (p - at).squaredNorm() <= near_m * near_m;
-    });
+    return IsInsideOrNear(*surface_, at, kNearSurface * stature_m_);
   }
 
   // Whether the way from joint to joint does.
   [[nodiscard]] bool IsBoneInBody(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-    int outside = 0;
-    for (int i = 0; i < kPlacesOnBone && outside <= kMostOutside; ++i) {
-      const double share = (i + 0.5) / kPlacesOnBone;
-      if (!IsInBody((1.0 - share) * from + share * to)) ++outside;
-    }
-    return outside <= kMostOutside;
+    return PlacesOutside(*surface_, from, to, kNearSurface * stature_m_, kPlacesOnBone) <=
+           kMostOutside;
   }
 
   [[nodiscard]] bool IsOfThisSize(double neck_to_ankle_m) const {
@@ -124,7 +101,6 @@ class Judge {
 
   double stature_m_;
   std::array<double, 2> statures_m_ = {};
-  std::span<const Eigen::Vector3d> points_;
   const CutSurface* surface_;
   Landmarks measured_;
   Eigen::Vector3d low_;
