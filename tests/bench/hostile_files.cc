@@ -203,7 +203,7 @@ HostileInput PackedZeros() {
                     R"(,"componentType":5126,"count":900,"type":"VEC3"})");
     absl::StrAppend(&views, a == 0 ? "" : ",",
                     R"({"buffer":0,"byteLength":36,"extensions":{"EXT_meshopt_compression":)",
-                    R"({"buffer":0,"byteLength":1048576,"mode":"ATTRIBUTES","count":4000000,)",
+                    R"({"buffer":0,"byteLength":1000033,"mode":"ATTRIBUTES","count":4000000,)",
                     R"("byteStride":16}}})");
   }
   return Glb(absl::StrCat(R"({"nodes":[{"mesh":0}],"meshes":[{"primitives":[)", primitives,
