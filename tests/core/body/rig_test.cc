@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/fit_observer.h"
+#include "core/base/thread_pool.h"
 #include "core/body/find_body.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
@@ -67,8 +69,7 @@ const Rigged& PlainMannequin() {
     for (const RiggedName& entry : kNames) {
       formats::NamedJoint joint;
       joint.name = entry.name;
-      joint.position =
-          body->body_from_caller.Inverse().Apply(body->landmark(entry.id)->position_m);
+      joint.position = body->body_from_caller.Inverse().Apply(body->landmark(entry.id)->position_m);
       rigged->joints.push_back(joint);
     }
     return rigged;
@@ -160,20 +161,25 @@ void MoveAll(Rigged& rigged, const std::function<Vector3d(const Vector3d&)>& mov
 INSTANTIATE_TEST_SUITE_P(
     Of, RigContradiction,
     testing::Values(
-        Contradiction{"AChild",  // standing beside the same soles
-                      [](Rigged& r) { MoveAll(r, [](const Vector3d& p) { return Vector3d(0.5 * p); }); },
-                      13, 13},
-        Contradiction{"AGiant",
-                      [](Rigged& r) { MoveAll(r, [](const Vector3d& p) { return Vector3d(2.0 * p); }); },
-                      13, 13},
+        Contradiction{
+            "AChild",  // standing beside the same soles
+            [](Rigged& r) { MoveAll(r, [](const Vector3d& p) { return Vector3d(0.5 * p); }); }, 13,
+            13},
+        Contradiction{
+            "AGiant",
+            [](Rigged& r) { MoveAll(r, [](const Vector3d& p) { return Vector3d(2.0 * p); }); }, 13,
+            13},
         Contradiction{"ANeighbour",
                       [](Rigged& r) {
-                        MoveAll(r, [](const Vector3d& p) { return Vector3d(p + Vector3d(0.7, 0, 0)); });
+                        MoveAll(
+                            r, [](const Vector3d& p) { return Vector3d(p + Vector3d(0.7, 0, 0)); });
                       },
                       13, 13},
         Contradiction{"AHandstand",
                       [](Rigged& r) {
-                        MoveAll(r, [](const Vector3d& p) { return Vector3d(p.x(), 1.7 - p.y(), p.z()); });
+                        MoveAll(r, [](const Vector3d& p) {
+                          return Vector3d(p.x(), 1.7 - p.y(), p.z());
+                        });
                       },
                       9, 13},
         Contradiction{"ArmsRaised",  // the legs' bones are believed all the same
@@ -188,6 +194,26 @@ INSTANTIATE_TEST_SUITE_P(
         Contradiction{"OneKneeAtTheHip",
                       [](Rigged& r) { r.joints[5].position = r.joints[4].position; }, 1, 1}),
     [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(Rig, SameBitsForAnyNumberOfThreads) {
+  const Rigged rigged = WithSword();
+  const auto prepared = mesh::PrepareMesh(rigged.soup);
+  ASSERT_TRUE(prepared.ok());
+  BodyOptions options;
+  options.skeleton = rigged.joints;
+  const auto one = FindBody(prepared->mesh, options, ThreadPool(1), NullObserver());
+  ASSERT_TRUE(one.ok()) << one.status();
+  for (const int threads : {2, 7}) {
+    const auto many = FindBody(prepared->mesh, options, ThreadPool(threads), NullObserver());
+    ASSERT_TRUE(many.ok()) << many.status();
+    EXPECT_EQ(many->vertex_segments, one->vertex_segments);
+    for (std::size_t i = 0; i < one->landmarks.size(); ++i) {
+      ASSERT_EQ(many->landmarks[i].has_value(), one->landmarks[i].has_value());
+      if (!one->landmarks[i]) continue;
+      EXPECT_EQ(many->landmarks[i]->position_m, one->landmarks[i]->position_m);
+    }
+  }
+}
 
 // The skeleton says which side is the left, whatever the feet say.
 TEST(Rig, TellsFrontFromBack) {
