@@ -35,6 +35,8 @@ constexpr double kUnequalPairCost = 0.5;
 // What it costs to leave a role empty, or a tip without a role, in units of the misfit.
 constexpr double kEmptyRoleCost = 0.12;
 constexpr double kUnusedTipCost = 0.10;
+// A role for a tip that the skeleton gives to another: more than leaving both without.
+constexpr double kContradictionCost = 0.40;
 
 // Mean girth of head, arm and leg, and the weight of the log of the ratio. A piece as wide as a
 // trunk (1.0) is no limb.
@@ -60,8 +62,21 @@ struct Candidate {
   double girth = 0.0;  // mean, from its junction to the tip
   bool is_stump = false;
   double junction = 0.0;
-  std::vector<std::uint32_t> vertices;  // those farther than the junction
+  std::vector<std::uint32_t> vertices;        // those farther than the junction
+  std::array<bool, kRigEndCount> holds = {};  // which ends of the skeleton are among these
 };
+
+bool HoldsAny(const Candidate& candidate) {
+  return std::any_of(candidate.holds.begin(), candidate.holds.end(), [](bool b) { return b; });
+}
+
+// The ends of a skeleton that a role may stand for: first and last.
+std::pair<RigEnd, RigEnd> EndsOf(Tip tip) {
+  if (tip == Tip::kHead) return {RigEnd::kHead, RigEnd::kHead};
+  return tip == Tip::kHandA || tip == Tip::kHandB
+             ? std::pair(RigEnd::kLeftHand, RigEnd::kRightHand)
+             : std::pair(RigEnd::kLeftFoot, RigEnd::kRightFoot);
+}
 
 double UsualWay(Tip a, Tip b) {
   const auto is_hand = [](Tip t) { return t == Tip::kHandA || t == Tip::kHandB; };
@@ -81,8 +96,9 @@ using Roles = std::array<int, kTipCount>;  // candidate of each role, -1: none
 // Gives the roles to the tips so that the proportions fit best.
 class RoleFinder {
  public:
-  RoleFinder(std::span<const Branch> branches, std::span<const Candidate> candidates)
-      : branches_(branches), candidates_(candidates) {}
+  RoleFinder(std::span<const Branch> branches, std::span<const Candidate> candidates,
+             const std::optional<RigEnds>& rig)
+      : branches_(branches), candidates_(candidates), rig_(rig) {}
 
   // Tries every way; equal roles (two hands) count once.
   void Run() { TryFrom(0); }
@@ -166,11 +182,24 @@ class RoleFinder {
   [[nodiscard]] int UnusedTips() const {
     int unused = 0;
     for (int c = 0; c < static_cast<int>(candidates_.size()); ++c) {
-      if (!candidates_[c].is_stump && std::find(roles_.begin(), roles_.end(), c) == roles_.end()) {
-        ++unused;
-      }
+      if (candidates_[c].is_stump || (rig_ && !HoldsAny(candidates_[c]))) continue;
+      if (std::find(roles_.begin(), roles_.end(), c) == roles_.end()) ++unused;
     }
     return unused;
+  }
+
+  // Tips whose role the skeleton gives to others.
+  [[nodiscard]] int Contradictions() const {
+    int contradictions = 0;
+    for (int role = 0; rig_ && role < kTipCount; ++role) {
+      if (roles_[role] < 0) continue;
+      const auto [first, last] = EndsOf(static_cast<Tip>(role));
+      const std::array<bool, kRigEndCount>& holds = candidates_[roles_[role]].holds;
+      const bool holds_its_end =
+          holds[static_cast<std::size_t>(first)] || holds[static_cast<std::size_t>(last)];
+      if (!holds_its_end) ++contradictions;
+    }
+    return contradictions;
   }
 
   [[nodiscard]] double Misfit() const {
@@ -180,11 +209,13 @@ class RoleFinder {
         Inequality(static_cast<int>(Tip::kHandA), static_cast<int>(Tip::kHandB)) +
         Inequality(static_cast<int>(Tip::kFootA), static_cast<int>(Tip::kFootB));
     return WayDeviation() + kUnequalPairCost * inequality + kGirthCost * GirthDeviation() +
-           kEmptyRoleCost * (kTipCount - used) + kUnusedTipCost * UnusedTips();
+           kEmptyRoleCost * (kTipCount - used) + kUnusedTipCost * UnusedTips() +
+           kContradictionCost * Contradictions();
   }
 
   std::span<const Branch> branches_;
   std::span<const Candidate> candidates_;
+  const std::optional<RigEnds>& rig_;
   Roles roles_ = {-1, -1, -1, -1, -1};
   Roles best_ = {-1, -1, -1, -1, -1};
   double best_misfit_ = std::numeric_limits<double>::infinity();
@@ -294,7 +325,7 @@ double FirstJunction(std::span<const Branch> branches, int branch, std::span<con
 std::vector<Candidate> Candidates(std::span<const Branch> branches,
                                   std::span<const double> distance,
                                   std::span<const double> vertex_areas, const SurfaceGraph& graph,
-                                  const ThreadPool& pool) {
+                                  const ThreadPool& pool, const std::optional<RigEnds>& rig) {
   std::vector<int> tall;
   std::vector<int> stumps;
   for (int b = 0; b < static_cast<int>(branches.size()); ++b) {
@@ -316,7 +347,11 @@ std::vector<Candidate> Candidates(std::span<const Branch> branches,
     double area = 0.0;
     for (const std::uint32_t v : vertices) area += vertex_areas[v];
     const double girth = area / std::max(branches[b].tip_distance - level, 1e-6);
-    candidates[i] = {b, girth, is_stump, level, std::move(vertices)};
+    candidates[i] = {b, girth, is_stump, level, std::move(vertices), {}};
+    for (std::size_t end = 0; rig && end < rig->vertex.size(); ++end) {
+      const std::vector<std::uint32_t>& held = candidates[i].vertices;
+      candidates[i].holds[end] = std::binary_search(held.begin(), held.end(), rig->vertex[end]);
+    }
   });
   std::erase_if(candidates,
                 [](const Candidate& c) { return !c.is_stump && c.girth > kMaxLimbGirth; });
@@ -325,20 +360,24 @@ std::vector<Candidate> Candidates(std::span<const Branch> branches,
 
 Extremities FromSources(const std::vector<GeodesicSource>& sources,
                         std::span<const double> vertex_areas, const SurfaceGraph& graph,
-                        const ThreadPool& pool) {
+                        const ThreadPool& pool, const std::optional<RigEnds>& rig) {
   Extremities result;
   result.distance = graph.Distances(sources, pool);
   const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump, pool);
   std::vector<Candidate> candidates =
-      Candidates(branches, result.distance, vertex_areas, graph, pool);
-  RoleFinder finder(branches, candidates);
+      Candidates(branches, result.distance, vertex_areas, graph, pool, rig);
+  RoleFinder finder(branches, candidates, rig);
   finder.Run();
   result.misfit = finder.misfit();
   for (int role = 0; role < kTipCount; ++role) {
     const int candidate = finder.roles()[role];
     if (candidate < 0) continue;
     const Branch& branch = branches[candidates[candidate].branch];
-    Limb limb = {branch.tip, 0.0, branch.tip_distance, {}};
+    Limb limb = {branch.tip, 0.0, branch.tip_distance, {}, {}};
+    const auto [left, right] = EndsOf(static_cast<Tip>(role));
+    const bool holds_left = candidates[candidate].holds[static_cast<std::size_t>(left)];
+    const bool holds_right = candidates[candidate].holds[static_cast<std::size_t>(right)];
+    if (holds_left != holds_right) limb.is_left = holds_left;
     for (const int other : finder.roles()) {
       if (other < 0 || other == candidate) continue;
       limb.junction = std::max(limb.junction, JunctionLevel(branches, candidates[candidate].branch,
@@ -361,18 +400,18 @@ int Extremities::found() const {
 
 Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
                             std::span<const double> vertex_areas, const SurfaceGraph& graph,
-                            const ThreadPool& pool) {
+                            const ThreadPool& pool, const std::optional<RigEnds>& rig) {
   const std::vector<GeodesicSource> sources = MiddleOfTheBody(points);
-  Extremities best = FromSources(sources, vertex_areas, graph, pool);
+  Extremities best = FromSources(sources, vertex_areas, graph, pool, rig);
   if (best.misfit <= kGoodMisfit && best.found() == kTipCount) return best;
   Extremities whole =
-      FromSources(MiddleOfTheSurface(best.distance, graph, pool), vertex_areas, graph, pool);
+      FromSources(MiddleOfTheSurface(best.distance, graph, pool), vertex_areas, graph, pool, rig);
   // Only for a whole body is that middle near the waist.
   if (whole.found() == kTipCount && whole.misfit < best.misfit) best = std::move(whole);
   if (best.misfit <= kFairMisfit) return best;
   const auto patches = PatchesOf(sources, points, vertex_areas, graph);
   for (std::size_t i = 0; i < patches.size() && i < kMaxMiddles; ++i) {
-    Extremities other = FromSources(patches[i], vertex_areas, graph, pool);
+    Extremities other = FromSources(patches[i], vertex_areas, graph, pool, rig);
     if (other.misfit < best.misfit) best = std::move(other);
   }
   return best;

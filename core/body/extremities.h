@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/body/branches.h"
+#include "core/body/rig_ends.h"
 #include "core/body/surface_graph.h"
 
 namespace capfit::body {
@@ -24,6 +25,7 @@ struct Limb {
   double junction = 0.0;                // distance at which it joins another limb
   double tip_distance = 0.0;            // distance of the tip
   std::vector<std::uint32_t> vertices;  // those farther than the junction
+  std::optional<bool> is_left;          // where a skeleton tells
 };
 
 struct Extremities {
@@ -41,10 +43,13 @@ struct Extremities {
 // Lengths along the surface do not change when limbs bend, so neither does the answer: tips are
 // the maxima of the geodesic distance from the middle, and their roles follow from the lengths of
 // the ways between them (the head is near the hands, the feet are far from all) and from how thick
-// the limbs are. O(n log n).
+// the limbs are. Where a skeleton tells which vertices belong to head, hands and feet, a tip that
+// does not hold the one of its role counts as a bad fit, and one that holds none (of a hat, a
+// sword, a tail) may go without a role. O(n log n).
 [[nodiscard]] Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
                                           std::span<const double> vertex_areas,
-                                          const SurfaceGraph& graph, const ThreadPool& pool);
+                                          const SurfaceGraph& graph, const ThreadPool& pool,
+                                          const std::optional<RigEnds>& rig = std::nullopt);
 
 }  // namespace capfit::body
 

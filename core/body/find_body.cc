@@ -17,6 +17,7 @@
 #include "core/body/intrinsic_frame.h"
 #include "core/body/landmarks.h"
 #include "core/body/mirror.h"
+#include "core/body/rig_ends.h"
 #include "core/body/segments.h"
 #include "core/body/shape.h"
 #include "core/body/skeleton_names.h"
@@ -55,18 +56,49 @@ std::optional<Eigen::Vector3d> UpDirection(UpAxis up) {
   return std::nullopt;
 }
 
+// Limbs that hold a wrist or an ankle of the skeleton are of its side.
+void NameLimbs(const Extremities& extremities, IntrinsicFrame& frame) {
+  const auto name = [&](Tip first, Tip second, bool& first_is_left) {
+    const auto& a = extremities.limb(first);
+    const auto& b = extremities.limb(second);
+    if (a && a->is_left) {
+      first_is_left = *a->is_left;
+    } else if (b && b->is_left) {
+      first_is_left = !*b->is_left;
+    }
+  };
+  name(Tip::kHandA, Tip::kHandB, frame.first_hand_is_left);
+  name(Tip::kFootA, Tip::kFootB, frame.first_foot_is_left);
+}
+
+// The body as it came and what is known of it before its frame is.
+struct Found {
+  const WorkingCopy& copy;
+  const Extremities& extremities;
+  const Rig& rig;
+  const std::optional<RigEnds>& rig_ends;  // nothing where the rig lies elsewhere
+};
+
 // Landmarks on the wrong sides mean that front and back are mistaken: the caller knows better, and
 // so does a skeleton.
-void TurnToToldSides(const BodyOptions& options, const WorkingCopy& copy, IntrinsicFrame& frame) {
+void TurnToToldSides(const BodyOptions& options, const Found& found, IntrinsicFrame& frame) {
+  const WorkingCopy& copy = found.copy;
   double agreement = 0.0;
+  const bool is_rig_told = options.landmarks.empty() && found.rig_ends.has_value();
+  if (is_rig_told) {
+    agreement = frame.left.dot(found.rig_ends->left);
+    frame.facing_trust = 1.0;
+  }
   for (const auto& [id, position] :
-       options.landmarks.empty() ? LandmarksFromSkeleton(options.skeleton) : options.landmarks) {
+       options.landmarks.empty() ? found.rig.landmarks : options.landmarks) {
+    if (is_rig_told) break;  // crossed limbs say less than shoulders and hips
     if (MirrorLandmark(id) == id) continue;
     const bool is_left = id < MirrorLandmark(id);
     agreement +=
         (is_left ? 1.0 : -1.0) * (frame.left.dot(copy.FromMesh(position)) - frame.plane_offset);
   }
   if (agreement < 0.0) frame = TurnedAbout(frame);
+  if (is_rig_told) NameLimbs(found.extremities, frame);
 }
 
 // Height of a body that ends above its legs, from what reaches out of the trunk; rough.
@@ -180,12 +212,12 @@ std::string NearestAxis(const WorkingCopy& copy, const Eigen::Vector3d& directio
 // The frame that the surface shows, or, where the told axis is near to its own, that with the told
 // axis. A body that stands along another axis may lie in truth: its own frame serves there
 // too.
-absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const WorkingCopy& copy,
-                                             const Extremities& extremities,
+absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const Found& found,
                                              std::vector<Warning>& warnings) {
+  const WorkingCopy& copy = found.copy;
   const Eigen::Vector3d up = Snap(copy.axes * told, kFineGrid).normalized();
-  IntrinsicFrame own =
-      FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, std::nullopt);
+  IntrinsicFrame own = FindIntrinsicFrame(copy.points, copy.vertex_areas, found.extremities,
+                                          std::nullopt, found.rig_ends);
   const double cosine = own.up.dot(up);
   const std::string axis = NearestAxis(copy, up);
   const std::string own_axis = NearestAxis(copy, own.up);
@@ -205,12 +237,13 @@ absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const 
          0});
   }
   if (cosine < kTakenCosine) return own;
-  return FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, up);
+  return FindIntrinsicFrame(copy.points, copy.vertex_areas, found.extremities, up, found.rig_ends);
 }
 
-absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const WorkingCopy& copy,
-                                         const Extremities& extremities,
+absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Found& found,
                                          std::vector<Warning>& warnings) {
+  const WorkingCopy& copy = found.copy;
+  const Extremities& extremities = found.extremities;
   if (extremities.found() < kMinExtremities) {
     return Refused(ErrorReason::kNotABody,
                    absl::StrCat("not a human body: found ", extremities.found(),
@@ -219,11 +252,12 @@ absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Worki
   const std::optional<Eigen::Vector3d> told = UpDirection(options.up);
   IntrinsicFrame frame;
   if (told) {
-    CAPFIT_ASSIGN_OR_RETURN(frame, FrameWithTold(*told, copy, extremities, warnings));
+    CAPFIT_ASSIGN_OR_RETURN(frame, FrameWithTold(*told, found, warnings));
   } else {
-    frame = FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, std::nullopt);
+    frame = FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, std::nullopt,
+                               found.rig_ends);
   }
-  TurnToToldSides(options, copy, frame);
+  TurnToToldSides(options, found, frame);
   return frame;
 }
 
@@ -264,9 +298,10 @@ absl::Status CheckRequired(const Body& body, const PartSelection& required) {
 // Landmarks, segments and curves, once the frame is known.
 class Anatomist {
  public:
-  Anatomist(const BodyOptions& options, const SurfaceGraph& graph, const Extremities& extremities,
-            const ThreadPool& pool, Body& body)
+  Anatomist(const BodyOptions& options, const Rig& rig, const SurfaceGraph& graph,
+            const Extremities& extremities, const ThreadPool& pool, Body& body)
       : options_(options),
+        rig_(rig),
         extremities_(extremities),
         body_(body),
         surface_(body.mesh.vertices(), body.mesh.triangles(), pool) {
@@ -281,7 +316,7 @@ class Anatomist {
   absl::Status Run(const IntrinsicFrame& frame, double stature_m, const FitObserver& observer) {
     shape_.stature_m = stature_m;
     AssignSides(extremities_, frame, shape_);
-    CAPFIT_ASSIGN_OR_RETURN(body_.landmarks, ToldLandmarks(options_, body_.body_from_caller,
+    CAPFIT_ASSIGN_OR_RETURN(body_.landmarks, ToldLandmarks(options_, rig_, body_.body_from_caller,
                                                            extremities_, shape_, body_.warnings));
     CAPFIT_RETURN_IF_ERROR(FindLandmarks(extremities_, shape_, body_.landmarks, body_.warnings));
     if (!AllLandmarksFinite()) {
@@ -311,6 +346,7 @@ class Anatomist {
   }
 
   const BodyOptions& options_;
+  const Rig& rig_;
   const Extremities& extremities_;
   Body& body_;
   CutSurface surface_;
@@ -323,10 +359,13 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                               const ThreadPool& pool, const FitObserver& observer) {
   WorkingCopy copy = MakeWorkingCopy(mesh, pool);
   const SurfaceGraph graph(copy.points, copy.triangles, copy.mates, pool);
-  const Extremities extremities = FindExtremities(copy.points, copy.vertex_areas, graph, pool);
+  const Rig rig = ReadRig(options.skeleton);
+  const std::optional<RigEnds> rig_ends = FindRigEnds(rig, copy, pool);
+  const Extremities extremities =
+      FindExtremities(copy.points, copy.vertex_areas, graph, pool, rig_ends);
   std::vector<Warning> warnings;
   CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame,
-                          FindFrame(options, copy, extremities, warnings));
+                          FindFrame(options, Found{copy, extremities, rig, rig_ends}, warnings));
   CAPFIT_ASSIGN_OR_RETURN(const WaysToBody ways,
                           FindWaysToBody(options, copy, frame, extremities, warnings));
   if (frame.facing_trust < kFacingTrust) {
@@ -342,7 +381,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                {},
                std::move(warnings)};
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
-  Anatomist anatomist(options, graph, extremities, pool, body);
+  Anatomist anatomist(options, rig, graph, extremities, pool, body);
   CAPFIT_RETURN_IF_ERROR(anatomist.Run(frame, ways.stature_m, observer));
   return body;
 }

@@ -33,7 +33,8 @@ struct BodyOptions {
   std::map<LandmarkId, Eigen::Vector3d> landmarks;
   // Joints of a skeleton that came with the mesh, in the caller's frame (see skeleton_names.h).
   // They replace the found ones that the caller does not give, but for those that contradict the
-  // surface (all of them where more than two thirds do): warning SKELETON_IGNORED.
+  // surface (see told_landmarks.h): warning SKELETON_IGNORED. A skeleton that lies in the body also
+  // says which tips are head, hands and feet (see extremities.h), and which side is the left.
   std::vector<formats::NamedJoint> skeleton;
   // Parts that must be there, none unless asked for: else FAILED_PRECONDITION with reason
   // PART_MISSING. Both sides of a pair are meant.

@@ -20,6 +20,8 @@ constexpr int kRobustIterations = 30;
 constexpr double kSelfPairWeight = 0.3;
 // The body stands on its soles when "up at rest" is within 6 degrees of the trunk.
 constexpr double kMinCosineToTrunk = 0.9945;
+// Axes of the surface that lie farther than this (20 degrees) from a skeleton's are mistaken.
+constexpr double kTakenCosineToRig = 0.94;
 constexpr double kSoleTolerance = 0.02;
 // A trunk this much wider than deep says by itself where left and right are, to within the angle of
 // this cosine (5 degrees).
@@ -406,6 +408,12 @@ bool IsLeft(const Rings& rings, Tip a, Tip b, const IntrinsicFrame& frame) {
   return x > 0.0;
 }
 
+// From the hips to the neck.
+Eigen::Vector3d TrunkAxis(const Rings& rings, const std::optional<RigEnds>& rig) {
+  const Eigen::Vector3d axis = TrunkDirection(rings).normalized();
+  return rig && !(rig->up.dot(axis) >= kTakenCosineToRig) ? rig->up : axis;
+}
+
 }  // namespace
 
 IntrinsicFrame TurnedAbout(const IntrinsicFrame& frame) {
@@ -421,7 +429,8 @@ IntrinsicFrame TurnedAbout(const IntrinsicFrame& frame) {
 IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
                                   std::span<const double> vertex_areas,
                                   const Extremities& extremities,
-                                  const std::optional<Eigen::Vector3d>& up) {
+                                  const std::optional<Eigen::Vector3d>& up,
+                                  const std::optional<RigEnds>& rig) {
   Rings rings;
   for (int i = 0; i < kTipCount; ++i) {
     if (!extremities.limbs[i]) continue;
@@ -431,12 +440,15 @@ IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
   rings.trunk = TrunkCentroids(points, vertex_areas, extremities, is_limb);
   Plane plane = SymmetryPlane(rings);
   IntrinsicFrame frame;
-  const Eigen::Vector3d trunk = TrunkDirection(rings).normalized();
+  const Eigen::Vector3d trunk = TrunkAxis(rings, rig);
   const TrunkWidth width = MeasureTrunk(points, vertex_areas, is_limb, trunk);
   const Eigen::Vector3d across = (plane.normal - plane.normal.dot(trunk) * trunk).normalized();
   if (width.ratio > kClearlyWide && std::abs(width.direction.dot(across)) < kMinCosineToWidth) {
     // Limbs in stride can mirror each other in a plane that is turned against the trunk.
     plane = {width.direction, width.direction.dot(width.center)};
+  }
+  if (rig && std::abs(rig->left.dot(plane.normal)) < kTakenCosineToRig) {
+    plane = {rig->left, rig->left.dot(rig->middle)};
   }
   frame.left = plane.normal;
   frame.plane_offset = plane.offset;

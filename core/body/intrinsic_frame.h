@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/body/extremities.h"
+#include "core/body/rig_ends.h"
 
 namespace capfit::body {
 
@@ -34,11 +35,13 @@ struct IntrinsicFrame {
 // so that the body would stand at rest on its soles, where that is near to the trunk's own
 // direction; else the trunk's direction. Forward: where the toes point, and the knees bend to.
 // Exact for bodies that are symmetric; the same for any turned, moved or scaled copy. `up` given:
-// taken as it is. Needs three limbs or more.
+// taken as it is. A skeleton's axes take the place of those found that are more than 20 degrees
+// off, as a backpack or a stride may make them. Needs three limbs or more.
 [[nodiscard]] IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
                                                 std::span<const double> vertex_areas,
                                                 const Extremities& extremities,
-                                                const std::optional<Eigen::Vector3d>& up);
+                                                const std::optional<Eigen::Vector3d>& up,
+                                                const std::optional<RigEnds>& rig = std::nullopt);
 
 // Front and back, left and right exchanged.
 [[nodiscard]] IntrinsicFrame TurnedAbout(const IntrinsicFrame& frame);

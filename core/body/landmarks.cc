@@ -80,7 +80,7 @@ void MeasureLegsFromFeet(Shape& shape, Fields& fields) {
     meeting = std::min(meeting, std::max(from_foot[kLeft][v], from_foot[kRight][v]));
   }
   for (const int side : {kLeft, kRight}) {
-    Limb limb = {shape.legs[side]->tip, 0.0, meeting, {}};
+    Limb limb = {shape.legs[side]->tip, 0.0, meeting, {}, {}};
     std::vector<double>& distance = fields.legs[side].distance;
     distance.resize(shape.points.size());
     for (std::uint32_t v = 0; v < distance.size(); ++v) {

@@ -27,9 +27,12 @@ constexpr std::uint16_t kOldestBitstream = 0x0202;  // glTF's, 2.2
 // attributes, seams in three.
 constexpr std::uint64_t kMostSeamTables = 16;
 constexpr int kMostAttributeDecoders = 32;
+// Bodies take a byte or two for a face; only a flat sheet comes near to this.
+constexpr std::uint64_t kMostFacesPerByte = 256;
 
 // What the decoders hold against the limits, and the first thing that was too much.
 struct DracoGuard {
+  std::size_t packed_bytes = 0;
   const MeshLimits& limits;
   GltfFile& file;
   const FilePlace& place;
@@ -40,9 +43,9 @@ struct DracoGuard {
     return false;
   }
   bool CheckFaces(std::uint64_t faces, std::uint64_t vertices, std::uint64_t tables) {
-    if (faces > limits.max_faces) {
-      return Refuse(FileTooLarge(place, faces, "faces", limits.max_faces));
-    }
+    const std::uint64_t most_faces =
+        std::min<std::uint64_t>(limits.max_faces, kMostFacesPerByte * packed_bytes);
+    if (faces > most_faces) return Refuse(FileTooLarge(place, faces, "faces", most_faces));
     if (vertices > std::min<std::uint64_t>(limits.max_vertices, 3 * faces)) {
       return Refuse(FileTooLarge(place, vertices, "vertices",
                                  std::min<std::uint64_t>(limits.max_vertices, 3 * faces)));
@@ -210,7 +213,7 @@ absl::StatusOr<DracoPrimitive> DecodeDraco(std::span<const std::byte> packed,
                                            const FilePlace& place) {
   draco::DracoHeader header;
   CAPFIT_RETURN_IF_ERROR(CheckHeader(packed, header, place));
-  DracoGuard guard{limits, file, place};
+  DracoGuard guard{packed.size(), limits, file, place};
   draco::Mesh mesh;
   draco::Status decoded;
   try {  // its containers may run out of memory, or find themselves asked for too much

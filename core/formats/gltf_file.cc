@@ -194,7 +194,8 @@ absl::StatusOr<std::span<const std::byte>> GltfFile::Range(const json& view,
   if (!index.has_value()) return BadIndexAt(place, view, "buffer", buffers.size());
   const std::string uri = NameAt(buffers[*index], "uri");
   std::span<const std::byte> buffer = binary_;
-  if (unpacked_buffers_[*index].has_value()) {
+  const bool is_unpacked = unpacked_buffers_[*index].has_value();
+  if (is_unpacked) {
     buffer = std::as_bytes(std::span(*unpacked_buffers_[*index]));
   } else if (*index != 0 || !buffers[0].is_object() || buffers[0].contains("uri")) {
     return FileError(ErrorReason::kUnsupportedFile, place,
@@ -208,10 +209,11 @@ absl::StatusOr<std::span<const std::byte>> GltfFile::Range(const json& view,
     return FileError(ErrorReason::kMalformedFile, place, "it has a bad offset or length");
   }
   if (*offset > buffer.size() || *size > buffer.size() - *offset) {
-    return FileError(ErrorReason::kOutOfRange, place,
-                     absl::StrCat("it is out of range: it ends at byte ", *offset + *size,
-                                  " of the ", buffer.size(), " in the buffer"),
-                     ValueAndLimit(*offset + *size, buffer.size()));
+    return FileError(
+        ErrorReason::kOutOfRange, place,
+        absl::StrCat("it is out of range: it ends at byte ", *offset + *size, " of the ",
+                     buffer.size(), is_unpacked ? " in the buffer" : " in the binary chunk"),
+        ValueAndLimit(*offset + *size, buffer.size()));
   }
   return buffer.subspan(*offset, *size);
 }

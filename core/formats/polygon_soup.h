@@ -14,7 +14,7 @@ namespace capfit::formats {
 
 // A joint of a skeleton that came with the mesh (GLB), where its node stands, in the mesh's frame.
 struct NamedJoint {
-  std::string name;
+  std::string name;  // may be empty
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   std::int32_t parent = -1;  // index of the nearest joint above it, -1 for none
   std::string human_bone = {};  // what the file itself says it is (VRM: "leftLowerArm"), often empty
@@ -27,7 +27,7 @@ struct JointInfluences {
 };
 
 // A range of faces that the file keeps apart: a primitive of a mesh. Parts follow each other and
-// hold every face once.
+// hold every face once; one that repeats the faces of another (for a second material) has none.
 struct SoupPart {
   std::string name;      // of the node or the mesh; may be empty, and several may have the same
   std::string material;  // may be empty

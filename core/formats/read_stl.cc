@@ -108,7 +108,10 @@ class TextReader {
       if (keyword == "endloop" && corners_.corners() != loop_start_ + 3) {
         return Error("a loop must have three vertices");
       }
-      if (keyword == "outer") loop_start_ = corners_.corners();
+      if (keyword == "outer") {
+        if (corners_.corners() % 3 != 0) return Error("a loop must have three vertices");
+        loop_start_ = corners_.corners();
+      }
     }
     if (!is_finished_) return Error("the file ends before 'endsolid'");
     if (corners_.corners() == 0) return FileError(ErrorReason::kMissing, {}, "has no triangles");

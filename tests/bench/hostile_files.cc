@@ -127,6 +127,91 @@ HostileInput LongNames() {
              std::string(262'180, '\0'));
 }
 
+// A chain of 100,000 nodes, all of them joints as far as joints go.
+HostileInput DeepTree() {
+  std::string nodes = R"("nodes":[{"mesh":0,"skin":0,"children":[1]})";
+  for (int n = 1; n < 99'999; ++n) absl::StrAppend(&nodes, R"(,{"children":[)", n + 1, "]}");
+  std::string joints = "99999";
+  for (int j = 1; j < 4096; ++j) absl::StrAppend(&joints, ",", 99'999 - j);
+  return Glb(absl::StrCat("{", nodes, R"(,{}],"scenes":[{"nodes":[0]}],"meshes":[{"primitives":)",
+                          R"([{"attributes":{"POSITION":0}}]}],"skins":[{"joints":[)", joints,
+                          "]}],", kArrays, "}"),
+             std::string(262'180, '\0'));
+}
+
+HostileInput ManyPrimitives() {
+  return Glb(absl::StrCat(R"({"nodes":[{"mesh":0}],"meshes":[{"primitives":[)",
+                          Repeated(R"({"attributes":{"POSITION":0}},)", 99'999),
+                          R"({"attributes":{"POSITION":0}}]}],)", kArrays, "}"),
+             std::string(262'180, '\0'));
+}
+
+// Many meshes of one primitive, so that none repeats another.
+HostileInput ManyMeshes() {
+  return Glb(
+      absl::StrCat("{", NodesOf(R"({"mesh":0})", 99'000),
+                   R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)", kArrays, "}"),
+      std::string(262'180, '\0'));
+}
+
+HostileInput ManySkinsOfManyJoints() {
+  std::string skins;
+  std::string nodes;
+  for (int s = 0; s < 400; ++s) {
+    absl::StrAppend(&nodes, R"({"mesh":0,"skin":)", s, "},");
+    absl::StrAppend(&skins, s == 0 ? "" : ",", R"({"joints":[)", Repeated("0,", 4095), "0]}");
+  }
+  return Glb(absl::StrCat(R"({"nodes":[)", nodes, R"({}],"meshes":[{}],"skins":[)", skins, "],",
+                          kArrays, "}"),
+             std::string(262'180, '\0'));
+}
+
+HostileInput ManyMorphs() {
+  return Glb(absl::StrCat(R"({"nodes":[{"mesh":0}],"meshes":[{"weights":[)",
+                          Repeated("1,", 200'000),
+                          R"(1],"primitives":[{"attributes":{"POSITION":2},"targets":[)",
+                          Repeated(R"({"POSITION":2},)", 200'000),
+                          R"({"POSITION":2}]}]}],"accessors":[{},{},{"componentType":5126,)",
+                          R"("count":2000000,"type":"VEC3"}]})"));
+}
+
+HostileInput ManySparse() {
+  std::string primitives;
+  std::string accessors;
+  for (int a = 0; a < 5000; ++a) {
+    absl::StrAppend(&primitives, a == 0 ? "" : ",", R"({"attributes":{"POSITION":)", a, "}}");
+    absl::StrAppend(
+        &accessors, a == 0 ? "" : ",",
+        R"({"componentType":5126,"count":1900000,"type":"VEC3","sparse":{"count":1,)",
+        R"("indices":{"bufferView":0,"componentType":5125},"values":{"bufferView":0}}})");
+  }
+  return Glb(absl::StrCat(R"({"nodes":[{"mesh":0}],"meshes":[{"primitives":[)", primitives,
+                          R"(]}],"accessors":[)", accessors,
+                          R"(],"bufferViews":[{"buffer":0,"byteLength":36}],)",
+                          R"("buffers":[{"byteLength":36}]})"),
+             std::string(36, '\0'));
+}
+
+// Views that unpack to 64 times as many bytes, again and again.
+HostileInput PackedZeros() {
+  std::string primitives;
+  std::string accessors;
+  std::string views;
+  for (int a = 0; a < 2000; ++a) {
+    absl::StrAppend(&primitives, a == 0 ? "" : ",", R"({"attributes":{"POSITION":)", a, "}}");
+    absl::StrAppend(&accessors, a == 0 ? "" : ",", R"({"bufferView":)", a,
+                    R"(,"componentType":5126,"count":900,"type":"VEC3"})");
+    absl::StrAppend(&views, a == 0 ? "" : ",",
+                    R"({"buffer":0,"byteLength":36,"extensions":{"EXT_meshopt_compression":)",
+                    R"({"buffer":0,"byteLength":1000033,"mode":"ATTRIBUTES","count":4000000,)",
+                    R"("byteStride":16}}})");
+  }
+  return Glb(absl::StrCat(R"({"nodes":[{"mesh":0}],"meshes":[{"primitives":[)", primitives,
+                          R"(]}],"accessors":[)", accessors, R"(],"bufferViews":[)", views,
+                          R"(],"buffers":[{"byteLength":1048576}]})"),
+             "\xa0" + std::string((1 << 20) - 1, '\0'));
+}
+
 HostileInput NestedJson() {
   const std::size_t depth = 4'000'000;
   return Glb(absl::StrCat(R"({"nodes":)", std::string(depth, '['), std::string(depth, ']'), "}"));
@@ -162,6 +247,13 @@ std::vector<HostileCase> HostileFiles() {
           {"GLB: 90,000 nodes draw 90,000 primitives", ManyDraws},
           {"GLB: 90,000 nodes with 4096 joints", ManySkins},
           {"GLB: 2,700,000 nodes", ManyNodes},
+          {"GLB: joints 100,000 deep", DeepTree},
+          {"GLB: 100,000 primitives", ManyPrimitives},
+          {"GLB: 99,000 meshes", ManyMeshes},
+          {"GLB: 400 skins of 4096 joints", ManySkinsOfManyJoints},
+          {"GLB: 200,000 morph targets", ManyMorphs},
+          {"GLB: 5,000 sparse accessors of 1,900,000", ManySparse},
+          {"GLB: 2,000 views packed 64 to 1", PackedZeros},
           {"GLB: a name of 4 MB, 4096 times", LongNames},
           {"GLB: nested 4,000,000 deep", NestedJson},
           {"GLB: 2,700,000 lists", SmallJsonValues}};

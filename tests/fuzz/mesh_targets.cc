@@ -1,5 +1,6 @@
 #include "tests/fuzz/mesh_targets.h"
 
+#include <cmath>
 #include <cstdint>
 
 #include "core/formats/read_mesh.h"
@@ -11,6 +12,38 @@ namespace capfit::fuzz {
 namespace {
 
 constexpr int kFormats = 6;
+
+bool IsInfluence(const formats::JointInfluences& influences, std::size_t joints) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < influences.weight.size(); ++k) {
+    if (!(influences.weight[k] >= 0.0F)) return false;
+    if (influences.weight[k] > 0.0F && influences.joint[k] >= joints) return false;
+    sum += influences.weight[k];
+  }
+  return sum == 0.0 || std::abs(sum - 1.0) < 1e-5;
+}
+
+// What polygon_soup.h says of joints, influences and parts.
+std::string BrokenPromiseOfRig(const formats::PolygonSoup& soup) {
+  const auto joints = static_cast<std::int64_t>(soup.joints.size());
+  for (const formats::NamedJoint& joint : soup.joints) {
+    if (!joint.position.allFinite()) return "a joint stands nowhere";
+    if (joint.parent < -1 || joint.parent >= joints) return "a joint has no such parent";
+  }
+  std::size_t next_face = 0;
+  for (const formats::SoupPart& part : soup.parts) {
+    if (part.first_face != next_face) return "parts do not follow each other";
+    if (part.joint < -1 || part.joint >= joints) return "a part hangs under no such joint";
+    next_face += part.face_count;
+  }
+  if (!soup.parts.empty() && next_face != soup.face_count()) return "parts lack faces";
+  if (soup.influences.empty()) return {};
+  if (soup.influences.size() != soup.positions.size()) return "not all vertices have influences";
+  for (const formats::JointInfluences& influences : soup.influences) {
+    if (!IsInfluence(influences, soup.joints.size())) return "influences are none";
+  }
+  return {};
+}
 
 std::string TryPrepare(const formats::PolygonSoup& soup, const formats::MeshLimits& limits,
                        bool is_file) {
@@ -55,7 +88,9 @@ std::string TryReadMesh(std::span<const std::byte> bytes) {
   limits.max_faces = 100'000;
   const auto format = static_cast<formats::MeshFormat>(static_cast<unsigned>(bytes[0]) % kFormats);
   const auto soup = formats::ReadMesh(bytes.subspan(1), format, limits);
-  return soup.ok() ? TryPrepare(*soup, limits, true) : BrokenPromiseOfRefusal(soup.status(), true);
+  if (!soup.ok()) return BrokenPromiseOfRefusal(soup.status(), true);
+  const std::string broken = BrokenPromiseOfRig(*soup);
+  return broken.empty() ? TryPrepare(*soup, limits, true) : broken;
 }
 
 std::string TryPrepareMesh(std::span<const std::byte> bytes) {

@@ -1,4 +1,6 @@
 // Real avatars against their ground truth: where the file shows them, not how they were bound.
+#include "tests/support/avatars.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/formats/read_mesh.h"
-#include "tests/support/avatars.h"
 #include "tests/support/bodies.h"
 
 namespace capfit::formats {
@@ -21,8 +22,8 @@ json Truth() {
 }
 
 PolygonSoup ReadAvatar(const json& truth) {
-  const std::string bytes = test_support::ReadFile(test_support::AvatarsFolder() /
-                                                   truth.at("file").get<std::string>());
+  const std::string bytes =
+      test_support::ReadFile(test_support::AvatarsFolder() / truth.at("file").get<std::string>());
   auto soup = ReadMesh(std::as_bytes(std::span(bytes)));
   EXPECT_TRUE(soup.ok()) << soup.status();
   return soup.ok() ? *std::move(soup) : PolygonSoup();
@@ -85,9 +86,9 @@ TEST(AvatarsTest, HasItsPartsEachWithItsFacesAndItsJoint) {
     if (soup.parts.size() == 1) continue;  // of the scan, the truth lists ranges of faces
     ASSERT_EQ(soup.parts.size(), truth.at("parts").size()) << name;
     for (const json& part : truth.at("parts")) {
-      const auto found =
-          std::find_if(soup.parts.begin(), soup.parts.end(),
-                       [&](const SoupPart& p) { return p.name == part.at("node").get<std::string>(); });
+      const auto found = std::find_if(soup.parts.begin(), soup.parts.end(), [&](const SoupPart& p) {
+        return p.name == part.at("node").get<std::string>();
+      });
       ASSERT_NE(found, soup.parts.end()) << name << " " << part.at("node");
       EXPECT_EQ(found->face_count, part.at("faces").get<std::size_t>()) << name;
       const bool is_rigid = part.contains("skinned") && part.at("skinned") == false;

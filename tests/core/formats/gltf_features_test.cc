@@ -25,9 +25,8 @@ TEST(GltfFeaturesTest, MorphTargetsCountWithTheirDefaultWeights) {
       file.AddAccessor(PackedBytes<float>({1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2}), 5126, 4, "VEC3");
   const auto second =
       file.AddAccessor(PackedBytes<float>({0, 4, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0}), 5126, 4, "VEC3");
-  file.gltf["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", first}, {"NORMAL", 99}},
-                                                        {{"POSITION", second}},
-                                                        {{"NORMAL", 99}}};
+  file.gltf["meshes"][0]["primitives"][0]["targets"] = {
+      {{"POSITION", first}, {"NORMAL", 99}}, {{"POSITION", second}}, {{"NORMAL", 99}}};
   EXPECT_EQ(file.Read()->positions[0], Vector3d(0, 0, 0));
   file.gltf["meshes"][0]["weights"] = {0.5, 0.25, 1};
   EXPECT_THAT(file.Read()->positions, ElementsAre(Vector3d(0.5, 1, 0), Vector3d(1, 1, 0),
@@ -123,8 +122,8 @@ TEST(GltfFeaturesTest, UnpacksExponents) {
                                            packed.size(), filtered.data(), 4, 12));
   const auto view = file.AddView(packed);
   json extension = file.gltf["bufferViews"][view];
-  extension.update({{"mode", "ATTRIBUTES"}, {"filter", "EXPONENTIAL"}, {"count", 4},
-                    {"byteStride", 12}});
+  extension.update(
+      {{"mode", "ATTRIBUTES"}, {"filter", "EXPONENTIAL"}, {"count", 4}, {"byteStride", 12}});
   file.gltf["bufferViews"][0] = {{"buffer", 1}, {"byteLength", 48}};
   file.gltf["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = extension;
   const auto soup = file.Read();
@@ -144,9 +143,7 @@ TEST(GltfFeaturesTest, UnpacksExponents) {
   EXPECT_THAT(file.ToldOf(), HasSubstr("has a count, stride or filter that cannot be"));
 }
 
-std::filesystem::path TubeFolder() {
-  return std::filesystem::path(CAPFIT_TEST_DATA) / "gltf";
-}
+std::filesystem::path TubeFolder() { return std::filesystem::path(CAPFIT_TEST_DATA) / "gltf"; }
 
 absl::StatusOr<PolygonSoup> ReadTube(const std::string& name) {
   const std::string bytes = test_support::ReadFile(TubeFolder() / (name + ".glb"));
@@ -220,7 +217,8 @@ TEST(PackedTubeTest, ThePlainTubeStandsAsItsJointsDo) {
 
 // Any damage gives an error or a mesh, and no more memory than the limits allow.
 TEST_P(PackedTubeTest, SurvivesDamage) {
-  const std::string good = test_support::ReadFile(TubeFolder() / (std::string(GetParam()) + ".glb"));
+  const std::string good =
+      test_support::ReadFile(TubeFolder() / (std::string(GetParam()) + ".glb"));
   std::size_t refused = 0;
   for (std::size_t i = 12; i < good.size(); ++i) {
     for (const int change : {1, 0x80, 0xFF}) {

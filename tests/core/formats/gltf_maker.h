@@ -23,7 +23,9 @@ std::string PackedBytes(const std::vector<Value>& values) {
   if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
   return bytes;
 }
-inline std::string PackedWord(std::uint32_t value) { return PackedBytes(std::vector<std::uint32_t>{value}); }
+inline std::string PackedWord(std::uint32_t value) {
+  return PackedBytes(std::vector<std::uint32_t>{value});
+}
 
 inline std::string GlbChunk(std::uint32_t type, std::string bytes, char padding) {
   bytes.resize((bytes.size() + 3) / 4 * 4, padding);
@@ -31,13 +33,16 @@ inline std::string GlbChunk(std::uint32_t type, std::string bytes, char padding)
 }
 
 inline std::string GlbOf(const json& gltf, const std::string& binary) {
-  const std::string chunks = GlbChunk(0x4E4F534A, gltf.dump(), ' ') + GlbChunk(0x004E4942, binary, '\0');
-  return "glTF" + PackedWord(2) + PackedWord(static_cast<std::uint32_t>(12 + chunks.size())) + chunks;
+  const std::string chunks =
+      GlbChunk(0x4E4F534A, gltf.dump(), ' ') + GlbChunk(0x004E4942, binary, '\0');
+  return "glTF" + PackedWord(2) + PackedWord(static_cast<std::uint32_t>(12 + chunks.size())) +
+         chunks;
 }
 
 // Four vertices and four faces of a tetrahedron: 48 bytes of positions, 24 of 16-bit indices.
-inline const std::string kTetrahedronBytes = PackedBytes<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) +
-                            PackedBytes<std::uint16_t>({0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3});
+inline const std::string kTetrahedronBytes =
+    PackedBytes<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) +
+    PackedBytes<std::uint16_t>({0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3});
 
 inline json TetrahedronGltf() {
   return json::parse(R"({
@@ -50,14 +55,15 @@ inline json TetrahedronGltf() {
     "buffers": [{"byteLength": 72}]})");
 }
 
-inline absl::StatusOr<PolygonSoup> ReadGltf(const json& gltf, const std::string& binary = kTetrahedronBytes,
-                                 const MeshLimits& limits = {}) {
+inline absl::StatusOr<PolygonSoup> ReadGltf(const json& gltf,
+                                            const std::string& binary = kTetrahedronBytes,
+                                            const MeshLimits& limits = {}) {
   const std::string file = GlbOf(gltf, binary);
   return ReadGlb(std::as_bytes(std::span(file)), limits);
 }
 
 inline std::string ToldOfGltf(const json& gltf, const std::string& binary = kTetrahedronBytes,
-                   const MeshLimits& limits = {}) {
+                              const MeshLimits& limits = {}) {
   return Told(ReadGltf(gltf, binary, limits).status());
 }
 
@@ -90,9 +96,7 @@ struct GltfMaker {
   }
   // The attributes of the first primitive.
   json& attributes() { return gltf["meshes"][0]["primitives"][0]["attributes"]; }
-  [[nodiscard]] absl::StatusOr<PolygonSoup> Read() const {
-    return ReadGltf(gltf, binary);
-  }
+  [[nodiscard]] absl::StatusOr<PolygonSoup> Read() const { return ReadGltf(gltf, binary); }
   [[nodiscard]] std::string ToldOf() const { return Told(Read().status()); }
 };
 

@@ -55,8 +55,8 @@ struct SkinnedTetrahedron : GltfMaker {
       above = above * to_parent;
       to_world.push_back(above);
       inverse_binds.push_back(SomeTransform(rng));
-      gltf["nodes"].push_back({{"name", "joint " + std::to_string(j)},
-                               {"matrix", MatrixOf(to_parent)}});
+      gltf["nodes"].push_back(
+          {{"name", "joint " + std::to_string(j)}, {"matrix", MatrixOf(to_parent)}});
       if (j + 1 < joints) gltf["nodes"][j + 1]["children"] = {j + 2};
       gltf["skins"][0]["joints"].push_back(j + 1);
     }
@@ -117,9 +117,9 @@ TEST(GltfSkinTest, PlacesVerticesAsTheFormulaSaysWithUpToEightJoints) {
 TEST(GltfSkinTest, WeightsNeedNotSumToOneAndBadOnesCountAsNone) {
   SkinnedTetrahedron file(2);
   const float nan = std::nanf("");
-  file.attributes()["JOINTS_0"] = file.AddAccessor(
-      PackedBytes<std::uint16_t>({0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 7, 7, 7, 7}), 5123, 4,
-      "VEC4");
+  file.attributes()["JOINTS_0"] =
+      file.AddAccessor(PackedBytes<std::uint16_t>({0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 7, 7, 7, 7}),
+                       5123, 4, "VEC4");
   file.attributes()["WEIGHTS_0"] = file.AddAccessor(
       PackedBytes<float>({6, 2, 0, 0, nan, 3, 0, 0, 1, -5, 0, 0, 0, 0, 0, 0}), 5126, 4, "VEC4");
   const auto soup = file.Read();

@@ -280,11 +280,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "offset or count"},
         BadGltf{"ViewTooLong", "/bufferViews/1/byteLength", 25,
                 "OUT_OF_RANGE [value=73, limit=72, element=buffer view 1] mesh.file buffer view 1: "
-                "it is out of range: it ends at byte 73 of the 72 in the buffer"},
+                "it is out of range: it ends at byte 73 of the 72 in the binary chunk"},
         BadGltf{"ViewTooFar", "/bufferViews/1/byteOffset", 281474976710000u,
                 "OUT_OF_RANGE [value=281474976710024, limit=72, element=buffer view 1] mesh.file "
                 "buffer view 1: it is out of range: it ends at byte 281474976710024 of the 72 in "
-                "the buffer"},
+                "the binary chunk"},
         BadGltf{"BufferElsewhere", "/buffers/0/uri", "body.bin",
                 "UNSUPPORTED_FILE [element=buffer view 0] mesh.file buffer view 0: its bytes "
                 "are not in the file but in 'body.bin', and no other file is opened: export as "

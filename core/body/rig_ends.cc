@@ -1,0 +1,136 @@
+#include "core/body/rig_ends.h"
+
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/body/cross_section.h"
+#include "core/body/inside.h"
+#include "core/body/snap.h"
+
+namespace capfit::body {
+namespace {
+
+// In units of the square root of the surface's area (0.75 of the height; of somebody in a wide
+// skirt, with hair and a backpack down to 0.5).
+
+// A wrist lies some 3 cm under the skin, a head's joint 8; wide sleeves and boots add as much.
+constexpr double kNearEnd = 0.12;
+// From the neck over the middle of the hips, knee and ankle: 0.95 to 1.1 of bare bodies.
+constexpr double kShortestWay = 0.65;
+constexpr double kLongestWay = 1.35;
+// Joints are set by eye (3 cm), and this share of the bones may run outside.
+constexpr double kNearBone = 0.025;
+constexpr int kPlacesOnEach = 5;
+constexpr double kMostBonesOutside = 0.2;
+
+// The joints in the working copy's coordinates.
+class RigInCopy {
+ public:
+  RigInCopy(const Rig& rig, const WorkingCopy& copy) {
+    for (const auto& [id, position] : rig.landmarks) at_[id] = InCopy(position, copy);
+    if (rig.head) head_ = InCopy(*rig.head, copy);
+  }
+
+  [[nodiscard]] bool IsWhole() const {
+    return at_.size() == kJoints;  // the neck and six of each side
+  }
+  [[nodiscard]] const Eigen::Vector3d& at(LandmarkId id) const { return at_.at(id); }
+  [[nodiscard]] Eigen::Vector3d Middle(LandmarkId left) const {
+    return 0.5 * (at(left) + at(MirrorLandmark(left)));
+  }
+  [[nodiscard]] const Eigen::Vector3d& head() const {
+    return head_ ? *head_ : at(LandmarkId::kNeck);
+  }
+
+  // From joint to joint.
+  [[nodiscard]] std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Bones() const {
+    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> bones = {
+        {at(LandmarkId::kNeck), Middle(LandmarkId::kLeftHip)}};
+    for (const LandmarkId left : {LandmarkId::kLeftShoulder, LandmarkId::kLeftElbow,
+                                  LandmarkId::kLeftHip, LandmarkId::kLeftKnee}) {
+      for (const LandmarkId id : {left, MirrorLandmark(left)}) {
+        // Landmarks of a side follow each other by two.
+        bones.emplace_back(at(id), at(static_cast<LandmarkId>(static_cast<int>(id) + 2)));
+      }
+    }
+    return bones;
+  }
+
+  [[nodiscard]] double NeckToAnkle() const {
+    const Eigen::Vector3d hips = Middle(LandmarkId::kLeftHip);
+    double legs = 0.0;
+    for (const LandmarkId hip : {LandmarkId::kLeftHip, LandmarkId::kRightHip}) {
+      const auto knee = static_cast<LandmarkId>(static_cast<int>(hip) + 2);
+      const auto ankle = static_cast<LandmarkId>(static_cast<int>(hip) + 4);
+      legs += (at(knee) - at(hip)).norm() + (at(ankle) - at(knee)).norm();
+    }
+    return (at(LandmarkId::kNeck) - hips).norm() + 0.5 * legs;
+  }
+
+ private:
+  static constexpr std::size_t kJoints = 13;
+
+  static Eigen::Vector3d InCopy(const Eigen::Vector3d& p, const WorkingCopy& copy) {
+    return Snap(copy.FromMesh(p), kFineGrid);
+  }
+
+  std::map<LandmarkId, Eigen::Vector3d> at_;
+  std::optional<Eigen::Vector3d> head_;
+};
+
+// The nearest vertex, unless it is far.
+std::optional<std::uint32_t> VertexNear(const Eigen::Vector3d& at, const WorkingCopy& copy) {
+  std::uint32_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t v = 0; v < copy.points.size(); ++v) {
+    const double distance = (copy.points[v] - at).squaredNorm();
+    if (distance >= least) continue;
+    least = distance;
+    nearest = v;
+  }
+  return least <= kNearEnd * kNearEnd ? std::optional(nearest) : std::nullopt;
+}
+
+bool RunsInside(const RigInCopy& rig, const WorkingCopy& copy, const ThreadPool& pool) {
+  const CutSurface surface(copy.points, copy.triangles, pool);
+  const auto bones = rig.Bones();
+  int outside = 0;
+  for (const auto& [from, to] : bones) {
+    outside += PlacesOutside(surface, from, to, kNearBone, kPlacesOnEach);
+  }
+  return outside <= kMostBonesOutside * kPlacesOnEach * static_cast<double>(bones.size());
+}
+
+}  // namespace
+
+std::optional<RigEnds> FindRigEnds(const Rig& rig, const WorkingCopy& copy,
+                                   const ThreadPool& pool) {
+  const RigInCopy in_copy(rig, copy);
+  if (!in_copy.IsWhole()) return std::nullopt;
+  const double way = in_copy.NeckToAnkle();
+  if (!(way > kShortestWay && way < kLongestWay)) return std::nullopt;
+  RigEnds ends;
+  const std::array<Eigen::Vector3d, kRigEndCount> joints = {
+      in_copy.head(), in_copy.at(LandmarkId::kLeftWrist), in_copy.at(LandmarkId::kRightWrist),
+      in_copy.at(LandmarkId::kLeftAnkle), in_copy.at(LandmarkId::kRightAnkle)};
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const std::optional<std::uint32_t> vertex = VertexNear(joints[i], copy);
+    if (!vertex) return std::nullopt;
+    ends.vertex[i] = *vertex;
+  }
+  const Eigen::Vector3d up = in_copy.at(LandmarkId::kNeck) - in_copy.Middle(LandmarkId::kLeftHip);
+  const Eigen::Vector3d left = in_copy.at(LandmarkId::kLeftShoulder) -
+                               in_copy.at(LandmarkId::kRightShoulder) +
+                               in_copy.at(LandmarkId::kLeftHip) - in_copy.at(LandmarkId::kRightHip);
+  if (!(up.norm() > 0.0 && left.norm() > 0.0)) return std::nullopt;
+  if (!RunsInside(in_copy, copy, pool)) return std::nullopt;
+  ends.up = up.normalized();
+  ends.left = left.normalized();
+  ends.middle =
+      0.5 * (in_copy.Middle(LandmarkId::kLeftShoulder) + in_copy.Middle(LandmarkId::kLeftHip));
+  return ends;
+}
+
+}  // namespace capfit::body
