@@ -24,8 +24,9 @@ constexpr std::array<double, 6> kFitBands = {0.08, 0.05, 0.03, 0.02, 0.01, 0.006
 constexpr double kLevel = 0.966;
 // The rest is at least this much of its own width high: a wall behind somebody is no floor.
 constexpr double kLeastHeight = 0.55;
-// Bare floor there must be, as a share of the height's square: 0.03 m^2 under an adult.
-constexpr double kLeastBare = 0.01;
+// Bare floor there must be, as a share of the height's square: 0.07 m^2 under an adult. The brim of
+// a hat has less, a turntable of half a metre more.
+constexpr double kLeastBare = 0.025;
 // The cells of the map of the floor, as a share of the height; what is above them between these
 // heights stands there; and how many cells around it are not bare either.
 constexpr double kCell = 0.01;
@@ -39,28 +40,72 @@ constexpr int kMostCells = 400;
 constexpr double kFloorMargin = 0.004;
 constexpr double kRoughness = 3.0;
 
-// A vertex with a third of the area of the triangles around it.
+// Samples lie this far apart, as a share of the longest side of the box: there is at least one in
+// each cell of the map. There are at most so many beside one in each triangle.
+constexpr double kSpacing = 0.005;
+constexpr double kMostSamples = 400'000.0;
+// Planes are fitted to this many of them.
+constexpr std::size_t kFewSamples = 8'000;
+// A fit whose samples do not lie flatter than this share of the last band is not a plane.
+constexpr double kFlatFloor = 0.5;
+
+// A point of the surface with the area it stands for.
 struct Sample {
   Eigen::Vector3d at;
   double area = 0.0;
 };
 
+// Points evenly over all triangles, a large one's by its size: a floor may be two triangles.
 std::vector<Sample> SamplesOf(std::span<const Eigen::Vector3d> positions,
                               std::span<const mesh::Triangle> triangles) {
-  std::vector<Sample> samples;
-  samples.reserve(4 * triangles.size());
+  Eigen::Vector3d low = positions[triangles[0][0]];
+  Eigen::Vector3d high = low;
+  double all = 0.0;
   for (const mesh::Triangle& t : triangles) {
-    const double area = mesh::AreaVector(positions, t).norm() / 4.0;
-    for (const std::uint32_t v : t) samples.push_back({positions[v], area});
-    samples.push_back({mesh::Middle(positions, t), area});
+    for (const std::uint32_t v : t) {
+      low = low.cwiseMin(positions[v]);
+      high = high.cwiseMax(positions[v]);
+    }
+    all += mesh::AreaVector(positions, t).norm();
+  }
+  const double spacing = std::max(kSpacing * (high - low).maxCoeff(),
+                                  std::sqrt(all / kMostSamples));
+  std::vector<Sample> samples;
+  samples.reserve(2 * triangles.size());
+  for (const mesh::Triangle& t : triangles) {
+    const Eigen::Vector3d& a = positions[t[0]];
+    const Eigen::Vector3d ab = positions[t[1]] - a;
+    const Eigen::Vector3d ac = positions[t[2]] - a;
+    const double area = 0.5 * ab.cross(ac).norm();
+    // Triangles between n parallel lines each way, their middles; as many as the area asks for.
+    const auto n = std::max(1, static_cast<int>(std::sqrt(2.0 * area) / spacing));
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; i + k < n; ++k) {
+        samples.push_back({a + ((i + 1.0 / 3.0) * ab + (k + 1.0 / 3.0) * ac) / n, area / n / n});
+        if (i + k + 1 < n) {
+          samples.push_back({a + ((i + 2.0 / 3.0) * ab + (k + 2.0 / 3.0) * ac) / n, area / n / n});
+        }
+      }
+    }
   }
   return samples;
+}
+
+// About kFewSamples of them, evenly; their areas stand for all.
+std::vector<Sample> SomeOf(const std::vector<Sample>& samples) {
+  const std::size_t every = samples.size() / kFewSamples + 1;
+  std::vector<Sample> some;
+  for (std::size_t i = 0; i < samples.size(); i += every) {
+    some.push_back({samples[i].at, samples[i].area * static_cast<double>(every)});
+  }
+  return some;
 }
 
 struct Plane {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   double roughness = 0.0;  // root of the mean square of the distances
+  double area = 0.0;
 
   [[nodiscard]] double HeightOf(const Eigen::Vector3d& p) const { return up.dot(p - point); }
 };
@@ -82,7 +127,7 @@ std::optional<Plane> Refit(std::span<const Sample> samples, const Plane& start, 
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(products / area -
                                                             mean * mean.transpose());
   Plane plane = {start.point + mean, axes.eigenvectors().col(0),
-                 std::sqrt(std::max(0.0, axes.eigenvalues()[0]))};
+                 std::sqrt(std::max(0.0, axes.eigenvalues()[0])), area};
   if (plane.up.dot(start.up) < 0.0) plane.up = -plane.up;
   return plane;
 }
@@ -101,6 +146,9 @@ class FloorChecker {
     result_.floor.margin = Margin();
     return std::move(result_);
   }
+
+  // Of what stands on it.
+  [[nodiscard]] double height() const { return height_; }
 
  private:
   [[nodiscard]] double Margin() const {
@@ -203,28 +251,38 @@ class EndSearch {
     }
   }
 
-  // The highest of them.
-  std::optional<FloorPlane> Run() const {
-    std::optional<FloorPlane> best;
+  // Planes that may be floors, of different heights; the highest first.
+  [[nodiscard]] std::vector<Plane> Run() const {
+    std::vector<Plane> planes;
     for (const double start : Peaks()) {
       const std::optional<Plane> plane = FitFrom(start);
-      if (!plane.has_value() || plane->up.dot(up_) < kLevel) continue;
-      std::optional<FloorPlane> floor = FloorChecker(samples_, *plane).Run();
-      if (!floor.has_value()) continue;
-      if (!best.has_value() || best->HeightOf(floor->floor.point) > 0.0) best = std::move(floor);
+      if (!plane.has_value() || !IsLikely(*plane)) continue;
+      const bool is_known = std::any_of(planes.begin(), planes.end(), [&](const Plane& other) {
+        return std::abs(other.HeightOf(plane->point)) < kFitBands.back() * extent();
+      });
+      if (!is_known) planes.push_back(*plane);
     }
-    return best;
+    std::sort(planes.begin(), planes.end(), [&](const Plane& a, const Plane& b) {
+      return up_.dot(a.point) > up_.dot(b.point);
+    });
+    return planes;
   }
 
  private:
   [[nodiscard]] double extent() const { return high_ - low_; }
+
+  [[nodiscard]] bool IsLikely(const Plane& plane) const {
+    const double height = high_ - up_.dot(plane.point);
+    return plane.up.dot(up_) > kLevel && plane.area > kLeastBare * height * height &&
+           plane.roughness < kFlatFloor * kFitBands.back() * extent();
+  }
 
   // Heights above the low end where most area is.
   [[nodiscard]] std::vector<double> Peaks() const {
     std::array<double, kBins> area{};
     for (const Sample& s : samples_) {
       const double share = (up_.dot(s.at) - low_) / extent();
-      area[std::min(kBins - 1, static_cast<int>(share * kBins))] += s.area;
+      area[std::clamp(static_cast<int>(share * kBins), 0, kBins - 1)] += s.area;
     }
     std::vector<std::pair<double, int>> bins;
     for (int i = 0; i < static_cast<int>(kHighestTop * kBins); ++i) bins.emplace_back(-area[i], i);
@@ -267,16 +325,19 @@ int FloorPlane::CellOf(const Eigen::Vector3d& p) const {
 std::optional<FloorPlane> FindFloorPlane(std::span<const Eigen::Vector3d> positions,
                                          std::span<const mesh::Triangle> triangles) {
   const std::vector<Sample> samples = SamplesOf(positions, triangles);
+  const std::vector<Sample> some = SomeOf(samples);
   std::optional<FloorPlane> best;
-  double most = 0.0;
+  double most = 0.0;  // height above the best
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {
-      std::optional<FloorPlane> floor = EndSearch(samples, sign * Eigen::Vector3d::Unit(axis)).Run();
-      if (!floor.has_value()) continue;
-      double height = 0.0;
-      for (const Sample& s : samples) height = std::max(height, floor->HeightOf(s.at));
-      if (height > most) best = std::move(floor);
-      most = std::max(most, height);
+      for (const Plane& plane : EndSearch(some, sign * Eigen::Vector3d::Unit(axis)).Run()) {
+        FloorChecker checker(samples, plane);
+        std::optional<FloorPlane> floor = checker.Run();
+        if (!floor.has_value()) continue;
+        if (checker.height() > most) best = std::move(floor);
+        most = std::max(most, checker.height());
+        break;  // what lies lower at this end lies under the floor
+      }
     }
   }
   return best;

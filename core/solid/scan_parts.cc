@@ -13,8 +13,6 @@
 namespace capfit::solid {
 namespace {
 
-// As in mesh::PrepareMesh.
-constexpr double kPieceWeldShare = 1e-5;
 // What is smaller in both is a fragment, as shares of the largest piece.
 constexpr double kFragmentArea = 0.01;
 constexpr double kFragmentDiagonal = 0.1;
@@ -33,22 +31,14 @@ struct Piece {
   [[nodiscard]] double diagonal() const { return (max - min).norm(); }
 };
 
-// Triangles that share vertices, or vertices in nearly one place, are a piece.
+// Triangles that share vertices, or vertices in one place, are a piece.
 class PieceFinder {
  public:
   PieceFinder(std::span<const Eigen::Vector3d> positions,
               std::span<const mesh::Triangle> triangles) {
     std::vector<std::uint32_t> all(positions.size());
     std::iota(all.begin(), all.end(), 0u);
-    Eigen::Vector3d low = positions[triangles[0][0]];
-    Eigen::Vector3d high = low;
-    for (const mesh::Triangle& t : triangles) {
-      for (const std::uint32_t v : t) {
-        low = low.cwiseMin(positions[v]);
-        high = high.cwiseMax(positions[v]);
-      }
-    }
-    parent_ = mesh::WeldWithin(positions, all, std::max(kPieceWeldShare * (high - low).norm(), 1e-300));
+    parent_ = mesh::WeldEqual(positions, all);
     for (const mesh::Triangle& t : triangles) {
       Join(t[0], t[1]);
       Join(t[0], t[2]);

@@ -34,7 +34,7 @@ struct ScanParts {
 //
 // A floor is a wide flat sheet at one end of the longest way through the rest (or up to three
 // tenths of that above the end: the top of a stand), within 15 degrees of level to an axis of the
-// caller's, of which an area of 1 % of the square of the height lies bare: no foot is above it or
+// caller's, of which an area of 2.5 % of the square of the height lies bare: no foot is above it or
 // around it. Soles never are, nor is the closed end of a long robe. Pieces that hang together with
 // it are cut off a few millimetres above it (so much of joined feet is lost: a scan has no soles
 // there); soles that stand on it unjoined are left alone.
