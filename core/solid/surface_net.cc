@@ -21,6 +21,8 @@ constexpr float kMargin = 0.04f;
 // Cells are taken together where all their crossings' planes pass this near to the common vertex, in
 // steps: 1 mm in cells of 5 mm, and a tenth of that in the mean.
 constexpr float kFlat = 0.2f;
+// And where all normals are within 37 degrees of the first (as cosine).
+constexpr float kAlike = 0.8f;
 
 // How far beyond the node inside the surface is where no shell passes the edge, in steps: little, as
 // such nodes were added to what the shells enclose.
@@ -298,24 +300,25 @@ class NetBuilder {
   bool PlaceTogether(const Block& block) {
     if (block.count < 2 || !IsSimple(block.low)) return false;
     PlaneSum planes;
-    bool is_known = true;
+    bool may_merge = true;
     for (std::size_t i = 0; i < block.count; ++i) {
-      is_known = is_known && keep_apart_[block.cells[i]] == 0;
+      may_merge = may_merge && keep_apart_[block.cells[i]] == 0;
     }
     std::array<Crossing, 8 * 12> crossings;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < block.count && is_known; ++i) {
+    for (std::size_t i = 0; i < block.count && may_merge; ++i) {
       const GridNode cell = CellOf(block, i);
       const Eigen::Vector3f corner(static_cast<float>(cell.u - block.low.u),
                                    static_cast<float>(cell.v - block.low.v),
                                    static_cast<float>(cell.w - block.low.w));
       ForEachCrossing(cell, [&](const Eigen::Vector3f& place, const Eigen::Vector3f& normal) {
-        is_known = is_known && !normal.isZero();
+        // Where nothing is known the normal is 0, and this is false too.
+        may_merge = may_merge && normal.dot(count == 0 ? normal : crossings[0].normal) > kAlike;
         crossings[count++] = {place + corner, normal};
         planes.Add(place + corner, normal);
       });
     }
-    if (!is_known) return false;
+    if (!may_merge) return false;
     const Eigen::Vector3f at = planes.Nearest(2.0f);
     for (std::size_t i = 0; i < count; ++i) {
       const Crossing& c = crossings[i];
