@@ -68,8 +68,8 @@ std::vector<Sample> SamplesOf(std::span<const Eigen::Vector3d> positions,
     }
     all += mesh::AreaVector(positions, t).norm();
   }
-  const double spacing = std::max(kSpacing * (high - low).maxCoeff(),
-                                  std::sqrt(all / kMostSamples));
+  const double spacing =
+      std::max(kSpacing * (high - low).maxCoeff(), std::sqrt(all / kMostSamples));
   std::vector<Sample> samples;
   samples.reserve(2 * triangles.size());
   for (const mesh::Triangle& t : triangles) {
@@ -262,9 +262,8 @@ class EndSearch {
       });
       if (!is_known) planes.push_back(*plane);
     }
-    std::sort(planes.begin(), planes.end(), [&](const Plane& a, const Plane& b) {
-      return up_.dot(a.point) > up_.dot(b.point);
-    });
+    std::sort(planes.begin(), planes.end(),
+              [&](const Plane& a, const Plane& b) { return up_.dot(a.point) > up_.dot(b.point); });
     return planes;
   }
 

@@ -128,9 +128,9 @@ class ScanSorter {
   // Judged by what the floor left of them.
   void DropFragments() {
     const auto rest = [](const Piece& piece) { return piece.area - piece.low_area; };
-    const Piece main = *std::max_element(
-        pieces_.begin(), pieces_.end(),
-        [&](const Piece& a, const Piece& b) { return rest(a) < rest(b); });
+    const Piece main =
+        *std::max_element(pieces_.begin(), pieces_.end(),
+                          [&](const Piece& a, const Piece& b) { return rest(a) < rest(b); });
     std::vector<char> is_fragment(pieces_.size(), 0);
     std::vector<char> is_counted(pieces_.size(), 0);
     for (std::size_t p = 0; p < pieces_.size(); ++p) {

@@ -13,8 +13,8 @@ namespace capfit::test_support {
 }  // namespace capfit::test_support
 
 // Skips the current test, loudly, where the avatars are not there.
-#define CAPFIT_REQUIRE_AVATARS()                                                                \
-  if (capfit::test_support::AvatarsFolder().empty())                                            \
+#define CAPFIT_REQUIRE_AVATARS()                                                          \
+  if (capfit::test_support::AvatarsFolder().empty())                                      \
   GTEST_SKIP() << "SKIPPED: no avatars found; set CAPFIT_AVATARS to the folder that has " \
                   "truth.json"
 

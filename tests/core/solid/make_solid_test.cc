@@ -40,7 +40,7 @@ TEST(MakeSolidTest, BallStaysABall) {
 
 TEST(MakeSolidTest, OverlappingBallsAreTheirUnion) {
   const Triangles both =
-      Both(TrianglesOf(Ball(120, 60)), TrianglesOf(Moved(Ball(120, 60), {1.2, 0.0, 0.0})));
+      Both(TrianglesOf(Ball(120, 60)), TrianglesOf(mesh::Moved(Ball(120, 60), {1.2, 0.0, 0.0})));
   const Solid solid = Made(both);
   const double lens = kPi * (4.0 + 1.2) * (2.0 - 1.2) * (2.0 - 1.2) / 12.0;
   const double expected = 2.0 * BallVolume(1.0) - lens;
@@ -56,9 +56,9 @@ TEST(MakeSolidTest, WaysToSpoilAShellChangeNothing) {
   for (mesh::Triangle& t : inside_out.triangles) std::swap(t[1], t[2]);
   const std::vector<Triangles> spoilt = {
       inside_out,
-      TrianglesOf(RandomlyTurned(ball, 0.5, 1)),
-      TrianglesOf(SplitApart(ball)),
-      TrianglesOf(SplitApart(RandomlyTurned(ball, 0.5, 2))),
+      TrianglesOf(mesh::RandomlyTurned(ball, 0.5, 1)),
+      TrianglesOf(mesh::SplitApart(ball)),
+      TrianglesOf(mesh::SplitApart(mesh::RandomlyTurned(ball, 0.5, 2))),
       Both(TrianglesOf(ball), TrianglesOf(ball)),
       Both(TrianglesOf(ball), inside_out),
       Both(TrianglesOf(ball), TrianglesOf(Ball(40, 20, 0.5))),
@@ -147,7 +147,7 @@ TEST(MakeSolidTest, BridgesNarrowGapsAndTellsOfFarPieces) {
   const formats::PolygonSoup ball = Ball(80, 40);
   const auto apart = [&](double gap, double radius) {
     return Both(TrianglesOf(ball),
-                TrianglesOf(Moved(Ball(80, 40, radius), {1.0 + gap + radius, 0.0, 0.0})));
+                TrianglesOf(mesh::Moved(Ball(80, 40, radius), {1.0 + gap + radius, 0.0, 0.0})));
   };
   const Solid near = Made(apart(0.05, 1.0));
   EXPECT_EQ(WarningCodes(near), "GAPS_BRIDGED");
@@ -180,8 +180,8 @@ TEST(MakeSolidTest, AnswersHostileInput) {
   (void)RefusalOfSolid(huge);
   Triangles slivers;
   for (std::uint32_t i = 0; i < 100'000; ++i) {
-    const Eigen::Vector3d a(random.Uniform(), random.Uniform(), random.Uniform());
-    const Eigen::Vector3d b(random.Uniform(), random.Uniform(), random.Uniform());
+    const Eigen::Vector3d a(random.NextUnit(), random.NextUnit(), random.NextUnit());
+    const Eigen::Vector3d b(random.NextUnit(), random.NextUnit(), random.NextUnit());
     slivers.positions.insert(slivers.positions.end(), {a, b, b + Eigen::Vector3d(1e-9, 0, 0)});
     slivers.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
@@ -204,7 +204,7 @@ TEST(MakeSolidTest, KeepsUnitAndPlaceOfTheCaller) {
 
 TEST(MakeSolidTest, SameBitsForAnyNumberOfThreads) {
   const Triangles shells = Both(TrianglesOf(*mannequin::MakeMannequin({})),
-                                TrianglesOf(Moved(Ball(50, 30, 0.2), {0.0, 1.2, 0.1})));
+                                TrianglesOf(mesh::Moved(Ball(50, 30, 0.2), {0.0, 1.2, 0.1})));
   const Solid one = Made(shells);
   for (const int threads : {2, 7}) {
     const absl::StatusOr<Solid> many =

@@ -27,7 +27,7 @@ NodeSet RandomSet(const NodeGrid& grid, double chance, std::uint64_t seed) {
   for (std::uint32_t w = 1; w + 1 < grid.size[2]; ++w) {
     for (std::uint32_t v = 1; v + 1 < grid.size[1]; ++v) {
       for (std::uint32_t u = 1; u + 1 < grid.size[0]; ++u) {
-        if (random.Uniform() < chance) set.Add(u, v, w);
+        if (random.NextUnit() < chance) set.Add(u, v, w);
       }
     }
   }
@@ -59,10 +59,14 @@ Walked Walk(const NodeGrid& grid, const NodeSet& set, bool value) {
           const auto [a, b, c] = open.front();
           open.pop();
           ++walked.sizes.back();
-          for (const auto& [x, y, z] : {std::array{a - 1, b, c}, {a + 1, b, c}, {a, b - 1, c},
-                                        {a, b + 1, c}, {a, b, c - 1}, {a, b, c + 1}}) {
-            if (x < 0 || y < 0 || z < 0 || x >= static_cast<int>(nu) ||
-                y >= static_cast<int>(nv) || z >= static_cast<int>(nw)) {
+          for (const auto& [x, y, z] : {std::array{a - 1, b, c},
+                                        {a + 1, b, c},
+                                        {a, b - 1, c},
+                                        {a, b + 1, c},
+                                        {a, b, c - 1},
+                                        {a, b, c + 1}}) {
+            if (x < 0 || y < 0 || z < 0 || x >= static_cast<int>(nu) || y >= static_cast<int>(nv) ||
+                z >= static_cast<int>(nw)) {
               continue;
             }
             if (walked.region[at(x, y, z)] >= 0 || set.Has(x, y, z) != value) continue;

@@ -33,7 +33,7 @@ TEST(ShellsTest, ClosesATubeAtBothEnds) {
 }
 
 TEST(ShellsTest, TurnsEachShellOutward) {
-  Triangles inside_out = TrianglesOf(Moved(mesh::Ball(12, 8), {5.0, 0.0, 0.0}));
+  Triangles inside_out = TrianglesOf(mesh::Moved(mesh::Ball(12, 8), {5.0, 0.0, 0.0}));
   for (mesh::Triangle& t : inside_out.triangles) std::swap(t[1], t[2]);
   const Triangles ball = TrianglesOf(mesh::Ball(12, 8));
   const Shells shells = ShellsOf(Both(ball, inside_out));
