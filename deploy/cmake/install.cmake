@@ -24,7 +24,7 @@ endfunction()
 capfit_find_eigen_alignment(eigen_alignment)
 
 # --- capfit::core: all rooms in one object (why: one_object.sh)
-set(rooms base geometry formats mesh mannequin body section circle capsule tighten refine coverage
+set(rooms base geometry formats mesh solid mannequin body section circle capsule tighten refine coverage
           metrics skinning pipeline)
 set(room_files)
 foreach(room IN LISTS rooms)
