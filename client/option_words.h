@@ -15,6 +15,15 @@ namespace capfit::client {
 template <typename Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
+// The word that is shown for a value of `words`.
+template <typename Value>
+std::string WordOf(const Words<Value>& words, const Value& value) {
+  for (const auto& [word, known] : words) {
+    if (known == value) return word;
+  }
+  return "";
+}
+
 inline Words<pipeline::FitMode> FitModeWords() {
   return {{"enclose", pipeline::FitMode::kEnclose},
           {"best", pipeline::FitMode::kBestFit},

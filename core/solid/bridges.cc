@@ -34,11 +34,7 @@ class GapFinder {
  public:
   GapFinder(const NodeGrid& grid, const NodeRegions& regions,
             std::span<const Eigen::Vector3f> normals, double reach)
-      : grid_(grid),
-        regions_(regions),
-        sizes_(regions.Sizes()),
-        normals_(normals),
-        reach_(reach) {}
+      : grid_(grid), regions_(regions), sizes_(regions.Sizes()), normals_(normals), reach_(reach) {}
 
   [[nodiscard]] bool IsAnyApart() const {
     return std::count_if(sizes_.begin(), sizes_.end(),
@@ -53,7 +49,10 @@ class GapFinder {
       for (std::size_t i = 1; i + 1 < line.size(); i += 2) {
         const Passage& out = line[i];
         const Passage& in = line[i + 1];
-        Gap gap = {{}, in.along - out.along, axis, static_cast<std::uint32_t>(row),
+        Gap gap = {{},
+                   in.along - out.along,
+                   axis,
+                   static_cast<std::uint32_t>(row),
                    static_cast<std::uint32_t>(column)};
         gap.first = FirstNodeAt(grid_, axis, out.along);
         gap.end = FirstNodeAt(grid_, axis, in.along);
@@ -123,9 +122,8 @@ std::size_t BridgeRegions(const NodeGrid& grid, const std::array<GridLines, 3>& 
   std::vector<Gap> gaps;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<std::vector<Gap>> by_row(lines[axis].rows.size());
-    pool.ForEach(by_row.size(), [&](std::size_t row) {
-      by_row[row] = finder.GapsOfRow(lines[axis], axis, row);
-    });
+    pool.ForEach(by_row.size(),
+                 [&](std::size_t row) { by_row[row] = finder.GapsOfRow(lines[axis], axis, row); });
     for (const auto& row : by_row) gaps.insert(gaps.end(), row.begin(), row.end());
   }
   const std::map<RegionPair, double> chosen = ChoosePairs(gaps, grid.step);

@@ -103,9 +103,8 @@ class SolidMaker {
     NodeSet inside = FindOccupied(grid_, shells_, lines_, normals_, pool_);
     CAPFIT_RETURN_IF_ERROR(JoinAndFill(inside));
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
-    CAPFIT_ASSIGN_OR_RETURN(
-        mesh::BodyMesh mesh,
-        CheckedMesh(ExtractSurface(grid_, inside, lines_, normals_, pool_)));
+    CAPFIT_ASSIGN_OR_RETURN(mesh::BodyMesh mesh,
+                            CheckedMesh(ExtractSurface(grid_, inside, lines_, normals_, pool_)));
     if (2.0 * mesh.volume() < kLeastThickness * grid_.step * mesh.area()) {
       return NoVolume(absl::StrFormat("what it encloses is %.2g thick in the mean, cells are %.2g",
                                       2.0 * mesh.volume() / mesh.area(), grid_.step));

@@ -17,9 +17,9 @@ namespace capfit::solid {
 
 struct SolidOptions {
   // The area of all shells is cut into squares of this number: their side is that of the cells the
-  // space is cut into. 80,000 give cells of 5 mm on a dressed adult and about as many triangles;
+  // space is cut into. 64,000 give cells of 6 mm on a dressed adult and about as many triangles;
   // four times as many halve the cells.
-  std::size_t squares = 80'000;
+  std::size_t squares = 64'000;
 };
 
 struct Solid {
@@ -39,7 +39,7 @@ struct Solid {
 // between pieces that nothing else joins. Limbs stay apart where the gap between them is wider than
 // a cell. Sheets thinner than a cell are given about a cell's thickness.
 //
-// Of smooth surface the result is within about 0.1 mm in the median at cells of 5 mm (0.5 mm for
+// Of smooth surface the result is within about 0.1 mm in the median at cells of 6 mm (0.5 mm for
 // 95 %); ridges, hems and fingers within half a cell. Original vertices may lie outside of it by as
 // much. Same bits for any number of threads. About 35 ms for 64k triangles on two threads and
 // O(triangles + squares); at most 100 MB for the grid, whatever the coordinates: then cells are

@@ -14,9 +14,9 @@ namespace capfit::solid {
 // Axes u, v, w are a right-handed turn of the caller's x, y, z with u along the longest side. A
 // column is all nodes of one (v, w); 64 of them that follow each other along u share a word.
 struct NodeGrid {
-  std::array<int, 3> axes = {0, 1, 2};              // the caller's axes that u, v and w are
-  Eigen::Vector3d low = Eigen::Vector3d::Zero();    // of node (0, 0, 0), as u, v, w
-  double step = 1.0;                                // between neighbouring nodes
+  std::array<int, 3> axes = {0, 1, 2};             // the caller's axes that u, v and w are
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();   // of node (0, 0, 0), as u, v, w
+  double step = 1.0;                               // between neighbouring nodes
   std::array<std::uint32_t, 3> size = {64, 1, 1};  // nodes along u (a multiple of 64), v and w
 
   [[nodiscard]] std::size_t words_per_column() const { return size[0] / 64; }
@@ -48,7 +48,9 @@ struct GridNode {
 class NodeSet {
  public:
   explicit NodeSet(const NodeGrid& grid)
-      : words_per_column_(grid.words_per_column()), size_v_(grid.size[1]), words_(grid.words(), 0) {}
+      : words_per_column_(grid.words_per_column()),
+        size_v_(grid.size[1]),
+        words_(grid.words(), 0) {}
 
   [[nodiscard]] std::vector<std::uint64_t>& words() { return words_; }
   [[nodiscard]] const std::vector<std::uint64_t>& words() const { return words_; }

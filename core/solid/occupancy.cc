@@ -129,9 +129,8 @@ NodeSet FindOccupied(const NodeGrid& grid, const Shells& shells,
         if (line.empty()) continue;
         if (axis == 0) {
           std::uint64_t* const words = inside.words().data() + grid.WordAt(0, column, row);
-          reader.Inside(line, [&](std::uint32_t first, std::uint32_t end) {
-            FillColumn(words, first, end);
-          });
+          reader.Inside(
+              line, [&](std::uint32_t first, std::uint32_t end) { FillColumn(words, first, end); });
         }
         const auto add_to = [&](std::vector<GridNode>& nodes) {
           return [&nodes, axis, row, column](std::uint32_t along) {

@@ -8,7 +8,8 @@
 namespace capfit::solid {
 namespace {
 
-void SetRun(const NodeGrid& grid, std::size_t column, const NodeRegions::Run& run, bool value, NodeSet& set) {
+void SetRun(const NodeGrid& grid, std::size_t column, const NodeRegions::Run& run, bool value,
+            NodeSet& set) {
   std::uint64_t* const words = set.words().data() + column * grid.words_per_column();
   for (std::uint32_t first = run.first; first < run.end;) {
     const std::uint32_t stop = std::min(run.end, (first / 64 + 1) * 64);
@@ -112,8 +113,8 @@ std::size_t FillCavities(const NodeGrid& grid, NodeSet& set) {
 std::vector<std::size_t> KeepLargestRegion(const NodeGrid& grid, NodeSet& set) {
   NodeRegions regions(grid, set, false);
   std::vector<std::size_t> size = regions.Sizes();
-  const auto largest = static_cast<std::uint32_t>(
-      std::max_element(size.begin(), size.end()) - size.begin());
+  const auto largest =
+      static_cast<std::uint32_t>(std::max_element(size.begin(), size.end()) - size.begin());
   regions.ForEach([&](std::size_t column, std::uint32_t run) {
     if (regions.RegionOf(run) != largest) SetRun(grid, column, regions.runs()[run], false, set);
   });

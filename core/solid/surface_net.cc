@@ -18,12 +18,14 @@ constexpr float kHold = 0.03f;
 // Vertices keep this share of a step away from their cell's sides, and so from each other.
 constexpr float kMargin = 0.04f;
 
-// Cells are taken together where all their crossings' planes pass this near to the common vertex, in
-// steps: 1 mm in cells of 5 mm, and a tenth of that in the mean.
+// Cells are taken together where all their crossings' planes pass this near to the common vertex,
+// in steps: 1 mm in cells of 5 mm, and a tenth of that in the mean.
 constexpr float kFlat = 0.2f;
+// And where all normals are within 37 degrees of the first (as cosine).
+constexpr float kAlike = 0.8f;
 
-// How far beyond the node inside the surface is where no shell passes the edge, in steps: little, as
-// such nodes were added to what the shells enclose.
+// How far beyond the node inside the surface is where no shell passes the edge, in steps: little,
+// as such nodes were added to what the shells enclose.
 constexpr float kUnknown = 0.2f;
 
 // Where blocks taken together meet in an edge of more than two triangles, which none of the bodies
@@ -298,24 +300,25 @@ class NetBuilder {
   bool PlaceTogether(const Block& block) {
     if (block.count < 2 || !IsSimple(block.low)) return false;
     PlaneSum planes;
-    bool is_known = true;
+    bool may_merge = true;
     for (std::size_t i = 0; i < block.count; ++i) {
-      is_known = is_known && keep_apart_[block.cells[i]] == 0;
+      may_merge = may_merge && keep_apart_[block.cells[i]] == 0;
     }
     std::array<Crossing, 8 * 12> crossings;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < block.count && is_known; ++i) {
+    for (std::size_t i = 0; i < block.count && may_merge; ++i) {
       const GridNode cell = CellOf(block, i);
       const Eigen::Vector3f corner(static_cast<float>(cell.u - block.low.u),
                                    static_cast<float>(cell.v - block.low.v),
                                    static_cast<float>(cell.w - block.low.w));
       ForEachCrossing(cell, [&](const Eigen::Vector3f& place, const Eigen::Vector3f& normal) {
-        is_known = is_known && !normal.isZero();
+        // Where nothing is known the normal is 0, and this is false too.
+        may_merge = may_merge && normal.dot(count == 0 ? normal : crossings[0].normal) > kAlike;
         crossings[count++] = {place + corner, normal};
         planes.Add(place + corner, normal);
       });
     }
-    if (!is_known) return false;
+    if (!may_merge) return false;
     const Eigen::Vector3f at = planes.Nearest(2.0f);
     for (std::size_t i = 0; i < count; ++i) {
       const Crossing& c = crossings[i];
@@ -402,10 +405,9 @@ class NetBuilder {
     }
     if (!set_.Has(u, v, w)) std::swap(quad[1], quad[3]);
     const std::vector<Eigen::Vector3d>& at = net.vertices;
-    const std::size_t cut = (at[quad[0]] - at[quad[2]]).squaredNorm() <=
-                                    (at[quad[1]] - at[quad[3]]).squaredNorm()
-                                ? 0
-                                : 1;
+    const std::size_t cut =
+        (at[quad[0]] - at[quad[2]]).squaredNorm() <= (at[quad[1]] - at[quad[3]]).squaredNorm() ? 0
+                                                                                               : 1;
     AddTriangle({quad[cut], quad[cut + 1], quad[cut + 2]}, triangles);
     AddTriangle({quad[cut], quad[cut + 2], quad[(cut + 3) % 4]}, triangles);
   }
@@ -422,10 +424,10 @@ class NetBuilder {
   NodeNumbers cell_numbers_;
   std::array<NodeNumbers, 3> edge_numbers_;
   std::array<std::vector<EdgePoint>, 3> points_;
-  std::vector<std::uint32_t> leader_;     // of each cell: whose vertex is its own
-  std::vector<Eigen::Vector3d> places_;   // of the leaders' vertices
-  std::vector<char> keep_apart_;          // of each cell
-  std::array<std::size_t, 3> stride_;  // words to the next column along v and w
+  std::vector<std::uint32_t> leader_;    // of each cell: whose vertex is its own
+  std::vector<Eigen::Vector3d> places_;  // of the leaders' vertices
+  std::vector<char> keep_apart_;         // of each cell
+  std::array<std::size_t, 3> stride_;    // words to the next column along v and w
 };
 
 }  // namespace

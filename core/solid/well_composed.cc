@@ -59,12 +59,10 @@ class DiagonalFinder {
     for (const auto& [a, b, c, d] : {std::array{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 2, 4, 6}}) {
       const std::uint64_t crossed =
           (corner[a] ^ corner[b]) & (corner[c] ^ corner[d]) & (corner[a] ^ corner[c]);
-      ForEachBit(crossed & corner[a], [&, b = b, c = c](unsigned bit) {
-        Offer(at, bit, b, c, found);
-      });
-      ForEachBit(crossed & ~corner[a], [&, a = a, d = d](unsigned bit) {
-        Offer(at, bit, a, d, found);
-      });
+      ForEachBit(crossed & corner[a],
+                 [&, b = b, c = c](unsigned bit) { Offer(at, bit, b, c, found); });
+      ForEachBit(crossed & ~corner[a],
+                 [&, a = a, d = d](unsigned bit) { Offer(at, bit, a, d, found); });
     }
     for (int p = 0; p < 4; ++p) {
       std::uint64_t others_all = ~std::uint64_t{0};
@@ -75,17 +73,16 @@ class DiagonalFinder {
         others_any |= corner[q];
       }
       // Two lone nodes get one between them; of two lone gaps one is filled.
-      ForEachBit(corner[p] & corner[7 - p] & ~others_any, [&](unsigned bit) {
-        Offer(at, bit, p ^ 1, p ^ 2, found);
-      });
-      ForEachBit(~corner[p] & ~corner[7 - p] & others_all, [&](unsigned bit) {
-        Offer(at, bit, p, 7 - p, found);
-      });
+      ForEachBit(corner[p] & corner[7 - p] & ~others_any,
+                 [&](unsigned bit) { Offer(at, bit, p ^ 1, p ^ 2, found); });
+      ForEachBit(~corner[p] & ~corner[7 - p] & others_all,
+                 [&](unsigned bit) { Offer(at, bit, p, 7 - p, found); });
     }
   }
 
   // Takes that of two corners of a cell that has more neighbours in the set.
-  void Offer(const Place& at, unsigned bit, int one, int other, std::vector<GridNode>& found) const {
+  void Offer(const Place& at, unsigned bit, int one, int other,
+             std::vector<GridNode>& found) const {
     const GridNode a = CornerOf(at, bit, one);
     const GridNode b = CornerOf(at, bit, other);
     found.push_back(NeighboursOf(b) > NeighboursOf(a) ? b : a);
@@ -103,9 +100,8 @@ class DiagonalFinder {
         n.w + 1 >= grid_.size[2]) {
       return -1;
     }
-    return set_.Has(n.u - 1, n.v, n.w) + set_.Has(n.u + 1, n.v, n.w) +
-           set_.Has(n.u, n.v - 1, n.w) + set_.Has(n.u, n.v + 1, n.w) +
-           set_.Has(n.u, n.v, n.w - 1) + set_.Has(n.u, n.v, n.w + 1);
+    return set_.Has(n.u - 1, n.v, n.w) + set_.Has(n.u + 1, n.v, n.w) + set_.Has(n.u, n.v - 1, n.w) +
+           set_.Has(n.u, n.v + 1, n.w) + set_.Has(n.u, n.v, n.w - 1) + set_.Has(n.u, n.v, n.w + 1);
   }
 
   const NodeGrid& grid_;
