@@ -50,7 +50,7 @@ std::vector<character::CharacterPart> PartsAtFirstSight(const formats::PolygonSo
                                                         const ThreadPool& pool) {
   if (!formats::CheckSoup(soup, {}).ok()) return {};
   const auto found = character::FindCharacter(soup, options.character,
-                                              body::LandmarksFromSkeleton(soup.joints), pool);
+                                              body::ReadRig(soup.joints).landmarks, pool);
   return found.ok() ? found->parts : std::vector<character::CharacterPart>();
 }
 
@@ -108,7 +108,7 @@ Inspection Inspect(const formats::PolygonSoup& soup, const pipeline::FitOptions&
   inspection.vertices = soup.positions.size();
   inspection.faces = soup.face_count();
   inspection.joints = soup.joints.size();
-  for (const auto& [id, position] : body::LandmarksFromSkeleton(soup.joints)) {
+  for (const auto& [id, position] : body::ReadRig(soup.joints).landmarks) {
     inspection.known_joints.emplace_back(body::LandmarkName(id));
   }
   NullObserver observer;

@@ -73,7 +73,7 @@ class BodyTaker {
   }
 
   [[nodiscard]] Joints RigJoints() const {
-    return options_.landmarks.empty() ? body::LandmarksFromSkeleton(soup_.joints)
+    return options_.landmarks.empty() ? body::ReadRig(soup_.joints).landmarks
                                       : options_.landmarks;
   }
 

@@ -169,7 +169,7 @@ void Report(const std::filesystem::path& folder, const std::string& name, const 
   }
   start = Clock::now();
   const auto character = capfit::character::FindCharacter(
-      *soup, {}, capfit::body::LandmarksFromSkeleton(soup->joints), capfit::ThreadPool(2));
+      *soup, {}, capfit::body::ReadRig(soup->joints).landmarks, capfit::ThreadPool(2));
   std::printf("%s: read %.1f ms, parts %.1f ms\n", name.c_str(), read_ms, MsSince(start));
   if (!character.ok()) {
     std::printf("   %s\n", character.status().ToString().c_str());

@@ -14,7 +14,7 @@ TEST(VertexGaps, AreTheCallersVerticesInTheCallersUnit) {
   geometry::Similarity caller_from_body;
   caller_from_body.scale = 100.0;  // centimetres
   const std::vector<double> gaps_m = {0.5, -0.25, 0.0, std::nan("")};
-  const std::vector<float> gaps = VertexGaps(mesh, gaps_m, caller_from_body);
+  const std::vector<float> gaps = VertexGaps(mesh.vertex_of_source(), gaps_m, caller_from_body);
   ASSERT_EQ(gaps.size(), 6U);
   EXPECT_TRUE(std::isnan(gaps[0])) << "of a part that was not selected";
   EXPECT_EQ(gaps[1], -25.0F);
