@@ -27,7 +27,8 @@ std::optional<Triangles> Covered(const formats::PolygonSoup& soup, const json& t
   if (parts.empty()) {
     for (const json& part : truth["parts"]) {
       has_rigid = has_rigid || !part.value("skinned", true);
-      const std::size_t first = parts.empty() ? 0 : parts.back().first_face + parts.back().face_count;
+      const std::size_t first =
+          parts.empty() ? 0 : parts.back().first_face + parts.back().face_count;
       parts.push_back({part["name"], "", first, part["faces"]});
     }
   }
