@@ -45,7 +45,7 @@ constexpr float kGoesBetweenLegs = 0.5F;
 // nearly all of its part is the part.
 constexpr double kSmallShare = 0.005;
 constexpr double kHairShare = 0.006;
-constexpr double kWholePart = 0.95;
+constexpr double kWholePart = 0.85;
 // A group of shells this large beside the largest (box, area) is another person.
 constexpr double kPersonsBox = 0.6;
 constexpr double kPersonsArea = 0.3;
@@ -74,8 +74,9 @@ struct Verdict {
 class Judge {
  public:
   Judge(const formats::PolygonSoup& soup, const CharacterOptions& options,
-        const std::map<body::LandmarkId, Eigen::Vector3d>& joints, const ThreadPool& pool)
-      : soup_(soup), options_(options), shells_(FindShells(soup)) {
+        const std::map<body::LandmarkId, Eigen::Vector3d>& joints, std::span<const char> is_floor,
+        const ThreadPool& pool)
+      : options_(options), shells_(FindShells(soup, is_floor)) {
     verdicts_.resize(shells_.shells.size());
     parts_ = soup.parts;
     if (parts_.empty()) parts_.push_back({"", "", 0, soup.face_count(), -1});
@@ -182,6 +183,10 @@ class Judge {
   void FindSheets() {
     is_sheet_.assign(count(), 0);
     for (std::size_t s = 0; s < count(); ++s) {
+      if (shell(s).is_cut_off) {
+        is_sheet_[s] = 1;
+        verdicts_[s] = {PartKind::kFragment, false, "floor or stand"};
+      }
       if (shell(s).area < kSheetWidth * kSheetWidth * height_ * height_) continue;
       const Eigen::Vector3d spread = SpreadOf(s);
       if (spread[0] > kSheetThickness * height_ || spread[1] < kSheetWidth * height_) continue;
@@ -634,7 +639,6 @@ class Judge {
          static_cast<std::int64_t>(shells)});
   }
 
-  const formats::PolygonSoup& soup_;
   const CharacterOptions& options_;
   Shells shells_;
   std::vector<formats::SoupPart> parts_;  // at least one
@@ -669,8 +673,8 @@ class Judge {
 absl::StatusOr<Character> FindCharacter(const formats::PolygonSoup& soup,
                                         const CharacterOptions& options,
                                         const std::map<body::LandmarkId, Eigen::Vector3d>& joints,
-                                        const ThreadPool& pool) {
-  return Judge(soup, options, joints, pool).Run();
+                                        const ThreadPool& pool, std::span<const char> is_floor) {
+  return Judge(soup, options, joints, is_floor, pool).Run();
 }
 
 }  // namespace capfit::character

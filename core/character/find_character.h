@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,10 +56,12 @@ struct Character {
 // a skirt; what moves with the head alone and does not go around it is hair, or inner if small;
 // other things are accessories. Without joints names and sizes decide, and what is left is taken.
 // What lies apart is a fragment; two human-sized groups are refused (FAILED_PRECONDITION,
-// TWO_BODIES, naming both). `soup` is checked (formats::CheckSoup). O(n).
+// TWO_BODIES, naming both). `soup` is checked (formats::CheckSoup). `is_floor`: faces known to be a
+// floor or a stand, one mark for each face; empty: none. O(n).
 [[nodiscard]] absl::StatusOr<Character> FindCharacter(
     const formats::PolygonSoup& soup, const CharacterOptions& options,
-    const std::map<body::LandmarkId, Eigen::Vector3d>& joints, const ThreadPool& pool);
+    const std::map<body::LandmarkId, Eigen::Vector3d>& joints, const ThreadPool& pool,
+    std::span<const char> is_floor = {});
 
 }  // namespace capfit::character
 

@@ -12,6 +12,7 @@ namespace capfit::character {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kNoPart = std::numeric_limits<std::size_t>::max();
 
 // Disjoint sets of vertices; the smallest member stands for each.
 class Sets {
@@ -38,8 +39,8 @@ class Sets {
 
 class ShellFinder {
  public:
-  explicit ShellFinder(const formats::PolygonSoup& soup)
-      : soup_(soup), whole_(soup.positions.size()), within_part_(soup.face_vertices.size()) {
+  ShellFinder(const formats::PolygonSoup& soup, std::span<const char> is_cut_off)
+      : soup_(soup), is_cut_off_(is_cut_off), whole_(soup.positions.size()), within_part_(soup.face_vertices.size()) {
     std::vector<std::uint32_t> all(soup.positions.size());
     std::iota(all.begin(), all.end(), 0u);
     same_ = mesh::WeldEqual(soup.positions, all);
@@ -53,9 +54,10 @@ class ShellFinder {
     std::vector<std::size_t> facet_counts;
     ForFaces([&](std::size_t face, std::size_t part, std::span<const std::uint32_t> corners) {
       std::uint32_t& shell = shell_at[within_part_.Find(entry_[face])];
-      if (shell == kNone || result_.shells[shell].part != part) {
+      if (shell == kNone) {
         shell = static_cast<std::uint32_t>(result_.shells.size());
         result_.shells.emplace_back().part = part;
+        result_.shells.back().is_cut_off = IsCutOff(face);
         facet_counts.push_back(0);
         std::uint32_t& surface = surface_at[whole_.Find(same_[corners[0]])];
         if (surface == kNone) surface = shell;
@@ -70,22 +72,34 @@ class ShellFinder {
   }
 
  private:
-  // face, its part, its corners.
+  [[nodiscard]] bool IsCutOff(std::size_t face) const {
+    return !is_cut_off_.empty() && is_cut_off_[face] != 0;
+  }
+
+  // face, its part, its corners; those that are cut off after all others.
   template <typename Visit>
   void ForFaces(const Visit& visit) const {
+    ForFaces(false, visit);
+    if (!is_cut_off_.empty()) ForFaces(true, visit);
+  }
+
+  template <typename Visit>
+  void ForFaces(bool cut_off, const Visit& visit) const {
     std::size_t at = 0;
     std::size_t part = 0;
     for (std::size_t face = 0; face < soup_.face_count(); ++face) {
       while (part + 1 < soup_.parts.size() && face >= soup_.parts[part + 1].first_face) ++part;
       const std::size_t size = soup_.face_sizes.empty() ? 3 : soup_.face_sizes[face];
-      visit(face, part, std::span(soup_.face_vertices).subspan(at, size));
+      if (IsCutOff(face) == cut_off) {
+        visit(face, part, std::span(soup_.face_vertices).subspan(at, size));
+      }
       at += size;
     }
   }
 
   // Within a part each place has an entry of its own, so that parts that share vertices stay apart.
   void JoinCorners() {
-    std::vector<std::uint32_t> part_at(soup_.positions.size(), kNone);
+    std::vector<std::size_t> part_at(soup_.positions.size(), kNoPart);
     std::vector<std::uint32_t> first_at(soup_.positions.size(), kNone);
     entry_.assign(soup_.face_count(), 0);
     std::uint32_t next = 0;
@@ -93,13 +107,14 @@ class ShellFinder {
       std::uint32_t first = kNone;
       for (const std::uint32_t corner : corners) {
         const std::uint32_t place = same_[corner];
-        if (part_at[place] != part) {
-          part_at[place] = static_cast<std::uint32_t>(part);
+        const std::size_t piece = 2 * part + (IsCutOff(face) ? 1 : 0);
+        if (part_at[place] != piece) {
+          part_at[place] = piece;
           first_at[place] = next++;
         }
         if (first == kNone) first = first_at[place];
         within_part_.Join(first, first_at[place]);
-        whole_.Join(same_[corners[0]], place);
+        if (!IsCutOff(face)) whole_.Join(same_[corners[0]], place);
       }
       entry_[face] = first;
     });
@@ -128,6 +143,7 @@ class ShellFinder {
   }
 
   const formats::PolygonSoup& soup_;
+  std::span<const char> is_cut_off_;
   std::vector<std::uint32_t> same_;
   Sets whole_;
   Sets within_part_;
@@ -146,6 +162,8 @@ double Facet::LongestEdge() const {
                    (corner[0] - corner[2]).norm()});
 }
 
-Shells FindShells(const formats::PolygonSoup& soup) { return ShellFinder(soup).Run(); }
+Shells FindShells(const formats::PolygonSoup& soup, std::span<const char> is_cut_off) {
+  return ShellFinder(soup, is_cut_off).Run();
+}
 
 }  // namespace capfit::character

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/formats/polygon_soup.h"
@@ -12,7 +13,8 @@
 namespace capfit::character {
 
 struct Shell {
-  std::size_t part = 0;  // index into the soup's parts; 0 where it has none
+  std::size_t part = 0;     // index into the soup's parts; 0 where it has none
+  bool is_cut_off = false;  // of faces that were marked as such
   std::size_t face_count = 0;
   double area = 0.0;  // in the square of the mesh's unit
   Eigen::Vector3d box_min = Eigen::Vector3d::Constant(1e300);
@@ -41,8 +43,10 @@ struct Shells {
 };
 
 // `soup` is checked (formats::CheckSoup). Vertices at the same place, bit by bit, count as one:
-// files split them at texture seams. O(corners).
-[[nodiscard]] Shells FindShells(const formats::PolygonSoup& soup);
+// files split them at texture seams. `is_cut_off`: faces that hang together with no others but
+// their like, one mark for each face; empty: none. O(corners).
+[[nodiscard]] Shells FindShells(const formats::PolygonSoup& soup,
+                                std::span<const char> is_cut_off = {});
 
 }  // namespace capfit::character
 
