@@ -64,9 +64,10 @@ absl::StatusOr<json> ParseDescription(std::span<const std::byte> bytes, const ch
 
 // What the extension changes is not where the surface lies: looks, light, sound, movement.
 bool IsBesideTheGeometry(std::string_view extension) {
-  static constexpr std::array<std::string_view, 12> kBeside = {
-      "_materials_", "_texture_", "_lights_",  "_animation", "_audio",     "_image",
-      "_xmp",        "VRMC_",     "_interact", "_rigid_bod", "_collision", "_physics"};
+  static constexpr std::array<std::string_view, 15> kBeside = {
+      "_materials_", "_texture_", "_lights_",  "_animation", "_audio",
+      "_image",      "_xmp",      "VRMC_",     "_interact",  "_rigid_bod",
+      "_collision",  "_physics",  "_metadata", "_features",  "MSFT_lod"};
   return extension == "VRM" || std::any_of(kBeside.begin(), kBeside.end(), [&](auto word) {
            return extension.find(word) != std::string_view::npos;
          });

@@ -1,6 +1,7 @@
 #include "tests/fuzz/body_targets.h"
 
 #include <cstdint>
+#include <vector>
 
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
@@ -15,11 +16,39 @@
 namespace capfit::fuzz {
 namespace {
 
-// Two bits for the unit, two for the axis; with the next bit a landmark from the caller.
+struct UsualJoint {
+  const char* name;
+  double x_m;
+  double y_m;
+};
+// Of somebody of 1.7 m with the arms half raised.
+constexpr UsualJoint kUsualJoints[] = {
+    {"Neck", 0.0, 1.42},           {"Head", 0.0, 1.52},        {"LeftArm", 0.17, 1.36},
+    {"LeftForeArm", 0.36, 1.18},   {"LeftHand", 0.53, 1.02},   {"LeftUpLeg", 0.1, 0.9},
+    {"LeftLeg", 0.12, 0.5},        {"LeftFoot", 0.13, 0.09},   {"RightArm", -0.17, 1.36},
+    {"RightForeArm", -0.36, 1.18}, {"RightHand", -0.53, 1.02}, {"RightUpLeg", -0.1, 0.9},
+    {"RightLeg", -0.12, 0.5},      {"RightFoot", -0.13, 0.09}};
+
+// Those moved by up to 13 cm, or where the scale says so by up to metres.
+std::vector<formats::NamedJoint> SkeletonFrom(ByteSource& source) {
+  std::vector<formats::NamedJoint> joints;
+  const double step_m = source.Next() % 2 == 0 ? 0.001 : 0.03;
+  for (const UsualJoint& usual : kUsualJoints) {
+    formats::NamedJoint& joint = joints.emplace_back();
+    joint.name = usual.name;
+    joint.position = {usual.x_m, usual.y_m, 0.0};
+    for (double& coordinate : joint.position) coordinate += step_m * source.NextSigned();
+  }
+  return joints;
+}
+
+// Two bits for the unit, two for the axis; with the next bit a landmark from the caller, with bit 6
+// a skeleton.
 body::BodyOptions OptionsFrom(std::uint8_t switches, ByteSource& source) {
   body::BodyOptions options;
   options.unit = static_cast<body::Unit>(switches & 3);
   options.up = static_cast<body::UpAxis>((switches >> 2) & 3);
+  if ((switches & 64) != 0) options.skeleton = SkeletonFrom(source);
   if ((switches & 16) == 0) return options;
   const auto id = static_cast<body::LandmarkId>(source.Next() % body::kLandmarkCount);
   Eigen::Vector3d position;

@@ -138,6 +138,19 @@ TEST(ReadGlbTest, ReadsJointsWhereTheyStand) {
   EXPECT_TRUE(ReadGltf(gltf)->joints[1].position.isApprox(Eigen::Vector3d(0, 1.5, 0), 1e-6));
 }
 
+TEST(GltfJsonTest, KeepsNamesOfMaterialsAndVrmsBones) {
+  const std::optional<json> parsed = ParseGltfJson(R"({"materials": [
+    {"name": "skin", "pbrMetallicRoughness": {"name": "no"}, "extras": {"name": "no"}}, {}],
+    "extensions": {"KHR_lights_punctual": {"humanoid": 1}, "VRM": {"meta": {"humanoid": [1]},
+      "blendShapeMaster": [{"humanBones": 1}], "humanoid": {"armStretch": 0.05,
+      "humanBones": [{"bone": "hips", "node": 3, "extras": 1}]}},
+      "VRMC_vrm": {"specVersion": "1.0", "humanoid": {"humanBones": {"head": {"node": 4}}}}}})");
+  ASSERT_TRUE(parsed.has_value());
+  EXPECT_EQ(*parsed, json::parse(R"({"materials": [{"name": "skin"}, {}], "extensions": {
+    "VRM": {"humanoid": {"humanBones": [{"bone": "hips", "node": 3}]}},
+    "VRMC_vrm": {"humanoid": {"humanBones": {"head": {"node": 4}}}}}})"));
+}
+
 TEST(GltfJsonTest, KeepsJustWhatMeshesNeed) {
   const std::string text = R"({"images": [{"nodes": [1, {"a": [[], {}]}]}, 2], "scene": 0,
     "nodes": [{"extras": {"deep": [{"x": 1}], "name": "no"}, "name": "n", "matrix": [1, -2, 3.5]},
