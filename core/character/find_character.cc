@@ -20,6 +20,7 @@
 #include "core/character/nearness.h"
 #include "core/character/shells.h"
 #include "core/character/surrounding.h"
+#include "core/formats/file_error.h"
 
 namespace capfit::character {
 namespace {
@@ -56,6 +57,7 @@ constexpr std::size_t kSamplesOfNearness = 500;
 constexpr std::size_t kMostShells = 20'000;
 // Names in a message.
 constexpr std::size_t kNamesTold = 8;
+constexpr std::size_t kLongestName = 60;
 
 bool Matches(const std::string& pattern, const formats::SoupPart& part) {
   const auto is = [&](const std::string& name) {
@@ -263,7 +265,7 @@ class Judge {
 
   [[nodiscard]] std::string NameOf(std::size_t s) const {
     const std::string& name = parts_[shell(s).part].name;
-    if (!name.empty()) return absl::StrCat("\"", name, "\"");
+    if (!name.empty()) return absl::StrCat("\"", formats::Printable(name, kLongestName), "\"");
     const Eigen::Vector3d middle = 0.5 * (shell(s).box_min + shell(s).box_max);
     return absl::StrFormat("%d faces around (%.4g, %.4g, %.4g)", shell(s).face_count, middle.x(),
                            middle.y(), middle.z());
@@ -540,7 +542,7 @@ class Judge {
       const auto is_named = [&](const formats::SoupPart& p) { return Matches(patterns[i], p); };
       if (std::any_of(parts_.begin(), parts_.end(), is_named)) continue;
       return InvalidField(ErrorReason::kUnknownValue, absl::StrCat(field, "[", i, "]"),
-                          absl::StrCat("is \"", patterns[i], "\", which no part is called; the "
+                          absl::StrCat("is \"", formats::Printable(patterns[i], kLongestName), "\", which no part is called; the "
                                        "parts are ", PartNames()),
                           {{"value", patterns[i]}, {"limit", PartNames()}});
     }
@@ -550,7 +552,7 @@ class Judge {
   [[nodiscard]] std::string PartNames() const {
     std::set<std::string> names;
     for (const formats::SoupPart& part : parts_) {
-      if (!part.name.empty()) names.insert(part.name);
+      if (!part.name.empty()) names.insert(formats::Printable(part.name, kLongestName));
     }
     if (names.empty()) return "without names";
     std::vector<std::string> told(names.begin(), names.end());
@@ -627,7 +629,8 @@ class Judge {
       shells += part.shell_count;
       faces += part.face_count;
       if (++entries > kNamesTold) continue;
-      told.push_back(absl::StrCat(part.name, part.name.empty() ? "" : ": ",
+      told.push_back(absl::StrCat(formats::Printable(part.name, kLongestName),
+                                  part.name.empty() ? "" : ": ",
                                   std::string(PartKindName(part.kind)), ", ", part.reason));
     }
     if (shells == 0) return;
