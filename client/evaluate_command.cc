@@ -42,9 +42,8 @@ absl::StatusOr<body::Body> LoadBody(const EvaluateArguments& arguments, const Re
   if (frame.unit == body::Unit::kAuto && result.metres_per_unit) {
     frame.unit = body::UnitOf(*result.metres_per_unit);
   }
-  CAPFIT_ASSIGN_OR_RETURN(
-      pipeline::TakenBody taken,
-      UnderstandBody(soup, result.character, frame.unit, frame.up, pool));
+  CAPFIT_ASSIGN_OR_RETURN(pipeline::TakenBody taken,
+                          UnderstandBody(soup, result.character, frame.unit, frame.up, pool));
   return std::move(taken.body);
 }
 

@@ -49,8 +49,8 @@ std::vector<character::CharacterPart> PartsAtFirstSight(const formats::PolygonSo
                                                         const pipeline::FitOptions& options,
                                                         const ThreadPool& pool) {
   if (!formats::CheckSoup(soup, {}).ok()) return {};
-  const auto found = character::FindCharacter(soup, options.character,
-                                              body::ReadRig(soup.joints).landmarks, pool);
+  const auto found =
+      character::FindCharacter(soup, options.character, body::ReadRig(soup.joints).landmarks, pool);
   return found.ok() ? found->parts : std::vector<character::CharacterPart>();
 }
 
@@ -131,8 +131,8 @@ Inspection Inspect(const formats::PolygonSoup& soup, const pipeline::FitOptions&
 }
 
 std::string InspectionTable(const Inspection& inspection) {
-  std::string text = absl::StrCat("mesh: ", inspection.faces, " faces, ", inspection.vertices,
-                                  " vertices\n");
+  std::string text =
+      absl::StrCat("mesh: ", inspection.faces, " faces, ", inspection.vertices, " vertices\n");
   absl::StrAppend(&text, "skeleton: ");
   if (inspection.joints == 0) {
     absl::StrAppend(&text, "none\n");
@@ -146,10 +146,9 @@ std::string InspectionTable(const Inspection& inspection) {
                     WordOf(UnitWords(), *inspection.unit), ", ",
                     has_axis ? WordOf(UpWords(), *inspection.up) : "no axis", " up\n");
     absl::StrAppend(&text, PoseLine(inspection.pose));
-    absl::StrAppend(&text, "fitted: ",
-                    inspection.is_solid ? "a solid around all parts below that say yes"
-                                        : "one surface",
-                    "\n");
+    absl::StrAppend(
+        &text, "fitted: ",
+        inspection.is_solid ? "a solid around all parts below that say yes" : "one surface", "\n");
   }
   absl::StrAppend(&text, "\n", PartsRows(inspection.parts));
   for (const Warning& warning : inspection.warnings) {

@@ -5,8 +5,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "core/base/status.h"
 #include "client/picture/result_body.h"
+#include "core/base/status.h"
 #include "core/mesh/prepare_mesh.h"
 
 namespace capfit::client {
@@ -21,8 +21,7 @@ constexpr double kSmallestDiagonal = 0.12;  // of the mesh's diagonal
 constexpr double kLargestDiagonal = 2.0;    // of the mesh's diagonal
 
 // Of what a fit takes; of a mesh that it cannot take, of the vertices that faces use.
-AlignedBox3d BoxOf(const formats::PolygonSoup& soup,
-                   const character::CharacterOptions& character) {
+AlignedBox3d BoxOf(const formats::PolygonSoup& soup, const character::CharacterOptions& character) {
   if (soup.parts.size() <= 1) {
     if (const auto prepared = mesh::PrepareMesh(soup); prepared.ok()) {
       return {prepared->mesh.box_min(), prepared->mesh.box_max()};

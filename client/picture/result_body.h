@@ -8,9 +8,9 @@
 #include "client/picture/result_set.h"
 #include "core/base/thread_pool.h"
 #include "core/body/find_body.h"
-#include "core/pipeline/take_body.h"
 #include "core/capsule/primitive_set.h"
 #include "core/formats/polygon_soup.h"
+#include "core/pipeline/take_body.h"
 
 namespace capfit::client {
 
@@ -20,8 +20,8 @@ namespace capfit::client {
 // The mesh checked, mended and understood, as a fit does it: with the parts of the file that the
 // result was asked for, in the unit and with the up axis that are told.
 [[nodiscard]] absl::StatusOr<pipeline::TakenBody> UnderstandBody(
-    const formats::PolygonSoup& soup, const character::CharacterOptions& character,
-    body::Unit unit, body::UpAxis up, const ThreadPool& pool);
+    const formats::PolygonSoup& soup, const character::CharacterOptions& character, body::Unit unit,
+    body::UpAxis up, const ThreadPool& pool);
 
 // The result as the core knows it, in the body frame.
 [[nodiscard]] capsule::PrimitiveSet InBodyFrame(const ResultSet& result,

@@ -41,14 +41,14 @@ struct MedialCurve {
 // The curve through the points; neighbours that coincide are merged. At least two distinct points.
 [[nodiscard]] MedialCurve CurveThrough(const std::vector<Eigen::Vector3d>& points_m);
 
-// The shells that a body's mesh was made around, as they came: open, nested, or cutting through each
-// other. They, not the mesh, have to be inside of a set. Body frame.
+// The shells that a body's mesh was made around, as they came: open, nested, or cutting through
+// each other. They, not the mesh, have to be inside of a set. Body frame.
 struct ShellSurface {
   std::vector<Eigen::Vector3d> vertices_m;  // those that triangles use
   std::vector<mesh::Triangle> triangles;
-  std::vector<Segment> vertex_segments;         // of the mesh's nearest vertex
-  std::vector<std::int32_t> vertex_of_source;   // as BodyMesh::vertex_of_source
-  std::vector<std::uint32_t> nearest_of_mesh;   // of each of the mesh's vertices the nearest here
+  std::vector<Segment> vertex_segments;        // of the mesh's nearest vertex
+  std::vector<std::int32_t> vertex_of_source;  // as BodyMesh::vertex_of_source
+  std::vector<std::uint32_t> nearest_of_mesh;  // of each of the mesh's vertices the nearest here
 };
 
 // What has to be inside of a set: a view.

@@ -46,6 +46,7 @@ constexpr float kGoesBetweenLegs = 0.5F;
 // nearly all of its part is the part.
 constexpr double kSmallShare = 0.005;
 constexpr double kHairShare = 0.006;
+constexpr double kLargeShare = 0.1;
 constexpr double kWholePart = 0.85;
 // A group of shells this large beside the largest (box, area) is another person.
 constexpr double kPersonsBox = 0.6;
@@ -94,10 +95,11 @@ class Judge {
   absl::StatusOr<Character> Run() {
     CAPFIT_RETURN_IF_ERROR(CheckNames());
     if (count() > kMostShells) {
-      return Refused(ErrorReason::kNoSurface,
-                     absl::StrCat("the mesh falls apart into ", count(), " pieces, at most ",
-                                  kMostShells, " are looked at: do neighbouring faces share "
-                                  "vertices?"));
+      return Refused(
+          ErrorReason::kNoSurface,
+          absl::StrCat("the mesh falls apart into ", count(), " pieces, at most ", kMostShells,
+                       " are looked at: do neighbouring faces share "
+                       "vertices?"));
     }
     FindSheets();
     CAPFIT_RETURN_IF_ERROR(FindGroups());
@@ -129,7 +131,7 @@ class Judge {
     const Eigen::Vector3d middle = area_ > 0.0 ? Eigen::Vector3d(sum / area_) : sum;
     double squares = 0.0;
     for (const Facet& facet : shells_.facets) {
-      squares += facet.AreaVector().norm() * (facet.Middle() - middle).squaredNorm();
+      squares += facet.AreaVector().norm() * facet.SecondMoment(middle).trace();
     }
     height_ = area_ > 0.0 ? kHeightOfSpread * std::sqrt(squares / area_) : 0.0;
     if (points_) height_ = points_->height;
@@ -204,9 +206,8 @@ class Judge {
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     for (std::size_t f = shells_.first_facet[s]; f < shells_.first_facet[s + 1]; ++f) {
       const double area = shells_.facets[f].AreaVector().norm();
-      const Eigen::Vector3d at = shells_.facets[f].Middle() - origin;
-      sum += area * at;
-      squares += area * at * at.transpose();
+      sum += area * (shells_.facets[f].Middle() - origin);
+      squares += area * shells_.facets[f].SecondMoment(origin);
     }
     const Eigen::Vector3d mean = sum / shell(s).area;
     const Eigen::Matrix3d covariance = squares / shell(s).area - mean * mean.transpose();
@@ -217,6 +218,7 @@ class Judge {
   }
 
   struct Group {
+    std::size_t carried = 0;  // inner points that its shells go around
     double area = 0.0;
     Eigen::Vector3d box_min = Eigen::Vector3d::Constant(1e300);
     Eigen::Vector3d box_max = Eigen::Vector3d::Constant(-1e300);
@@ -238,25 +240,28 @@ class Judge {
         group.largest_shell = s;
       }
       group.area += shell(s).area;
+      if (points_) group.carried += carried_[s].size();
       group.box_min = group.box_min.cwiseMin(shell(s).box_min);
       group.box_max = group.box_max.cwiseMax(shell(s).box_max);
     }
-    main_ = static_cast<std::uint32_t>(
-        std::max_element(groups.begin(), groups.end(),
-                         [](const Group& a, const Group& b) { return a.area < b.area; }) -
-        groups.begin());
+    // The body's own group, where joints tell it, may be smaller than what stands beside it.
+    const auto is_less = [](const Group& a, const Group& b) {
+      return std::pair(a.carried, a.area) < std::pair(b.carried, b.area);
+    };
+    main_ = static_cast<std::uint32_t>(std::max_element(groups.begin(), groups.end(), is_less) -
+                                       groups.begin());
     for (std::uint32_t g = 0; g < groups.size(); ++g) {
       if (g == main_ || groups[g].area < kPersonsArea * groups[main_].area) continue;
       if (groups[g].diagonal() < kPersonsBox * groups[main_].diagonal()) continue;
-      return Refused(ErrorReason::kTwoBodies,
-                     absl::StrFormat("two separate bodies: %s and %s (%.0f %% of its area); send "
-                                     "one body, or exclude the parts of the other",
-                                     NameOf(groups[main_].largest_shell),
-                                     NameOf(groups[g].largest_shell),
-                                     100.0 * groups[g].area / groups[main_].area));
+      return Refused(
+          ErrorReason::kTwoBodies,
+          absl::StrFormat("two separate bodies: %s and %s (%.0f %% of its area); send "
+                          "one body, or exclude the parts of the other",
+                          NameOf(groups[main_].largest_shell), NameOf(groups[g].largest_shell),
+                          100.0 * groups[g].area / groups[main_].area));
     }
     for (std::size_t s = 0; s < count(); ++s) {
-      if (is_sheet_[s] == 0 && group_[s] != main_) {
+      if (is_sheet_[s] == 0 && IsApart(s)) {
         verdicts_[s] = {PartKind::kFragment, false, "apart from the body"};
       }
     }
@@ -272,7 +277,8 @@ class Judge {
   }
 
   [[nodiscard]] bool IsApart(std::size_t s) const {
-    return is_sheet_[s] != 0 || (!group_.empty() && group_[s] != main_);
+    // What goes around the body's limbs is never apart: a wide skirt.
+    return is_sheet_[s] != 0 || (!group_.empty() && group_[s] != main_ && !Carries(s));
   }
 
   // ---- verdicts
@@ -332,7 +338,8 @@ class Judge {
     }
     FindLargestCarriers();
     for (const std::size_t s : is_carrier_) {
-      if (head != s && verdicts_[s].is_included && IsHeldOnly(s)) {
+      const bool is_skirt = verdicts_[s].kind == PartKind::kSkirt;
+      if (head != s && !is_skirt && verdicts_[s].is_included && IsHeldOnly(s)) {
         verdicts_[s] = {PartKind::kAccessory, false, "held, and stands off the body"};
       }
     }
@@ -359,6 +366,15 @@ class Judge {
         }
       }
     }
+    is_of_the_body_.assign(parts_.size(), 0);
+    for (const auto& [first, second] : largest_carriers_) {
+      if (first.area > 0.0 && second.area == 0.0) is_of_the_body_[first.part] = 1;
+    }
+    std::vector<double> carrying(parts_.size(), 0.0);
+    for (const std::size_t s : is_carrier_) carrying[shell(s).part] += shell(s).area;
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      if (carrying[part] > kLargeShare * area_) is_of_the_body_[part] = 1;
+    }
   }
 
   void AddCells(std::size_t s) {
@@ -373,13 +389,15 @@ class Judge {
   [[nodiscard]] bool IsHeldOnly(std::size_t s) {
     const std::size_t part = shell(s).part;
     const auto is_anothers = [&](std::size_t point) {
-      const auto larger = [&](const Carrier& c) { return c.part != part && c.area > shell(s).area; };
+      const auto larger = [&](const Carrier& c) {
+        return c.part != part && c.area > shell(s).area;
+      };
       return std::any_of(largest_carriers_[point].begin(), largest_carriers_[point].end(), larger);
     };
     return std::all_of(carried_[s].begin(), carried_[s].end(), is_anothers) && !IsPartWorn(part);
   }
 
-  [[nodiscard]] bool Carries(std::size_t s) const { return !carried_[s].empty(); }
+  [[nodiscard]] bool Carries(std::size_t s) const { return points_ && !carried_[s].empty(); }
   // (The trunk's points come first.)
   [[nodiscard]] bool CarriesTrunk(std::size_t s) const {
     return Carries(s) && carried_[s].front() < points_->trunk.size();
@@ -388,8 +406,8 @@ class Judge {
   // A body's or a garment's name where it has one; others lie, for it goes around limbs.
   [[nodiscard]] PartKind KindOr(std::size_t s, PartKind otherwise) const {
     const std::optional<PartKind> named = names_[shell(s).part];
-    const bool is_worn = named == PartKind::kBody || named == PartKind::kClothing ||
-                         named == PartKind::kShoe;
+    const bool is_worn =
+        named == PartKind::kBody || named == PartKind::kClothing || named == PartKind::kShoe;
     return is_worn ? *named : otherwise;
   }
 
@@ -462,8 +480,8 @@ class Judge {
     return {PartKind::kAccessory, false, "small and around no limb"};
   }
 
-  // Whether the part as a whole, bags with their straps, lies close to the carriers of the others,
-  // or to its own carriers where it is none of the held ones.
+  // Whether the part as a whole, bags with their straps, lies close to the carriers of the others;
+  // pieces of a robot, which nothing else could stand for, to those of their own part.
   [[nodiscard]] bool IsPartWorn(std::size_t part) {
     is_worn_part_.resize(parts_.size(), 0);
     if (is_worn_part_[part] == 0) is_worn_part_[part] = LiesClose(part) ? 2 : 1;
@@ -482,7 +500,8 @@ class Judge {
         ++all;
       }
     }
-    return static_cast<double>(near) >= kNearlyAll * static_cast<double>(all);
+    const double enough = is_of_the_body_[part] != 0 ? 0.5 : kNearlyAll;
+    return static_cast<double>(near) >= enough * static_cast<double>(all);
   }
 
   [[nodiscard]] std::size_t FacetCount(std::size_t s) const {
@@ -491,7 +510,7 @@ class Judge {
 
   [[nodiscard]] bool IsNearAnother(std::size_t part, const Eigen::Vector3d& point) const {
     return std::any_of(cells_.begin(), cells_.end(), [&](const auto& entry) {
-      return entry.first != part && entry.second.IsNear(point);
+      return (entry.first != part || is_of_the_body_[part] != 0) && entry.second.IsNear(point);
     });
   }
 
@@ -510,10 +529,9 @@ class Judge {
     for (std::size_t s = 0; s < count(); ++s) {
       const std::size_t part = shell(s).part;
       // For crumbs alone, as the eyeballs of a body, nobody gives up a surface that is one.
-      const bool may_join = !verdicts_[s].is_included && !IsApart(s) &&
-                            (surfaces.size() > 1 || !IsCrumb(s)) &&
-                            verdicts_[s].kind != PartKind::kSkirt &&
-                            taken_area[part] > 0.5 * part_area_[part];
+      const bool may_join =
+          !verdicts_[s].is_included && !IsApart(s) && (surfaces.size() > 1 || !IsCrumb(s)) &&
+          verdicts_[s].kind != PartKind::kSkirt && taken_area[part] > 0.5 * part_area_[part];
       is_any = is_any || may_join;
       taken[s] = verdicts_[s].is_included || may_join ? 1 : 0;
     }
@@ -542,8 +560,10 @@ class Judge {
       const auto is_named = [&](const formats::SoupPart& p) { return Matches(patterns[i], p); };
       if (std::any_of(parts_.begin(), parts_.end(), is_named)) continue;
       return InvalidField(ErrorReason::kUnknownValue, absl::StrCat(field, "[", i, "]"),
-                          absl::StrCat("is \"", formats::Printable(patterns[i], kLongestName), "\", which no part is called; the "
-                                       "parts are ", PartNames()),
+                          absl::StrCat("is \"", formats::Printable(patterns[i], kLongestName),
+                                       "\", which no part is called; the "
+                                       "parts are ",
+                                       PartNames()),
                           {{"value", patterns[i]}, {"limit", PartNames()}});
     }
     return absl::OkStatus();
@@ -558,7 +578,8 @@ class Judge {
     std::vector<std::string> told(names.begin(), names.end());
     const std::size_t more = told.size() > 32 ? told.size() - 32 : 0;
     told.resize(told.size() - more);
-    return absl::StrCat(absl::StrJoin(told, ", "), more > 0 ? absl::StrCat(" and ", more, " more") : "");
+    return absl::StrCat(absl::StrJoin(told, ", "),
+                        more > 0 ? absl::StrCat(" and ", more, " more") : "");
   }
 
   void HearTheCaller() {
@@ -589,13 +610,14 @@ class Judge {
     for (std::size_t s = 0; s < count(); ++s) {
       const Verdict& verdict = verdicts_[s];
       const std::size_t part = shell(s).part;
-      const auto key = std::pair(part, std::pair(static_cast<int>(verdict.kind) * 2 +
-                                                     (verdict.is_included ? 1 : 0),
-                                                 verdict.reason));
+      const auto key = std::pair(
+          part, std::pair(static_cast<int>(verdict.kind) * 2 + (verdict.is_included ? 1 : 0),
+                          verdict.reason));
       const auto [at, is_new] = entry_of.try_emplace(key, entries.size());
       if (is_new) {
-        entries.push_back({part, {parts_[part].name, parts_[part].material, verdict.kind,
-                                  verdict.is_included, std::string(verdict.reason)}});
+        entries.push_back({part,
+                           {parts_[part].name, parts_[part].material, verdict.kind,
+                            verdict.is_included, std::string(verdict.reason)}});
       }
       CharacterPart& entry = entries[at->second].second;
       entry.shell_count += 1;
@@ -637,8 +659,8 @@ class Judge {
     if (entries > kNamesTold) told.push_back(absl::StrCat(entries - kNamesTold, " more"));
     character.warnings.push_back(
         {"PARTS_LEFT_OUT",
-         absl::StrCat(shells, " separate parts (", faces, " faces) were left out: ",
-                      absl::StrJoin(told, "; ")),
+         absl::StrCat(shells, " separate parts (", faces,
+                      " faces) were left out: ", absl::StrJoin(told, "; ")),
          static_cast<std::int64_t>(shells)});
   }
 
@@ -663,12 +685,14 @@ class Judge {
     double area = 0.0;
   };
   std::vector<std::array<Carrier, 2>> largest_carriers_;  // by inner point
-  std::vector<std::vector<std::size_t>> carried_;         // the inner points that it goes around
+  // By part: whether it alone goes around some inner point, or much of it goes around some.
+  std::vector<char> is_of_the_body_;
+  std::vector<std::vector<std::size_t>> carried_;  // the inner points that it goes around
   std::vector<float> around_head_;
   std::vector<float> between_legs_;
   std::set<std::size_t> is_carrier_;
   std::map<std::size_t, CellSet> cells_;  // of carriers that are taken, by part
-  std::vector<char> is_on_head_;  // by part
+  std::vector<char> is_on_head_;          // by part
 };
 
 }  // namespace

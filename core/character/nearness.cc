@@ -66,7 +66,8 @@ void Join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) 
 }  // namespace
 
 void CellSet::Add(const Facet& facet) {
-  ForSamples(facet, cell_, [&](const Eigen::Vector3d& p) { cells_.insert(KeyOf(CellOf(p, cell_))); });
+  ForSamples(facet, cell_,
+             [&](const Eigen::Vector3d& p) { cells_.insert(KeyOf(CellOf(p, cell_))); });
 }
 
 bool CellSet::IsNear(const Eigen::Vector3d& point) const {

@@ -9,10 +9,10 @@ namespace capfit::character {
 
 // What a part of a file is to the character.
 enum class PartKind {
-  kBody,       // skin, or the surface that stands for it
-  kClothing,   // worn close to the skin, armour included
+  kBody,      // skin, or the surface that stands for it
+  kClothing,  // worn close to the skin, armour included
   kShoe,
-  kSkirt,      // and dresses: hangs between the legs
+  kSkirt,  // and dresses: hangs between the legs
   kHair,
   kInner,      // eyes, lashes, teeth, tongue: in the body, or so small that it does not matter
   kAccessory,  // carried or put on: hat, glasses, bag, weapon

@@ -40,7 +40,10 @@ class Sets {
 class ShellFinder {
  public:
   ShellFinder(const formats::PolygonSoup& soup, std::span<const char> is_cut_off)
-      : soup_(soup), is_cut_off_(is_cut_off), whole_(soup.positions.size()), within_part_(soup.face_vertices.size()) {
+      : soup_(soup),
+        is_cut_off_(is_cut_off),
+        whole_(soup.positions.size()),
+        within_part_(soup.face_vertices.size()) {
     std::vector<std::uint32_t> all(soup.positions.size());
     std::iota(all.begin(), all.end(), 0u);
     same_ = mesh::WeldEqual(soup.positions, all);
@@ -160,6 +163,13 @@ Eigen::Vector3d Facet::AreaVector() const {
 double Facet::LongestEdge() const {
   return std::max({(corner[1] - corner[0]).norm(), (corner[2] - corner[1]).norm(),
                    (corner[0] - corner[2]).norm()});
+}
+
+Eigen::Matrix3d Facet::SecondMoment(const Eigen::Vector3d& from) const {
+  const Eigen::Vector3d middle = Middle() - from;
+  Eigen::Matrix3d sum = 9.0 * middle * middle.transpose();
+  for (const Eigen::Vector3d& c : corner) sum += (c - from) * (c - from).transpose();
+  return sum / 12.0;
 }
 
 Shells FindShells(const formats::PolygonSoup& soup, std::span<const char> is_cut_off) {

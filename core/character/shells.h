@@ -31,6 +31,8 @@ struct Facet {
   [[nodiscard]] Eigen::Vector3d Middle() const { return (corner[0] + corner[1] + corner[2]) / 3.0; }
   [[nodiscard]] Eigen::Vector3d AreaVector() const;
   [[nodiscard]] double LongestEdge() const;
+  // The mean of (x - from) (x - from)^T over all its points x.
+  [[nodiscard]] Eigen::Matrix3d SecondMoment(const Eigen::Vector3d& from) const;
 };
 
 struct Shells {

@@ -17,7 +17,8 @@ struct NamedJoint {
   std::string name;  // may be empty
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   std::int32_t parent = -1;  // index of the nearest joint above it, -1 for none
-  std::string human_bone = {};  // what the file itself says it is (VRM: "leftLowerArm"), often empty
+  std::string human_bone =
+      {};  // what the file itself says it is (VRM: "leftLowerArm"), often empty
 };
 
 // Which joints move a vertex: the strongest four, weights >= 0 that sum to 1; all 0: none does.

@@ -21,8 +21,7 @@ NearestVertex::NearestVertex(std::span<const Eigen::Vector3d> vertices) : vertic
     low_ = low_.cwiseMin(v);
     high = high.cwiseMax(v);
   }
-  const double along =
-      std::sqrt(static_cast<double>(vertices.size()) / kVerticesPerCell);
+  const double along = std::sqrt(static_cast<double>(vertices.size()) / kVerticesPerCell);
   const double longest = (high - low_).maxCoeff();
   cell_ = longest / std::clamp(along, 1.0, double{kMostCellsAlong});
   if (!(cell_ > 0.0)) cell_ = 1.0;
@@ -31,7 +30,9 @@ NearestVertex::NearestVertex(std::span<const Eigen::Vector3d> vertices) : vertic
     size_[k] = static_cast<int>(std::floor((high[axis] - low_[axis]) / cell_)) + 1;
   }
   begin_.assign(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-                        static_cast<std::size_t>(size_[2]) + 1, 0);
+                        static_cast<std::size_t>(size_[2]) +
+                    1,
+                0);
   std::vector<std::uint32_t> cell_of(vertices.size());
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     cell_of[v] = static_cast<std::uint32_t>(IndexOf(CellOf(vertices[v])));
@@ -57,8 +58,8 @@ NearestVertex::Cell NearestVertex::CellOf(const Eigen::Vector3d& point) const {
 
 std::size_t NearestVertex::IndexOf(const Cell& cell) const {
   const auto at = [&](std::size_t k) { return static_cast<std::size_t>(cell[k]); };
-  return (at(2) * static_cast<std::size_t>(size_[1]) + at(1)) *
-             static_cast<std::size_t>(size_[0]) + at(0);
+  return (at(2) * static_cast<std::size_t>(size_[1]) + at(1)) * static_cast<std::size_t>(size_[0]) +
+         at(0);
 }
 
 std::uint32_t NearestVertex::At(const Eigen::Vector3d& point) const {
@@ -84,8 +85,7 @@ std::uint32_t NearestVertex::At(const Eigen::Vector3d& point) const {
     const auto high = [&](std::size_t k) { return std::min(size_[k] - 1, middle[k] + ring); };
     for (int z = low(2); z <= high(2); ++z) {
       for (int y = low(1); y <= high(1); ++y) {
-        const bool is_face =
-            std::abs(z - middle[2]) == ring || std::abs(y - middle[1]) == ring;
+        const bool is_face = std::abs(z - middle[2]) == ring || std::abs(y - middle[1]) == ring;
         if (is_face) {
           for (int x = low(0); x <= high(0); ++x) look({x, y, z});
           continue;

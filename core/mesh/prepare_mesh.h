@@ -56,10 +56,11 @@ struct PreparedMesh {
 // FAILED_PRECONDITION says why there is no body in it: NO_SURFACE, NO_VOLUME, TWO_BODIES (a second
 // part of half the volume or more), NOT_ORIENTABLE, HOLE_NOT_CLOSED, OPEN_SURFACE (the holes are
 // larger than a third of the surface), NOT_MANIFOLD. CANCELLED where the observer says so.
-[[nodiscard]] absl::StatusOr<PreparedMesh> PrepareMesh(
-    const formats::PolygonSoup& soup, const formats::MeshLimits& limits = {},
-    const ThreadPool& pool = ThreadPool(1), const FitObserver& observer = NullObserver(),
-    std::span<const char> is_left_out = {});
+[[nodiscard]] absl::StatusOr<PreparedMesh> PrepareMesh(const formats::PolygonSoup& soup,
+                                                       const formats::MeshLimits& limits = {},
+                                                       const ThreadPool& pool = ThreadPool(1),
+                                                       const FitObserver& observer = NullObserver(),
+                                                       std::span<const char> is_left_out = {});
 
 }  // namespace capfit::mesh
 

@@ -81,10 +81,10 @@ struct Metrics {
                               const MeasureOptions& options, const ThreadPool& pool,
                               const FitObserver& observer);
 
-// For each vertex of body.enclosed() the signed distance to the boundary of the set's union in metres: >
-// 0 outside of the set, < 0 where the set covers it. NaN for vertices of parts that are not
-// selected (the set does not stand for them). An empty set gives infinity. About 6 ms on one core
-// for 64k triangles and 64 primitives.
+// For each vertex of body.enclosed() the signed distance to the boundary of the set's union in
+// metres: > 0 outside of the set, < 0 where the set covers it. NaN for vertices of parts that are
+// not selected (the set does not stand for them). An empty set gives infinity. About 6 ms on one
+// core for 64k triangles and 64 primitives.
 [[nodiscard]] std::vector<double> SignedGaps(const body::Body& body,
                                              const capsule::PrimitiveSet& set,
                                              const body::PartSelection& parts,

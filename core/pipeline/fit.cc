@@ -209,8 +209,9 @@ class BodyFit {
     result_.metrics = metrics::Measure(*body_, set_, measure_options, pool_, clock_);
     result_.metrics.max_gap_m = max_gap_m_;
     if (options_.want_vertex_gaps) {
-      result_.vertex_gaps = VertexGaps(
-          body_->enclosed().vertex_of_source, metrics::SignedGaps(*body_, set_, options_.parts, pool_), caller_from_body_);
+      result_.vertex_gaps =
+          VertexGaps(body_->enclosed().vertex_of_source,
+                     metrics::SignedGaps(*body_, set_, options_.parts, pool_), caller_from_body_);
     }
     return CheckCancelled(clock_);
   }

@@ -36,8 +36,8 @@ inline constexpr double kMinPolygonError = 0.001;
 inline constexpr double kMaxPolygonError = 2.0;
 inline constexpr int kDefaultMaxPrimitives = 64;
 inline constexpr double kMaxToleranceM = 0.1;
-inline constexpr std::size_t kMostPartNames = 64;      // in each of the two lists
-inline constexpr std::size_t kLongestPartName = 256;   // bytes
+inline constexpr std::size_t kMostPartNames = 64;     // in each of the two lists
+inline constexpr std::size_t kLongestPartName = 256;  // bytes
 inline constexpr std::size_t kMostPartsTold = 1000;
 
 // kEnclose: nothing of the fitted parts is left outside (but for tolerance_m). kBestFit: the
@@ -73,7 +73,7 @@ struct FitOptions {
   body::Unit unit = body::Unit::kAuto;
   body::UpAxis up = body::UpAxis::kAuto;
   std::map<body::LandmarkId, Eigen::Vector3d> landmarks;  // the caller's, in the caller's frame
-  character::CharacterOptions character;  // which parts of the file are the body
+  character::CharacterOptions character;                  // which parts of the file are the body
   std::uint64_t seed = 0;
   bool want_polygons = false;     // return the feature polygons with their circles
   bool want_vertex_gaps = false;  // return each vertex's signed distance to the set

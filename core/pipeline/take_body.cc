@@ -135,8 +135,7 @@ class BodyTaker {
   }
 
   [[nodiscard]] Joints RigJoints() const {
-    return options_.landmarks.empty() ? body::ReadRig(soup_.joints).landmarks
-                                      : options_.landmarks;
+    return options_.landmarks.empty() ? body::ReadRig(soup_.joints).landmarks : options_.landmarks;
   }
 
   static TakenMesh FromPrepared(mesh::PreparedMesh& prepared) {

@@ -1,4 +1,5 @@
-// From the caller's mesh to the body that is fitted: the way through mesh, character, solid and body.
+// From the caller's mesh to the body that is fitted: the way through mesh, character, solid and
+// body.
 #ifndef CAPFIT_CORE_PIPELINE_TAKE_BODY_H_
 #define CAPFIT_CORE_PIPELINE_TAKE_BODY_H_
 

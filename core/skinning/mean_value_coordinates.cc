@@ -123,10 +123,9 @@ DenseWeights MeanValueWeights(const mesh::BodyMesh& mesh,
                               std::span<const Eigen::Vector3d> centers_m, const ThreadPool& pool,
                               const FitObserver& observer,
                               const std::optional<Carriers>& carriers) {
-  const SourceMap sources = carriers
-                                ? SourceMap(carriers->carrier_of_source,
-                                            carriers->positions_m.size())
-                                : SourceMap(mesh);
+  const SourceMap sources =
+      carriers ? SourceMap(carriers->carrier_of_source, carriers->positions_m.size())
+               : SourceMap(mesh);
   DenseWeights result;
   result.sphere_count = centers_m.size();
   result.vertex_count = sources.vertex_of_source().size();

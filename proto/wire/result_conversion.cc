@@ -139,10 +139,13 @@ void FactsToWire(const pipeline::BodyFacts& facts, v1::BodyFacts& wire) {
 }
 
 pipeline::BodyFacts FactsFromWire(const v1::BodyFacts& wire) {
-  pipeline::BodyFacts facts = {
-      wire.vertex_count(),      wire.face_count(), VectorOf(wire.box_min()),
-      VectorOf(wire.box_max()), wire.height_m(),   wire.is_symmetric(),
-      {}};
+  pipeline::BodyFacts facts = {wire.vertex_count(),
+                               wire.face_count(),
+                               VectorOf(wire.box_min()),
+                               VectorOf(wire.box_max()),
+                               wire.height_m(),
+                               wire.is_symmetric(),
+                               {}};
   for (const v1::MeshPart& part : wire.parts()) {
     facts.parts.push_back({part.name(), part.material(),
                            FromWire(part.kind()).value_or(character::PartKind::kFragment),

@@ -52,16 +52,19 @@ const Joints& JointsOfWoman() {
 PolygonSoup WomanWith(const PolygonSoup& thing, const std::string& name) {
   PolygonSoup both = mesh::Together(Woman(), thing);
   both.parts = Woman().parts;
-  both.parts.push_back({name, "", Woman().face_count(), both.face_count() - Woman().face_count(), -1});
+  both.parts.push_back(
+      {name, "", Woman().face_count(), both.face_count() - Woman().face_count(), -1});
   return both;
 }
 
-// A sheet round the y axis through the point, from one height to another, turned by an angle.
-PolygonSoup Tube(const Eigen::Vector3d& middle, double radius, double low_y, double high_y) {
+// A sheet round the vertical through the point, narrower at its upper end.
+PolygonSoup Cone(const Eigen::Vector3d& middle, double low_radius, double high_radius, double low_y,
+                 double high_y) {
   constexpr int kAround = 40;
   constexpr int kRings = 10;
   PolygonSoup tube;
   for (int r = 0; r <= kRings; ++r) {
+    const double radius = low_radius + (high_radius - low_radius) * r / kRings;
     for (int k = 0; k < kAround; ++k) {
       const double angle = 2.0 * kPi * k / kAround;
       tube.positions.emplace_back(middle.x() + radius * std::cos(angle),
@@ -73,7 +76,8 @@ PolygonSoup Tube(const Eigen::Vector3d& middle, double radius, double low_y, dou
     for (std::uint32_t k = 0; k < kAround; ++k) {
       const std::uint32_t a = r * kAround + k;
       const std::uint32_t b = r * kAround + (k + 1) % kAround;
-      for (const std::uint32_t v : {a, a + kAround, b + kAround, b}) tube.face_vertices.push_back(v);
+      for (const std::uint32_t v : {a, a + kAround, b + kAround, b})
+        tube.face_vertices.push_back(v);
       tube.face_sizes.push_back(4);
     }
   }
@@ -121,7 +125,7 @@ const Eigen::Vector3d& At(LandmarkId id) { return JointsOfWoman().at(id); }
 
 PolygonSoup Skirt() {
   const Eigen::Vector3d hip = 0.5 * (At(LandmarkId::kLeftHip) + At(LandmarkId::kRightHip));
-  return Tube(hip, 0.27, At(LandmarkId::kLeftKnee).y(), hip.y() + 0.1);
+  return Cone(hip, 0.3, 0.14, At(LandmarkId::kLeftKnee).y(), hip.y() + 0.15);
 }
 
 PolygonSoup Backpack() {
@@ -159,9 +163,13 @@ TEST(FindCharacterTest, WithJointsGeometryTellsWhatNamesDoNot) {
   EXPECT_EQ(with(Backpack()), "base body yes, x accessory no");
   EXPECT_EQ(with(Scalp()), "base body yes, x hair no");
   EXPECT_EQ(with(ChestPlate()), "base body yes, x clothing yes");
+  // A hoop that nowhere touches her.
+  const Eigen::Vector3d knee = 0.5 * (At(LandmarkId::kLeftKnee) + At(LandmarkId::kRightKnee));
+  EXPECT_EQ(with(Cone(knee, 0.45, 0.45, 0.3, 1.0)), "base body yes, x skirt no");
   const Eigen::Vector3d eye = At(LandmarkId::kNeck) + Eigen::Vector3d(0.03, 0.12, 0.08);
   EXPECT_EQ(with(mesh::Moved(mesh::Ball(12, 6, 0.012), eye)), "base body yes, x inner no");
-  EXPECT_EQ(with(mesh::Moved(mesh::Cube(), {0.0, 3.0, 0.0})), "base body yes, x fragment no");
+  EXPECT_EQ(with(mesh::Moved(mesh::Box({0, 0, 0}, {0.3, 0.3, 0.3}), {0.0, 3.0, 0.0})),
+            "base body yes, x fragment no");
 }
 
 TEST(FindCharacterTest, NamesDoNotTakeAwayWhatGoesAroundTheTrunk) {
@@ -179,26 +187,28 @@ TEST(FindCharacterTest, WithoutJointsNamesTell) {
             "base body yes, ChestPlate clothing yes");
 }
 
+CharacterOptions HairOrSkirt(bool hair, bool skirt) { return {{}, {}, hair, skirt}; }
+
 TEST(FindCharacterTest, HairAndSkirtsByOption) {
-  EXPECT_EQ(TextOf(Found(WomanWith(Skirt(), "x"), JointsOfWoman(), {.skirt = true})),
+  EXPECT_EQ(TextOf(Found(WomanWith(Skirt(), "x"), JointsOfWoman(), HairOrSkirt(false, true))),
             "base body yes, x skirt yes");
-  EXPECT_EQ(TextOf(Found(WomanWith(Scalp(), "x"), JointsOfWoman(), {.hair = true})),
+  EXPECT_EQ(TextOf(Found(WomanWith(Scalp(), "x"), JointsOfWoman(), HairOrSkirt(true, false))),
             "base body yes, x hair yes");
 }
 
 TEST(FindCharacterTest, TheCallersWordDecides) {
   const PolygonSoup soup = WomanWith(Backpack(), "Rucksack");
-  EXPECT_EQ(TextOf(Found(soup, JointsOfWoman(), {.include = {"ruck*"}})),
+  EXPECT_EQ(TextOf(Found(soup, JointsOfWoman(), {{"ruck*"}, {}})),
             "base body yes, Rucksack accessory yes");
-  EXPECT_EQ(TextOf(Found(soup, JointsOfWoman(), {.include = {"*"}, .exclude = {"RUCKSACK"}})),
+  EXPECT_EQ(TextOf(Found(soup, JointsOfWoman(), {{"*"}, {"RUCKSACK"}})),
             "base body yes, Rucksack accessory no");
-  EXPECT_EQ(TextOf(Found(soup, JointsOfWoman(), {.include = {"skin"}})),  // a material
+  EXPECT_EQ(TextOf(Found(soup, JointsOfWoman(), {{"skin"}, {}})),  // a material
             "base body yes, Rucksack accessory no");
-  const auto unknown = FindCharacter(soup, {.exclude = {"Rucksack", "Hat"}}, {}, ThreadPool(1));
+  const auto unknown = FindCharacter(soup, {{}, {"Rucksack", "Hat"}}, {}, ThreadPool(1));
   EXPECT_EQ(unknown.status().code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(FieldOf(unknown.status()), "options.exclude_parts[1]");
   EXPECT_THAT(std::string(unknown.status().message()), testing::HasSubstr("Rucksack, base"));
-  const auto nothing = FindCharacter(soup, {.exclude = {"*"}}, {}, ThreadPool(1));
+  const auto nothing = FindCharacter(soup, {{}, {"*"}}, {}, ThreadPool(1));
   EXPECT_EQ(ReasonOf(nothing.status()), ErrorReason::kNothingToFit);
 }
 
@@ -242,8 +252,8 @@ TEST(FindCharacterTest, WhatFallsApartIsRefusedInTime) {
   PolygonSoup crumbs;
   for (std::uint32_t i = 0; i < 30'000; ++i) {
     const Eigen::Vector3d p(0.01 * (i % 100), 0.01 * (i / 100 % 100), 0.01 * (i / 10000));
-    for (const Eigen::Vector3d& d : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.001, 0, 0),
-                                     Eigen::Vector3d(0, 0.001, 0)}) {
+    for (const Eigen::Vector3d& d :
+         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.001, 0, 0), Eigen::Vector3d(0, 0.001, 0)}) {
       crumbs.positions.push_back(p + d);
       crumbs.face_vertices.push_back(static_cast<std::uint32_t>(crumbs.positions.size() - 1));
     }

@@ -17,8 +17,12 @@ TEST(CellSetTest, NearIsUpToACellAndFarFromFourOn) {
   for (int i = 0; i < 2000; ++i) {
     const Eigen::Vector3d p(random.NextIn(-3, 3), random.NextIn(-3, 3), random.NextIn(-3, 3));
     const double off = std::abs(p.norm() - 1.0);
-    if (off < 0.95 * kCell) EXPECT_TRUE(cells.IsNear(p)) << p.transpose();
-    if (off > 4.0 * kCell) EXPECT_FALSE(cells.IsNear(p)) << p.transpose();
+    if (off < 0.95 * kCell) {
+      EXPECT_TRUE(cells.IsNear(p)) << p.transpose();
+    }
+    if (off > 4.0 * kCell) {
+      EXPECT_FALSE(cells.IsNear(p)) << p.transpose();
+    }
   }
 }
 
@@ -38,9 +42,9 @@ TEST(ClustersTest, HangTogetherOverAGapAndNotOverTwo) {
 }
 
 TEST(ClustersTest, WhatIsNotTakenJoinsNothing) {
-  const Shells three = FindShells(mesh::Together(
-      mesh::Together(mesh::Cube(), mesh::Moved(mesh::Cube(), {2.2, 0.0, 0.0})),
-      mesh::Moved(mesh::Cube(), {4.4, 0.0, 0.0})));
+  const Shells three = FindShells(
+      mesh::Together(mesh::Together(mesh::Cube(), mesh::Moved(mesh::Cube(), {2.2, 0.0, 0.0})),
+                     mesh::Moved(mesh::Cube(), {4.4, 0.0, 0.0})));
   EXPECT_EQ(ClustersOf(three, 1.2, {1, 1, 1}), (std::vector<std::uint32_t>{0, 0, 0}));
   EXPECT_EQ(ClustersOf(three, 1.2, {1, 0, 1}), (std::vector<std::uint32_t>{0, 1, 2}));
 }

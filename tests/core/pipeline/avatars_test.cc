@@ -133,8 +133,12 @@ TEST(AvatarOptionsTest, HairSkirtAndNamesDecideWhatIsEnclosed) {
   options.character.exclude = {"Shoes*"};
   const FitResult result = FitAvatar(soup, "skirt_woman", options);
   for (const character::CharacterPart& part : result.body.parts) {
-    if (part.name == "Hair_01" || part.name == "Skirt_01_CLOTH") EXPECT_TRUE(part.is_included);
-    if (part.name == "Shoes_01_CLOTH") EXPECT_FALSE(part.is_included);
+    if (part.name == "Hair_01" || part.name == "Skirt_01_CLOTH") {
+      EXPECT_TRUE(part.is_included) << part.name << " " << part.reason;
+    }
+    if (part.name == "Shoes_01_CLOTH") {
+      EXPECT_FALSE(part.is_included);
+    }
   }
 }
 
@@ -154,7 +158,9 @@ TEST(AvatarWeightsTest, CarryTheCentresFromTheFilesOwnVertices) {
   }
   ASSERT_EQ(result.vertex_gaps.size(), soup.positions.size());
   for (const float gap : result.vertex_gaps) {
-    if (!std::isnan(gap)) EXPECT_LE(gap, 1e-6F);
+    if (!std::isnan(gap)) {
+      EXPECT_LE(gap, 1e-6F);
+    }
   }
 }
 
