@@ -96,7 +96,8 @@ std::vector<std::uint32_t> ClustersOf(const Shells& shells, double gap,
       });
     }
   }
-  for (const auto& [key, entry] : first) {
+  for (const auto& known : first) {
+    const Entry& entry = known.second;
     ForNeighbours(entry.cell, [&](std::uint64_t neighbour) {
       const auto other = first.find(neighbour);
       if (other != first.end()) Join(parent, entry.shell, other->second.shell);
