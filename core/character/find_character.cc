@@ -1,7 +1,5 @@
 #include "core/character/find_character.h"
 
-#include <fnmatch.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -12,14 +10,15 @@
 #include <string_view>
 #include <utility>
 
-#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "absl/strings/str_join.h"
 #include "core/base/status.h"
+#include "core/character/callers_word.h"
+#include "core/character/character_report.h"
 #include "core/character/nearness.h"
 #include "core/character/shells.h"
 #include "core/character/surrounding.h"
+#include "core/character/verdict.h"
 #include "core/formats/file_error.h"
 
 namespace capfit::character {
@@ -56,23 +55,6 @@ constexpr double kNearlyAll = 0.9;
 constexpr std::size_t kSamplesOfNearness = 500;
 // Beyond it a file has lost its shared vertices, or is no avatar; hair of cards has some thousands.
 constexpr std::size_t kMostShells = 20'000;
-// Names in a message.
-constexpr std::size_t kNamesTold = 8;
-constexpr std::size_t kLongestName = 60;
-
-bool Matches(const std::string& pattern, const formats::SoupPart& part) {
-  const auto is = [&](const std::string& name) {
-    return fnmatch(absl::AsciiStrToLower(pattern).c_str(), absl::AsciiStrToLower(name).c_str(),
-                   FNM_NOESCAPE) == 0;
-  };
-  return is(part.name) || (!part.material.empty() && is(part.material));
-}
-
-struct Verdict {
-  PartKind kind = PartKind::kBody;
-  bool is_included = true;
-  std::string_view reason;
-};
 
 class Judge {
  public:
@@ -93,7 +75,7 @@ class Judge {
   }
 
   absl::StatusOr<Character> Run() {
-    CAPFIT_RETURN_IF_ERROR(CheckNames());
+    CAPFIT_RETURN_IF_ERROR(CheckNames(options_, parts_));
     if (count() > kMostShells) {
       return Refused(
           ErrorReason::kNoSurface,
@@ -110,8 +92,8 @@ class Judge {
       JudgeByNames();
     }
     AddPiecesThatTouch();
-    HearTheCaller();
-    return Report();
+    HearTheCaller(options_, parts_, shells_, verdicts_);
+    return MakeCharacter(shells_, parts_, verdicts_, points_.has_value());
   }
 
  private:
@@ -270,7 +252,7 @@ class Judge {
 
   [[nodiscard]] std::string NameOf(std::size_t s) const {
     const std::string& name = parts_[shell(s).part].name;
-    if (!name.empty()) return absl::StrCat("\"", formats::Printable(name, kLongestName), "\"");
+    if (!name.empty()) return absl::StrCat("\"", formats::Printable(name, kLongestNameTold), "\"");
     const Eigen::Vector3d middle = 0.5 * (shell(s).box_min + shell(s).box_max);
     return absl::StrFormat("%d faces around (%.4g, %.4g, %.4g)", shell(s).face_count, middle.x(),
                            middle.y(), middle.z());
@@ -546,122 +528,6 @@ class Judge {
         verdicts_[s] = {KindOr(s, PartKind::kBody), true, "touches the rest of its part"};
       }
     }
-  }
-
-  // ---- the caller's word
-
-  absl::Status CheckNames() const {
-    CAPFIT_RETURN_IF_ERROR(CheckList(options_.include, "options.include_parts"));
-    return CheckList(options_.exclude, "options.exclude_parts");
-  }
-
-  absl::Status CheckList(const std::vector<std::string>& patterns, const char* field) const {
-    for (std::size_t i = 0; i < patterns.size(); ++i) {
-      const auto is_named = [&](const formats::SoupPart& p) { return Matches(patterns[i], p); };
-      if (std::any_of(parts_.begin(), parts_.end(), is_named)) continue;
-      return InvalidField(ErrorReason::kUnknownValue, absl::StrCat(field, "[", i, "]"),
-                          absl::StrCat("is \"", formats::Printable(patterns[i], kLongestName),
-                                       "\", which no part is called; the "
-                                       "parts are ",
-                                       PartNames()),
-                          {{"value", patterns[i]}, {"limit", PartNames()}});
-    }
-    return absl::OkStatus();
-  }
-
-  [[nodiscard]] std::string PartNames() const {
-    std::set<std::string> names;
-    for (const formats::SoupPart& part : parts_) {
-      if (!part.name.empty()) names.insert(formats::Printable(part.name, kLongestName));
-    }
-    if (names.empty()) return "without names";
-    std::vector<std::string> told(names.begin(), names.end());
-    const std::size_t more = told.size() > 32 ? told.size() - 32 : 0;
-    told.resize(told.size() - more);
-    return absl::StrCat(absl::StrJoin(told, ", "),
-                        more > 0 ? absl::StrCat(" and ", more, " more") : "");
-  }
-
-  void HearTheCaller() {
-    const auto is_among = [&](const std::vector<std::string>& patterns, std::size_t part) {
-      return std::any_of(patterns.begin(), patterns.end(),
-                         [&](const std::string& p) { return Matches(p, parts_[part]); });
-    };
-    for (std::size_t s = 0; s < count(); ++s) {
-      if (is_among(options_.include, shell(s).part)) {
-        verdicts_[s].is_included = true;
-        verdicts_[s].reason = "included by the caller";
-      }
-      if (is_among(options_.exclude, shell(s).part)) {
-        verdicts_[s].is_included = false;
-        verdicts_[s].reason = "excluded by the caller";
-      }
-    }
-  }
-
-  // ---- what is told
-
-  absl::StatusOr<Character> Report() const {
-    Character character;
-    character.has_joints = points_.has_value();
-    std::set<std::uint32_t> surfaces;
-    std::map<std::pair<std::size_t, std::pair<int, std::string_view>>, std::size_t> entry_of;
-    std::vector<std::pair<std::size_t, CharacterPart>> entries;
-    for (std::size_t s = 0; s < count(); ++s) {
-      const Verdict& verdict = verdicts_[s];
-      const std::size_t part = shell(s).part;
-      const auto key = std::pair(
-          part, std::pair(static_cast<int>(verdict.kind) * 2 + (verdict.is_included ? 1 : 0),
-                          verdict.reason));
-      const auto [at, is_new] = entry_of.try_emplace(key, entries.size());
-      if (is_new) {
-        entries.push_back({part,
-                           {parts_[part].name, parts_[part].material, verdict.kind,
-                            verdict.is_included, std::string(verdict.reason)}});
-      }
-      CharacterPart& entry = entries[at->second].second;
-      entry.shell_count += 1;
-      entry.face_count += shell(s).face_count;
-      entry.area_share += area_ > 0.0 ? shell(s).area / area_ : 0.0;
-      if (verdict.is_included) surfaces.insert(shell(s).surface);
-    }
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (auto& [part, entry] : entries) character.parts.push_back(std::move(entry));
-    character.surface_count = surfaces.size();
-    if (character.surface_count == 0) {
-      return Refused(ErrorReason::kNothingToFit,
-                     "no part of the file is taken for the character; include some by name");
-    }
-    character.is_left_out.resize(shells_.shell_of_face.size());
-    for (std::size_t face = 0; face < character.is_left_out.size(); ++face) {
-      character.is_left_out[face] = verdicts_[shells_.shell_of_face[face]].is_included ? 0 : 1;
-    }
-    WarnOfLeftOut(character);
-    return character;
-  }
-
-  static void WarnOfLeftOut(Character& character) {
-    std::size_t shells = 0;
-    std::size_t faces = 0;
-    std::vector<std::string> told;
-    std::size_t entries = 0;
-    for (const CharacterPart& part : character.parts) {
-      if (part.is_included) continue;
-      shells += part.shell_count;
-      faces += part.face_count;
-      if (++entries > kNamesTold) continue;
-      told.push_back(absl::StrCat(formats::Printable(part.name, kLongestName),
-                                  part.name.empty() ? "" : ": ",
-                                  std::string(PartKindName(part.kind)), ", ", part.reason));
-    }
-    if (shells == 0) return;
-    if (entries > kNamesTold) told.push_back(absl::StrCat(entries - kNamesTold, " more"));
-    character.warnings.push_back(
-        {"PARTS_LEFT_OUT",
-         absl::StrCat(shells, " separate parts (", faces,
-                      " faces) were left out: ", absl::StrJoin(told, "; ")),
-         static_cast<std::int64_t>(shells)});
   }
 
   const CharacterOptions& options_;
