@@ -341,7 +341,12 @@ class MeshMender {
       for (const std::uint32_t v : copied_) with_copies.push_back(positions_[v]);
       positions = with_copies;
     }
-    MendedTriangles mended = MendFlatTriangles(positions, kFlatShare * diagonal_, surface_);
+    // By the size of what was kept: a mended mesh that comes again is held against the same.
+    Box kept;
+    for (const Triangle& t : surface_.triangles) {
+      for (const std::uint32_t v : t) kept.Add(positions[v]);
+    }
+    MendedTriangles mended = MendFlatTriangles(positions, kFlatShare * kept.diagonal(), surface_);
     const std::size_t count = mended.flipped + mended.merged.size();
     if (count == 0) return;
     Warn("FLAT_FACES", static_cast<std::int64_t>(count),
