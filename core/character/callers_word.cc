@@ -66,8 +66,9 @@ bool MatchesName(std::string_view pattern, std::string_view name) {
       star = p++;
       after_star = n;
     } else if (p < pattern.size() &&
-               (pattern[p] == '?' || absl::ascii_tolower(static_cast<unsigned char>(pattern[p])) ==
-                                         absl::ascii_tolower(static_cast<unsigned char>(name[n])))) {
+               (pattern[p] == '?' ||
+                absl::ascii_tolower(static_cast<unsigned char>(pattern[p])) ==
+                    absl::ascii_tolower(static_cast<unsigned char>(name[n])))) {
       ++p;
       ++n;
     } else if (star != kNone) {

@@ -35,8 +35,8 @@ std::vector<CharacterPart> FatesOf(const Shells& shells,
     const auto [at, is_new] = place.try_emplace(
         Fate{part, verdict.kind, verdict.is_included, verdict.reason}, entries.size());
     if (is_new) {
-      entries.push_back({parts[part].name, parts[part].material, verdict.kind,
-                         verdict.is_included, std::string(verdict.reason)});
+      entries.push_back({parts[part].name, parts[part].material, verdict.kind, verdict.is_included,
+                         std::string(verdict.reason)});
     }
     CharacterPart& entry = entries[at->second];
     entry.shell_count += 1;
@@ -66,11 +66,10 @@ void WarnOfLeftOut(Character& character) {
   }
   if (shells == 0) return;
   if (entries > kEntriesTold) told.push_back(absl::StrCat(entries - kEntriesTold, " more"));
-  character.warnings.push_back(
-      {"PARTS_LEFT_OUT",
-       absl::StrCat(shells, " separate parts (", faces,
-                    " faces) were left out: ", absl::StrJoin(told, "; ")),
-       static_cast<std::int64_t>(shells)});
+  character.warnings.push_back({"PARTS_LEFT_OUT",
+                                absl::StrCat(shells, " separate parts (", faces,
+                                             " faces) were left out: ", absl::StrJoin(told, "; ")),
+                                static_cast<std::int64_t>(shells)});
 }
 
 }  // namespace

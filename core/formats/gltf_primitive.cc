@@ -165,8 +165,17 @@ absl::StatusOr<std::vector<InfluenceSet>> GltfPrimitive::Influences() {
 }
 
 absl::StatusOr<std::vector<std::uint32_t>> GltfPrimitive::Corners(const MeshLimits& limits) {
-  if (unpacked_.has_value()) return std::move(unpacked_->corners);
   std::vector<std::uint32_t> corners;
+  if (unpacked_.has_value()) {
+    // The positions may be those of an accessor beside the packed data, and fewer.
+    corners = std::move(unpacked_->corners);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (corners[i] < vertex_count()) continue;
+      return FileOutOfRange(place_, "a packed index", std::uint64_t{corners[i]},
+                            IndexRange(vertex_count()));
+    }
+    return corners;
+  }
   if (corner_key_ == kNone) {
     corners.resize(vertex_count());
     for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
