@@ -22,14 +22,13 @@ constexpr double kLargestDiagonal = 2.0;    // of the mesh's diagonal
 
 // Of what a fit takes; of a mesh that it cannot take, of the vertices that faces use.
 AlignedBox3d BoxOf(const formats::PolygonSoup& soup, const character::CharacterOptions& character) {
-  if (soup.parts.size() <= 1) {
-    if (const auto prepared = mesh::PrepareMesh(soup); prepared.ok()) {
-      return {prepared->mesh.box_min(), prepared->mesh.box_max()};
-    }
-  } else if (const auto taken = UnderstandBody(soup, character, body::Unit::kAuto,
-                                               body::UpAxis::kAuto, ThreadPool());
-             taken.ok()) {
+  if (const auto taken =
+          UnderstandBody(soup, character, body::Unit::kAuto, body::UpAxis::kAuto, ThreadPool());
+      taken.ok()) {
     return {taken->box_min, taken->box_max};
+  }
+  if (const auto prepared = mesh::PrepareMesh(soup); prepared.ok()) {  // no body, but a mesh
+    return {prepared->mesh.box_min(), prepared->mesh.box_max()};
   }
   AlignedBox3d box;
   for (const std::uint32_t vertex : soup.face_vertices) {

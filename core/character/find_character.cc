@@ -44,7 +44,6 @@ constexpr float kGoesBetweenLegs = 0.5F;
 // Shares of the whole area: what is smaller is no clothing, hair or armour; and what makes up
 // nearly all of its part is the part.
 constexpr double kSmallShare = 0.005;
-constexpr double kHairShare = 0.006;
 constexpr double kLargeShare = 0.1;
 constexpr double kWholePart = 0.85;
 // A group of shells this large beside the largest (box, area) is another person.
@@ -133,21 +132,22 @@ class Judge {
   }
 
   void Surround(const ThreadPool& pool) {
-    const auto largest = [](const std::vector<float>& values) {
-      return values.empty() ? 0.0F : *std::max_element(values.begin(), values.end());
-    };
     std::vector<Eigen::Vector3d> points = points_->trunk;
-    points.insert(points.end(), points_->limbs.begin(), points_->limbs.end());
+    for (const auto* more : {&points_->limbs, &points_->head, &points_->between_legs}) {
+      points.insert(points.end(), more->begin(), more->end());
+    }
+    const std::size_t carried_points = points_->trunk.size() + points_->limbs.size();
     const std::vector<std::vector<float>> windings = WindingNumbers(shells_, points, pool);
     // Of all shells of the part together: shirts are sewn from a front and a back.
-    std::vector<std::vector<float>> of_part(parts_.size(), std::vector<float>(points.size(), 0.0F));
+    std::vector<std::vector<float>> of_part(parts_.size(),
+                                            std::vector<float>(carried_points, 0.0F));
     for (std::size_t s = 0; s < count(); ++s) {
       std::vector<float>& sum = of_part[shell(s).part];
-      for (std::size_t p = 0; p < points.size(); ++p) sum[p] += windings[s][p];
+      for (std::size_t p = 0; p < carried_points; ++p) sum[p] += windings[s][p];
     }
     carried_.assign(count(), {});
     for (std::size_t s = 0; s < count(); ++s) {
-      for (std::size_t p = 0; p < points.size(); ++p) {
+      for (std::size_t p = 0; p < carried_points; ++p) {
         const float own = windings[s][p];
         if (own >= kGoesAround ||
             (own >= kGoesAroundPartly && of_part[shell(s).part][p] >= kGoesAround)) {
@@ -155,11 +155,11 @@ class Judge {
         }
       }
     }
-    for (const std::vector<float>& w : WindingNumbers(shells_, points_->head, pool)) {
-      around_head_.push_back(largest(w));
-    }
-    for (const std::vector<float>& w : WindingNumbers(shells_, points_->between_legs, pool)) {
-      between_legs_.push_back(w.empty() ? 0.0F : *std::min_element(w.begin(), w.end()));
+    for (const std::vector<float>& w : windings) {
+      const auto head = w.begin() + static_cast<std::ptrdiff_t>(carried_points);
+      const auto legs = head + static_cast<std::ptrdiff_t>(points_->head.size());
+      around_head_.push_back(head == legs ? 0.0F : *std::max_element(head, legs));
+      between_legs_.push_back(legs == w.end() ? 0.0F : *std::min_element(legs, w.end()));
     }
   }
 
@@ -173,7 +173,7 @@ class Judge {
         is_sheet_[s] = 1;
         verdicts_[s] = {PartKind::kFragment, false, "floor or stand"};
       }
-      if (shell(s).area < kSheetWidth * kSheetWidth * height_ * height_) continue;
+      if (Carries(s) || shell(s).area < kSheetWidth * kSheetWidth * height_ * height_) continue;
       const Eigen::Vector3d spread = SpreadOf(s);
       if (spread[0] > kSheetThickness * height_ || spread[1] < kSheetWidth * height_) continue;
       is_sheet_[s] = 1;
@@ -443,7 +443,7 @@ class Judge {
     if (named && *named != PartKind::kClothing && *named != PartKind::kBody) {
       return ByKind(*named, "on the head, by its name");
     }
-    if (part_area_[shell(s).part] < kHairShare * area_ || IsCrumb(s)) {
+    if (part_area_[shell(s).part] < kSmallShare * area_ || IsCrumb(s)) {
       return {PartKind::kInner, false, "small and on the head"};
     }
     return ByKind(PartKind::kHair, "on the head without going around it");

@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <utility>
 
 #include "absl/container/flat_hash_map.h"
+#include "core/base/disjoint_sets.h"
 
 namespace capfit::character {
 namespace {
@@ -52,17 +53,6 @@ void ForNeighbours(const Cell& c, const Visit& visit) {
   }
 }
 
-std::uint32_t Find(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-void Join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
-  a = Find(parent, a);
-  b = Find(parent, b);
-  parent[std::max(a, b)] = std::min(a, b);
-}
-
 }  // namespace
 
 void CellSet::Add(const Facet& facet) {
@@ -84,15 +74,14 @@ std::vector<std::uint32_t> ClustersOf(const Shells& shells, double gap,
     std::uint32_t shell;
   };
   absl::flat_hash_map<std::uint64_t, Entry> first;
-  std::vector<std::uint32_t> parent(shells.shells.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  for (std::uint32_t s = 0; s < parent.size(); ++s) {
+  DisjointSets clusters(shells.shells.size());
+  for (std::uint32_t s = 0; s < clusters.size(); ++s) {
     if (taken[s] == 0) continue;
     for (std::size_t f = shells.first_facet[s]; f < shells.first_facet[s + 1]; ++f) {
       ForSamples(shells.facets[f], gap, [&](const Eigen::Vector3d& p) {
         const Cell cell = CellOf(p, gap);
         const auto [entry, is_new] = first.try_emplace(KeyOf(cell), Entry{cell, s});
-        if (!is_new && entry->second.shell != s) Join(parent, entry->second.shell, s);
+        if (!is_new && entry->second.shell != s) clusters.Join(entry->second.shell, s);
       });
     }
   }
@@ -100,11 +89,10 @@ std::vector<std::uint32_t> ClustersOf(const Shells& shells, double gap,
     const Entry& entry = known.second;
     ForNeighbours(entry.cell, [&](std::uint64_t neighbour) {
       const auto other = first.find(neighbour);
-      if (other != first.end()) Join(parent, entry.shell, other->second.shell);
+      if (other != first.end()) clusters.Join(entry.shell, other->second.shell);
     });
   }
-  for (std::uint32_t s = 0; s < parent.size(); ++s) parent[s] = Find(parent, s);
-  return parent;
+  return std::move(clusters).All();
 }
 
 }  // namespace capfit::character

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "core/base/disjoint_sets.h"
 #include "core/mesh/weld_vertices.h"
 
 namespace capfit::character {
@@ -13,29 +14,6 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kNoPart = std::numeric_limits<std::size_t>::max();
-
-// Disjoint sets of vertices; the smallest member stands for each.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-
-  std::uint32_t Find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  void Join(std::uint32_t a, std::uint32_t b) {
-    a = Find(a);
-    b = Find(b);
-    if (a < b) parent_[b] = a;
-    if (b < a) parent_[a] = b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 class ShellFinder {
  public:
@@ -148,8 +126,8 @@ class ShellFinder {
   const formats::PolygonSoup& soup_;
   std::span<const char> is_cut_off_;
   std::vector<std::uint32_t> same_;
-  Sets whole_;
-  Sets within_part_;
+  DisjointSets whole_;
+  DisjointSets within_part_;
   std::vector<std::uint32_t> entry_;  // of each face: a member of its set within the part
   Shells result_;
 };

@@ -96,13 +96,15 @@ class SkeletonReader {
     if (skeleton_.joints.size() >= kMostJoints) {
       return FileTooLarge(place, skeleton_.joints.size() + 1, "joints", kMostJoints);
     }
-    const Eigen::Vector3d position = nodes_.to_world[node].col(3).head<3>();
+    const Placing to_mesh = nodes_.to_world[node].topRows<3>();
+    const Eigen::Vector3d position = to_mesh.col(3);
     if (!IsPosition(position)) {
       return FileError(ErrorReason::kOutOfRange, place,
                        absl::StrCat("its joint node ", node, " stands nowhere"));
     }
     joint = static_cast<std::int32_t>(skeleton_.joints.size());
-    skeleton_.joints.push_back({NameAt(json_[node], "name"), position, -1, {}});
+    skeleton_.joints.push_back({NameAt(json_[node], "name"), position, -1, {}, to_mesh,
+                                static_cast<std::int32_t>(node)});
     return joint;
   }
 

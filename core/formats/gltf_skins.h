@@ -16,10 +16,7 @@
 
 namespace capfit::formats {
 
-// A vertex as it is stored to where it is drawn.
-using Placing = Eigen::Matrix<double, 3, 4>;
-
-// Whether it leaves a body a body: zeros are common where an exporter knew no bind pose.
+// Whether the way from where a vertex is stored to where it is drawn leaves a body a body: zeros are common where an exporter knew no bind pose.
 [[nodiscard]] bool IsPlacing(const Placing& placing);
 
 struct GltfSkin {

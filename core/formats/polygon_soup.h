@@ -12,6 +12,9 @@
 
 namespace capfit::formats {
 
+// A turn, scale and shear, then a move: leads from one frame to another.
+using Placing = Eigen::Matrix<double, 3, 4>;
+
 // A joint of a skeleton that came with the mesh (GLB), where its node stands, in the mesh's frame.
 struct NamedJoint {
   std::string name;  // may be empty
@@ -19,6 +22,9 @@ struct NamedJoint {
   std::int32_t parent = -1;  // index of the nearest joint above it, -1 for none
   std::string human_bone =
       {};  // what the file itself says it is (VRM: "leftLowerArm"), often empty
+  // From the node's own frame to the mesh's; its last column is `position`.
+  Placing to_mesh = Placing::Identity();
+  std::int32_t node = -1;  // index among the file's nodes, -1 where no file says
 };
 
 // Which joints move a vertex: the strongest four, weights >= 0 that sum to 1; all 0: none does.

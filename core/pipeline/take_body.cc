@@ -121,8 +121,7 @@ class BodyTaker {
       }
       at += size;
     }
-    const solid::ScanParts parts =
-        solid::FindScanParts(soup_.positions, triangles, pool_, observer_);
+    const solid::ScanParts parts = solid::FindScanParts(soup_.positions, triangles, observer_);
     if (!parts.floor) return;
     is_floor_.assign(soup_.face_count(), 0);
     for (std::size_t t = 0; t < triangles.size(); ++t) {

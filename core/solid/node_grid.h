@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_SOLID_NODE_GRID_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -105,6 +106,21 @@ class NodeNumbers {
 template <typename Visit>
 void ForEachBit(std::uint64_t word, const Visit& visit) {
   for (; word != 0; word &= word - 1) visit(static_cast<unsigned>(std::countr_zero(word)));
+}
+
+// Makes bits [first, end) of a column all `value`.
+inline void SetBits(std::uint64_t* words, std::uint32_t first, std::uint32_t end, bool value) {
+  while (first < end) {
+    const std::uint32_t stop = std::min(end, (first / 64 + 1) * 64);
+    const std::uint32_t count = stop - first;
+    const std::uint64_t ones = count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
+    if (value) {
+      words[first / 64] |= ones << (first % 64);
+    } else {
+      words[first / 64] &= ~(ones << (first % 64));
+    }
+    first = stop;
+  }
 }
 
 }  // namespace capfit::solid

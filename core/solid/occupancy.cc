@@ -74,17 +74,6 @@ class LineReader {
   std::span<const Eigen::Vector3f> normals_;
 };
 
-// Sets bits [first, end) of a column.
-void FillColumn(std::uint64_t* words, std::uint32_t first, std::uint32_t end) {
-  while (first < end) {
-    const std::uint32_t stop = std::min(end, (first / 64 + 1) * 64);
-    const std::uint32_t count = stop - first;
-    const std::uint64_t ones = count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
-    words[first / 64] |= ones << (first % 64);
-    first = stop;
-  }
-}
-
 // What lines tell of the space between their nodes.
 struct Marks {
   std::vector<GridNode> cracks;  // nodes to fill
@@ -129,8 +118,9 @@ NodeSet FindOccupied(const NodeGrid& grid, const Shells& shells,
         if (line.empty()) continue;
         if (axis == 0) {
           std::uint64_t* const words = inside.words().data() + grid.WordAt(0, column, row);
-          reader.Inside(
-              line, [&](std::uint32_t first, std::uint32_t end) { FillColumn(words, first, end); });
+          reader.Inside(line, [&](std::uint32_t first, std::uint32_t end) {
+            SetBits(words, first, end, true);
+          });
         }
         const auto add_to = [&](std::vector<GridNode>& nodes) {
           return [&nodes, axis, row, column](std::uint32_t along) {

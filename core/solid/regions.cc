@@ -4,24 +4,14 @@
 #include <bit>
 #include <cstdint>
 #include <functional>
+#include <utility>
 
 namespace capfit::solid {
 namespace {
 
 void SetRun(const NodeGrid& grid, std::size_t column, const NodeRegions::Run& run, bool value,
             NodeSet& set) {
-  std::uint64_t* const words = set.words().data() + column * grid.words_per_column();
-  for (std::uint32_t first = run.first; first < run.end;) {
-    const std::uint32_t stop = std::min(run.end, (first / 64 + 1) * 64);
-    const std::uint32_t count = stop - first;
-    const std::uint64_t ones = count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
-    if (value) {
-      words[first / 64] |= ones << (first % 64);
-    } else {
-      words[first / 64] &= ~(ones << (first % 64));
-    }
-    first = stop;
-  }
+  SetBits(set.words().data() + column * grid.words_per_column(), run.first, run.end, value);
 }
 
 }  // namespace
@@ -32,16 +22,15 @@ NodeRegions::NodeRegions(const NodeGrid& grid, const NodeSet& set, bool of_clear
     AddRuns(set.words().data() + column * grid.words_per_column(), of_clear);
     begin_.push_back(static_cast<std::uint32_t>(runs_.size()));
   }
-  parent_.resize(runs_.size());
-  for (std::uint32_t r = 0; r < parent_.size(); ++r) parent_[r] = r;
+  DisjointSets regions(runs_.size());
   for (std::size_t w = 0; w < grid.size[2]; ++w) {
     for (std::size_t v = 0; v < grid.size[1]; ++v) {
       const std::size_t column = w * grid.size[1] + v;
-      if (v + 1 < grid.size[1]) Join(column, column + 1);
-      if (w + 1 < grid.size[2]) Join(column, column + grid.size[1]);
+      if (v + 1 < grid.size[1]) Join(column, column + 1, regions);
+      if (w + 1 < grid.size[2]) Join(column, column + grid.size[1], regions);
     }
   }
-  for (std::uint32_t& parent : parent_) parent = parent_[parent];  // parents come first
+  region_ = std::move(regions).All();
 }
 
 std::uint32_t NodeRegions::RegionAt(const GridNode& node) const {
@@ -80,22 +69,15 @@ void NodeRegions::AddRuns(const std::uint64_t* words, bool of_clear) {
 }
 
 // Both lists are in order.
-void NodeRegions::Join(std::size_t one, std::size_t other) {
+void NodeRegions::Join(std::size_t one, std::size_t other, DisjointSets& regions) const {
   std::uint32_t a = begin_[one];
   std::uint32_t b = begin_[other];
   while (a < begin_[one + 1] && b < begin_[other + 1]) {
     if (std::max(runs_[a].first, runs_[b].first) < std::min(runs_[a].end, runs_[b].end)) {
-      const std::uint32_t ra = Root(a);
-      const std::uint32_t rb = Root(b);
-      parent_[std::max(ra, rb)] = std::min(ra, rb);
+      regions.Join(a, b);
     }
     ++(runs_[a].end < runs_[b].end ? a : b);
   }
-}
-
-std::uint32_t NodeRegions::Root(std::uint32_t run) {
-  while (parent_[run] != run) run = parent_[run] = parent_[parent_[run]];
-  return run;
 }
 
 std::size_t FillCavities(const NodeGrid& grid, NodeSet& set) {

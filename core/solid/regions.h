@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/solid/node_grid.h"
 
 namespace capfit::solid {
@@ -29,7 +30,7 @@ class NodeRegions {
 
   [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
   // A region is named by its first run.
-  [[nodiscard]] std::uint32_t RegionOf(std::uint32_t run) const { return parent_[run]; }
+  [[nodiscard]] std::uint32_t RegionOf(std::uint32_t run) const { return region_[run]; }
   // kNoRegion for a node of none.
   [[nodiscard]] std::uint32_t RegionAt(const GridNode& node) const;
   // Nodes of each region, by its name; 0 elsewhere.
@@ -44,13 +45,12 @@ class NodeRegions {
 
  private:
   void AddRuns(const std::uint64_t* words, bool of_clear);
-  void Join(std::size_t one, std::size_t other);
-  std::uint32_t Root(std::uint32_t run);
+  void Join(std::size_t one, std::size_t other, DisjointSets& regions) const;
 
   const NodeGrid& grid_;
   std::vector<Run> runs_;
-  std::vector<std::uint32_t> begin_;  // by column
-  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint32_t> begin_;   // by column
+  std::vector<std::uint32_t> region_;  // by run
 };
 
 // Adds every node that cannot be reached from the outermost nodes without passing `set`: whatever a

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/disjoint_sets.h"
 #include "core/mesh/surface_sums.h"
 #include "core/mesh/weld_vertices.h"
 #include "core/solid/floor_plane.h"
@@ -31,46 +32,27 @@ struct Piece {
   [[nodiscard]] double diagonal() const { return (max - min).norm(); }
 };
 
-// Triangles that share vertices, or vertices in one place, are a piece.
-class PieceFinder {
- public:
-  PieceFinder(std::span<const Eigen::Vector3d> positions,
-              std::span<const mesh::Triangle> triangles) {
-    std::vector<std::uint32_t> all(positions.size());
-    std::iota(all.begin(), all.end(), 0u);
-    parent_ = mesh::WeldEqual(positions, all);
-    for (const mesh::Triangle& t : triangles) {
-      Join(t[0], t[1]);
-      Join(t[0], t[2]);
-    }
+// Of each triangle, counted from 0 in order of their first: triangles that share vertices, or
+// vertices in one place, are a piece.
+std::vector<std::uint32_t> PiecesOf(std::span<const Eigen::Vector3d> positions,
+                                    std::span<const mesh::Triangle> triangles) {
+  std::vector<std::uint32_t> all(positions.size());
+  std::iota(all.begin(), all.end(), 0u);
+  DisjointSets sets(mesh::WeldEqual(positions, all));
+  for (const mesh::Triangle& t : triangles) {
+    sets.Join(t[0], t[1]);
+    sets.Join(t[0], t[2]);
   }
-
-  // Of each triangle, counted from 0 in order of their first.
-  std::vector<std::uint32_t> Run(std::span<const mesh::Triangle> triangles) {
-    std::vector<std::uint32_t> number(parent_.size(), 0xFFFFFFFFu);
-    std::vector<std::uint32_t> piece;
-    std::uint32_t pieces = 0;
-    for (const mesh::Triangle& t : triangles) {
-      std::uint32_t& n = number[Root(t[0])];
-      if (n == 0xFFFFFFFFu) n = pieces++;
-      piece.push_back(n);
-    }
-    return piece;
+  std::vector<std::uint32_t> number(positions.size(), 0xFFFFFFFFu);
+  std::vector<std::uint32_t> piece;
+  std::uint32_t pieces = 0;
+  for (const mesh::Triangle& t : triangles) {
+    std::uint32_t& n = number[sets.Find(t[0])];
+    if (n == 0xFFFFFFFFu) n = pieces++;
+    piece.push_back(n);
   }
-
- private:
-  std::uint32_t Root(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void Join(std::uint32_t a, std::uint32_t b) {
-    a = Root(a);
-    b = Root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-  std::vector<std::uint32_t> parent_;
-};
+  return piece;
+}
 
 class ScanSorter {
  public:
@@ -80,7 +62,7 @@ class ScanSorter {
   }
 
   ScanParts Run() {
-    piece_of_ = PieceFinder(positions_, triangles_).Run(triangles_);
+    piece_of_ = PiecesOf(positions_, triangles_);
     const std::optional<FloorPlane> floor = FindFloorPlane(positions_, triangles_);
     MeasurePieces(floor);
     if (floor.has_value()) {
@@ -156,9 +138,7 @@ class ScanSorter {
 }  // namespace
 
 ScanParts FindScanParts(std::span<const Eigen::Vector3d> positions,
-                        std::span<const mesh::Triangle> triangles, const ThreadPool& pool,
-                        const FitObserver& observer) {
-  (void)pool;
+                        std::span<const mesh::Triangle> triangles, const FitObserver& observer) {
   if (triangles.empty() || observer.IsCancelled()) {
     return {std::vector<ScanPart>(triangles.size(), ScanPart::kBody), std::nullopt, 0};
   }

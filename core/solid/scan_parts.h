@@ -46,7 +46,7 @@ struct ScanParts {
 // All is body where `observer` cancels.
 [[nodiscard]] ScanParts FindScanParts(std::span<const Eigen::Vector3d> positions,
                                       std::span<const mesh::Triangle> triangles,
-                                      const ThreadPool& pool, const FitObserver& observer);
+                                      const FitObserver& observer);
 
 }  // namespace capfit::solid
 

@@ -69,7 +69,7 @@ void BM_FindScanParts(benchmark::State& state) {
   const ThreadPool pool(2);
   const NullObserver observer;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(FindScanParts(shells.positions, shells.triangles, pool, observer));
+    benchmark::DoNotOptimize(FindScanParts(shells.positions, shells.triangles, observer));
   }
   state.SetComplexityN(static_cast<std::int64_t>(shells.triangles.size()));
 }

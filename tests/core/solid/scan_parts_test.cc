@@ -21,7 +21,7 @@ namespace {
 Triangles Somebody() { return TrianglesOf(*mannequin::MakeMannequin({})); }
 
 ScanParts Parts(const Triangles& scan) {
-  return FindScanParts(scan.positions, scan.triangles, ThreadPool(1), NullObserver());
+  return FindScanParts(scan.positions, scan.triangles, NullObserver());
 }
 
 std::size_t CountOf(const ScanParts& parts, ScanPart part) {
