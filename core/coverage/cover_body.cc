@@ -56,6 +56,8 @@ constexpr tighten::TightenPhase kLastPhase{.steps = 2,
 // alone; on sound layouts tightening has won by far wherever the two were compared.
 constexpr double kSuspectGrowth = 1.25;
 constexpr int kRounds = 3;
+constexpr int kShowingRounds = 4;
+constexpr double kShownBy = 1e-5;  // metres, see CoverOptions::keeps_swallowed
 // How much of the time has gone by at the end of each phase, as measured; a round takes this share
 // of what is left up to the last.
 constexpr double kLooseUntil = 0.4;
@@ -103,6 +105,7 @@ class Coverer {
       Grow();
     }
     meter_.Expect(1.0, 1);
+    if (options_.keeps_swallowed) ShowSwallowed();
     report_.max_vertex_distance_m = MaxVertexDistance();
     report_.volume_m3 = Volume();
     report_.certified_gap_m = CertifiedGap(target_, set_, 0.05 * options_.max_gap_m, pool_);
@@ -111,16 +114,34 @@ class Coverer {
       report_.certified_gap_m = std::min(report_.certified_gap_m, MaxGap());
     }
     report_.added_points = static_cast<int>(between_.size());
-    // What an end sphere swallows is that sphere, which stays.
-    for (std::size_t k = set_.capsules.size(); k-- > 0;) {
-      if (set_.Capsule(k).IsSphere()) {
-        set_.capsules.erase(set_.capsules.begin() + static_cast<std::ptrdiff_t>(k));
-      }
-    }
+    if (!options_.keeps_swallowed) RemoveSwallowed();
     return report_;
   }
 
  private:
+  // What an end sphere swallows is that sphere, which stays.
+  void RemoveSwallowed() {
+    std::erase_if(set_.capsules, [this](const capsule::CapsuleEnds& ends) {
+      return geometry::TaperedCapsule(set_.spheres[static_cast<std::size_t>(ends[0])],
+                                      set_.spheres[static_cast<std::size_t>(ends[1])])
+          .IsSphere();
+    });
+  }
+
+  // Grows the smaller end of each swallowed capsule out of the larger one. That may be too much for
+  // a next capsule, hence the rounds.
+  void ShowSwallowed() {
+    for (int round = 0; round < kShowingRounds; ++round) {
+      for (std::size_t k = 0; k < set_.capsules.size(); ++k) {
+        if (!set_.Capsule(k).IsSphere()) continue;
+        geometry::Sphere* small = &set_.spheres[static_cast<std::size_t>(set_.capsules[k][0])];
+        geometry::Sphere* large = &set_.spheres[static_cast<std::size_t>(set_.capsules[k][1])];
+        if (small->radius_m > large->radius_m) std::swap(small, large);
+        small->radius_m = large->radius_m - (small->center_m - large->center_m).norm() + kShownBy;
+      }
+    }
+  }
+
   void TightenAndGrow() {
     const capsule::PrimitiveSet before = set_;
     const double volume_before = Volume();

@@ -29,6 +29,9 @@ struct CoverOptions {
   // Both ends of a capsule end up with one radius. Capsules must not share spheres then (see
   // capsule::WithUniformRadii).
   bool uniform_radius = false;
+  // Capsules that an end sphere has come to swallow stay: the smaller sphere is made to show by a
+  // hundredth of a millimetre, so that engines take the capsule for one.
+  bool keeps_swallowed = false;
 };
 
 struct CoverReport {

@@ -35,7 +35,7 @@ FitOptions EffectiveOptions(const FitOptions& asked, const geometry::Similarity&
     effective.max_spheres = asked.max_spheres;
   }
   const bool is_limited = effective.max_primitives || effective.max_spheres ||
-                          effective.max_capsules || effective.polygon_error;
+                          effective.max_capsules || effective.polygon_error || effective.layout;
   if (!is_limited) effective.max_primitives = kDefaultMaxPrimitives;
   effective.unit = body::UnitOf(body_from_caller.scale);
   effective.up = UpAxisOf(body_from_caller);

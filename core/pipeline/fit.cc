@@ -31,6 +31,13 @@ struct Alternative {
   bool has_shape;  // refined
 };
 
+std::vector<std::string> NamesOf(const refine::KeptLayout& layout) {
+  std::vector<std::string> names;
+  names.reserve(layout.spheres.size());
+  for (const refine::KeptSphere& sphere : layout.spheres) names.push_back(sphere.name);
+  return names;
+}
+
 // The rooms behind the mesh, in their order.
 class BodyFit {
  public:
@@ -71,6 +78,7 @@ class BodyFit {
   // Capsules that share no spheres cost more than the budget of capsules tells, where there are
   // spheres without a capsule beside them: then again with fewer.
   absl::Status BuildWithinLimits() {
+    if (options_.layout) return KeepLayout();
     const std::size_t warnings = result_.warnings.size();
     for (;;) {
       result_.warnings.resize(warnings);
@@ -90,6 +98,25 @@ class BodyFit {
       if (excess <= 0) return absl::OkStatus();
       options_.max_capsules = static_cast<int>(set_.capsules.size()) - excess;
     }
+  }
+
+  // The topology is given.
+  absl::Status KeepLayout() {
+    if (options_.want_polygons) CAPFIT_RETURN_IF_ERROR(Approximate());
+    clock_.Begin(Stage::kRefine);
+    CAPFIT_ASSIGN_OR_RETURN(set_, refine::FitToLayout(*body_, target_, *options_.layout,
+                                                      RefineOptionsFor({}), pool_, clock_));
+    return CheckCancelled(clock_);
+  }
+
+  refine::RefineOptions RefineOptionsFor(const capsule::Budget& budget) const {
+    refine::RefineOptions refine_options;
+    refine_options.enclose = options_.fit == FitMode::kEnclose;
+    refine_options.budget = budget;
+    refine_options.tolerance_m = options_.tolerance_m;
+    refine_options.parts = options_.parts;
+    refine_options.seed = options_.seed;
+    return refine_options;
   }
 
   capsule::CapsuleProfile Profile() const { return ProfileOf(options_); }
@@ -132,7 +159,7 @@ class BodyFit {
     clock_.Begin(Stage::kCapsule);
     PrimitiveStage stage = BuildUnderBudget(*body_, options_, features.polygons, curves);
     set_ = std::move(stage.set);
-    if (options_.quality == Quality::kPaper && options_.fit == FitMode::kBestFit) {
+    if (options_.quality == Quality::kPaper && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);
       set_ = SettleBestFit(*body_, options_, std::move(set_));
     }
@@ -151,14 +178,8 @@ class BodyFit {
       budget.max_spheres = budget.max_capsules + 1;
     }
     if (ComparesWithPaper()) alternatives_.push_back({std::move(set_), /*has_shape=*/false});
-    refine::RefineOptions refine_options;
-    refine_options.enclose = options_.fit == FitMode::kEnclose;
-    refine_options.budget = budget;
-    refine_options.tolerance_m = options_.tolerance_m;
-    refine_options.parts = options_.parts;
-    refine_options.seed = options_.seed;
     std::vector<capsule::PrimitiveSet> found =
-        refine::RefineSet(*body_, target_, refine_options, pool_, clock_);
+        refine::RefineSet(*body_, target_, RefineOptionsFor(budget), pool_, clock_);
     set_ = std::move(found.front());
     for (std::size_t i = 1; i < found.size(); ++i) {
       alternatives_.push_back({std::move(found[i]), /*has_shape=*/true});
@@ -180,7 +201,8 @@ class BodyFit {
       max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
       return CheckCancelled(clock_);
     }
-    coverage::CoverReport report = Enclose(options_.quality == Quality::kTight, set_);
+    const bool has_shape = options_.quality == Quality::kTight || options_.layout.has_value();
+    coverage::CoverReport report = Enclose(has_shape, set_);
     for (Alternative& alternative : alternatives_) {
       const coverage::CoverReport other = Enclose(alternative.has_shape, alternative.set);
       if (other.volume_m3 >= report.volume_m3) continue;
@@ -198,6 +220,7 @@ class BodyFit {
     cover_options.tolerance_m = options_.tolerance_m;
     cover_options.tighten = !options_.grows_only;
     cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
+    cover_options.keeps_swallowed = options_.layout.has_value();
     cover_options.loosen = !has_shape || cover_options.uniform_radius;
     return coverage::CoverBody(target_, cover_options, pool_, clock_, set);
   }
@@ -218,7 +241,9 @@ class BodyFit {
 
   absl::Status Bind() {
     result_.primitives = ToCallerFrame(set_, caller_from_body_);
-    result_.sphere_names = SphereNames(*body_, set_);
+    result_.sphere_names =
+        options_.layout ? NamesOf(*options_.layout) : SphereNames(*body_, set_);
+    result_.sphere_places = refine::PlacesOf(*body_, set_);
     if (!options_.want_polygons || options_.quality == Quality::kTight) {
       // An index of a polygon that is not in the result would say nothing.
       for (capsule::SphereOrigin& origin : result_.primitives.origins) origin.polygon = -1;
@@ -256,6 +281,17 @@ class BodyFit {
 };
 
 }  // namespace
+
+refine::KeptLayout LayoutOf(const FitResult& result) {
+  refine::KeptLayout layout;
+  layout.capsules = result.primitives.capsules;
+  for (std::size_t i = 0; i < result.primitives.spheres.size(); ++i) {
+    const capsule::SphereOrigin& origin = result.primitives.origins[i];
+    layout.spheres.push_back(
+        {result.sphere_names[i], origin.part, origin.mirror, result.sphere_places[i]});
+  }
+  return layout;
+}
 
 absl::StatusOr<FitResult> Fit(const formats::PolygonSoup& soup, const FitOptions& options,
                               const ThreadPool& pool, FitObserver& observer) {

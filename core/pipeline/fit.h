@@ -18,6 +18,7 @@
 #include "core/capsule/primitive_set.h"
 #include "core/character/find_character.h"
 #include "core/metrics/measure.h"
+#include "core/refine/layouts/kept_layout.h"
 #include "core/section/feature_polygon.h"
 #include "core/skinning/mean_value_coordinates.h"
 
@@ -63,6 +64,10 @@ struct FitOptions {
   // A name of Engines(), or empty. Its limits hold beside the budget (without one, they are the
   // budget), and coverage holds for what the engine makes of a capsule.
   std::string engine;
+  // A layout to keep in place of a budget: the same spheres by the same names and numbers, tied by
+  // the same capsules. `quality` says nothing then: the search for a topology is left out. Engines
+  // with capsules of one radius, whose capsules share no spheres, cannot have one.
+  std::optional<refine::KeptLayout> layout = {};
   double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, kMaxToleranceM]
   SkinningMode skinning = SkinningMode::kNone;
   body::PartSelection parts;
@@ -118,6 +123,9 @@ struct FitResult {
   // For each sphere: unique, the same for the sphere on the other side but for left and right; see
   // sphere_names.h.
   std::vector<std::string> sphere_names;
+  // For each sphere where on the body it is, in measures that hold for any body: with the names, the
+  // origins and the capsules a layout to keep. Nothing where the body lacks the landmarks.
+  std::vector<std::optional<refine::BodyPlace>> sphere_places;
   std::vector<LandmarkResult> landmarks;
   std::vector<PolygonResult> polygons;  // where asked for
   metrics::Metrics metrics;
@@ -138,6 +146,9 @@ struct FitResult {
   std::array<double, kStageCount> stage_seconds{};
   double seconds = 0.0;  // of the whole fit, reading the file not included
 };
+
+// The layout of a result, for FitOptions::layout.
+[[nodiscard]] refine::KeptLayout LayoutOf(const FitResult& result);
 
 // Fits one body. Errors: INVALID_ARGUMENT (mesh or option, field named), FAILED_PRECONDITION (not a
 // body, part missing), UNIMPLEMENTED, CANCELLED (the observer said so). Same soup and options, same

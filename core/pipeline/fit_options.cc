@@ -51,6 +51,30 @@ absl::Status CheckEngine(const FitOptions& options) {
   return absl::OkStatus();
 }
 
+absl::Status CheckLayout(const FitOptions& options) {
+  if (!options.layout) return absl::OkStatus();
+  if (options.max_primitives || options.max_spheres || options.max_capsules ||
+      options.polygon_error) {
+    return InvalidField(ErrorReason::kConflict, "options.budget",
+                        "cannot be given beside a layout, which says what is spent");
+  }
+  CAPFIT_RETURN_IF_ERROR(refine::CheckLayout(*options.layout));
+  if (options.engine.empty()) return absl::OkStatus();
+  const Engine& engine = *FindEngine(options.engine);
+  if (engine.profile == capsule::CapsuleProfile::kUniformRadius) {
+    return InvalidField(ErrorReason::kConflict, "options.engine",
+                        absl::StrCat("is ", options.engine,
+                                     ", whose capsules share no spheres: it cannot keep a layout"));
+  }
+  const auto check = [&](const char* field, int count, int limit) {
+    if (limit == 0 || count <= limit) return absl::OkStatus();
+    return TooLarge(field, count, absl::StrCat("of them for ", options.engine), limit);
+  };
+  const capsule::PrimitiveCount count = options.layout->count();
+  CAPFIT_RETURN_IF_ERROR(check("layout.spheres", count.spheres, engine.max_spheres));
+  return check("layout.capsules", count.capsules, engine.max_capsules);
+}
+
 absl::Status CheckParts(const body::PartSelection& parts) {
   if (parts.torso || parts.arms || parts.legs || parts.head || parts.hands || parts.feet) {
     return absl::OkStatus();
@@ -106,6 +130,7 @@ absl::Status ValidateOptions(const FitOptions& options) {
                                     options.max_capsules, kMaxCapsulesRange));
   CAPFIT_RETURN_IF_ERROR(CheckPolygonError(options.polygon_error));
   CAPFIT_RETURN_IF_ERROR(CheckEngine(options));
+  CAPFIT_RETURN_IF_ERROR(CheckLayout(options));
   CAPFIT_RETURN_IF_ERROR(CheckParts(options.parts));
   CAPFIT_RETURN_IF_ERROR(CheckLandmarks(options));
   CAPFIT_RETURN_IF_ERROR(CheckPartNames("options.include_parts", options.character.include));

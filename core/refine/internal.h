@@ -10,6 +10,9 @@ namespace capfit::refine {
 // No sphere gets smaller than this while it is refined.
 inline constexpr double kLeastRadiusM = 0.003;
 
+// Nor does a layout begin with a smaller one.
+inline constexpr double kLeastHungRadiusM = 0.006;
+
 // Up to here a change of topology is tried quickly.
 inline constexpr int kFewPrimitives = 80;
 

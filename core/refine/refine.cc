@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/status.h"
 #include "core/refine/best_fit/best_fit_objective.h"
 #include "core/refine/best_fit/growth.h"
 #include "core/refine/best_fit/occupancy_grid.h"
@@ -41,6 +42,8 @@ constexpr double kMostSpacing = 0.027;
 constexpr int kFineSteps = 8;
 constexpr double kFineLooseness = 0.5;  // the shape is found, it need not be found anew
 constexpr int kFineTakeInSteps = 2;
+constexpr int kHungSteps = 12;            // for a layout that is kept
+constexpr double kHungShapeFound = 0.45;  // of its time, as measured
 // How much of the time of a best fit has gone by when it is done with each, as measured.
 constexpr double kSettled = 0.02;
 constexpr double kGrown = 0.5;
@@ -49,15 +52,16 @@ constexpr double kFinished = 0.78;
 
 // The vertices of the selected parts; folded to x >= 0, copies dropped, where
 // symmetric.
-std::vector<CoverPoint> SelectedPoints(const body::Body& body, const RefineOptions& options) {
+std::vector<CoverPoint> SelectedPoints(const body::Body& body, const RefineOptions& options,
+                                       bool symmetric) {
   std::vector<CoverPoint> points;
   for (std::size_t v = 0; v < body.mesh.vertices().size(); ++v) {
     if (!options.parts.Includes(body::PartOf(body.vertex_segments[v]))) continue;
     Eigen::Vector3f p = body.mesh.vertices()[v].cast<float>();
-    if (body.is_symmetric) p.x() = std::abs(p.x());
+    if (symmetric) p.x() = std::abs(p.x());
     points.push_back({p, static_cast<float>(options.tolerance_m)});
   }
-  if (!body.is_symmetric) return points;
+  if (!symmetric) return points;
   const auto key = [](const CoverPoint& p) {
     const Eigen::Vector3f q = p.position_m / static_cast<float>(kFoldCellM);
     return std::array<long, 3>{std::lround(q.x()), std::lround(q.y()), std::lround(q.z())};
@@ -139,15 +143,21 @@ CapsuleGraph FindBestSet(const Objective& objective, const capsule::Budget& budg
   return best;
 }
 
+BestFitObjective MakeBestFitObjective(const body::Body& body, const RefineOptions& options,
+                                      bool symmetric) {
+  OccupancyGrid grid = MakeOccupancyGrid(body, options.parts, kCellM, symmetric);
+  CoverPoints thinned =
+      MakeCoverPoints(ThinOut(SelectedPoints(body, options, symmetric), kThinnedCellM));
+  return {std::move(grid), std::move(thinned), options.seed};
+}
+
 CapsuleGraph FindBestFit(const body::Body& body, const RefineOptions& options,
                          const ThreadPool& pool, WorkMeter& meter) {
   const capsule::Budget& budget = options.budget;
   std::vector<CapsuleGraph> starts =
       StartingGraphs(Guise::kBestFit, body, options.parts, budget, /*sizes=*/1, kMostSpared);
-  OccupancyGrid grid = MakeOccupancyGrid(body, options.parts, kCellM, body.is_symmetric);
-  CoverPoints thinned = MakeCoverPoints(ThinOut(SelectedPoints(body, options), kThinnedCellM));
-  const BestFitObjective objective(std::move(grid), std::move(thinned), options.seed);
-  return FindBestSet(objective, budget, pool, meter, std::move(starts));
+  return FindBestSet(MakeBestFitObjective(body, options, body.is_symmetric), budget, pool, meter,
+                     std::move(starts));
 }
 
 // Settles each of the graphs once more, with points enough to tell their values apart; the best
@@ -179,25 +189,57 @@ std::vector<CapsuleGraph> Finish(const EnclosingTask& task, const std::vector<Ca
   return result;
 }
 
+// Between the points of the enclosing search.
+struct Spacings {
+  double usual;
+  double fine;  // for the last steps
+};
+
+Spacings SpacingsFor(int primitives) {
+  const double share = 1.0 / std::sqrt(static_cast<double>(primitives));
+  const double usual = std::clamp(kSpacing * share, kLeastSpacing, kMostSpacing);
+  return {usual, std::clamp(kFineSpacing * share, kLeastSpacing, usual)};
+}
+
 std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const tighten::CoverTarget& target,
                                         const RefineOptions& options, const ThreadPool& pool,
                                         WorkMeter& meter) {
   const capsule::Budget& budget = options.budget;
   const int primitives = budget.UsualPrimitives();
-  const double share = 1.0 / std::sqrt(static_cast<double>(primitives));
-  const double spacing = std::clamp(kSpacing * share, kLeastSpacing, kMostSpacing);
-  const EnclosingTask task(target, body.is_symmetric, options.tolerance_m, spacing);
+  const Spacings spacings = SpacingsFor(primitives);
+  const EnclosingTask task(target, body.is_symmetric, options.tolerance_m, spacings.usual);
   // Up to twice as many: what is spared in a good layout leaves a better one than growth finds.
   const int most_spared = primitives > kFewPrimitives ? 0 : primitives;
   const std::vector<CapsuleGraph> starts =
       StartingGraphs(Guise::kEnclose, body, options.parts, budget, /*sizes=*/2, most_spared);
   const std::vector<CapsuleGraph> found = FindEnclosingGraphs(task, budget, starts, pool, meter);
-  const double fine_spacing = std::clamp(kFineSpacing * share, kLeastSpacing, spacing);
-  const EnclosingTask fine(target, body.is_symmetric, options.tolerance_m, fine_spacing);
+  const EnclosingTask fine(target, body.is_symmetric, options.tolerance_m, spacings.fine);
   std::vector<CapsuleGraph> finished = Finish(fine, found, pool, meter);
   // Few primitives are judged well enough by thinned points.
   if (primitives <= kFewPrimitives) finished.resize(1);
   return finished;
+}
+
+// A layout that hangs on the body in the places that it had on another one.
+void Enclose(const tighten::CoverTarget& target, const RefineOptions& options,
+             const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+  const Spacings spacings = SpacingsFor(graph.primitive_count());
+  const auto work = [&](int steps) { return std::int64_t{steps} * graph.primitive_count(); };
+  meter.Expect(kHungShapeFound, work(kHungSteps));
+  const EnclosingTask task(target, graph.symmetric, options.tolerance_m, spacings.usual);
+  task.FindShape(kHungSteps, 1.0, /*seed=*/1, pool, meter, graph);
+  meter.Expect(1.0, work(kFineSteps + kFineTakeInSteps));
+  const EnclosingTask fine(target, graph.symmetric, options.tolerance_m, spacings.fine);
+  fine.FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
+  fine.TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graph);
+}
+
+void FitBest(const body::Body& body, const RefineOptions& options, WorkMeter& meter,
+             CapsuleGraph& graph) {
+  meter.Expect(1.0, 1);
+  const BestFitObjective objective = MakeBestFitObjective(body, options, graph.symmetric);
+  objective.Settle(Effort::kRough, graph);
+  objective.Settle(Effort::kFinish, graph);
 }
 
 body::Part PartAt(const body::Body& body, const Vec3& point_m) {
@@ -245,6 +287,25 @@ std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
     sets.push_back(std::move(set));
   }
   return sets;
+}
+
+absl::StatusOr<capsule::PrimitiveSet> FitToLayout(const body::Body& body,
+                                                  const tighten::CoverTarget& target,
+                                                  const KeptLayout& layout,
+                                                  const RefineOptions& options,
+                                                  const ThreadPool& pool, FitObserver& observer) {
+  CAPFIT_ASSIGN_OR_RETURN(CapsuleGraph graph, HangLayout(layout, body));
+  WorkMeter meter(observer);
+  if (options.enclose) {
+    Enclose(target, options, pool, meter, graph);
+  } else {
+    FitBest(body, options, meter, graph);
+  }
+  capsule::PrimitiveSet set = SetOf(graph);
+  for (std::size_t v = 0; v < set.origins.size(); ++v) {
+    set.origins[v].part = layout.spheres[v].part;
+  }
+  return set;
 }
 
 }  // namespace capfit::refine

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/capsule/primitive_set.h"
+#include "core/refine/layouts/kept_layout.h"
 #include "core/tighten/cover_target.h"
 
 namespace capfit::refine {
@@ -40,6 +42,13 @@ struct RefineOptions {
                                                            const RefineOptions& options,
                                                            const ThreadPool& pool,
                                                            FitObserver& observer);
+
+// The tightest set of a given layout: its spheres and capsules by the same numbers, moved and sized
+// for this body. Of the options the budget does not count. Errors as HangLayout's. The layout must
+// pass CheckLayout. A tenth to a third of the time of RefineSet.
+[[nodiscard]] absl::StatusOr<capsule::PrimitiveSet> FitToLayout(
+    const body::Body& body, const tighten::CoverTarget& target, const KeptLayout& layout,
+    const RefineOptions& options, const ThreadPool& pool, FitObserver& observer);
 
 }  // namespace capfit::refine
 

@@ -134,6 +134,34 @@ Eigen::Matrix3d AxesOf(const Bone& bone, BoneId id, Side side) {
 
 }  // namespace
 
+body::Part PartOf(BoneId bone, Side side) {
+  const auto of_side = [side](body::Part left) {
+    return side == Side::kLeft ? left : body::MirrorPart(left);
+  };
+  switch (bone) {
+    case BoneId::kBelly:
+    case BoneId::kRibs:
+    case BoneId::kChest:
+    case BoneId::kClavicle:
+    case BoneId::kPelvis:
+      return body::Part::kTorso;
+    case BoneId::kHead:
+      return body::Part::kHead;
+    case BoneId::kUpperArm:
+    case BoneId::kForearm:
+      return of_side(body::Part::kLeftArm);
+    case BoneId::kHand:
+      return of_side(body::Part::kLeftHand);
+    case BoneId::kThigh:
+    case BoneId::kShin:
+      return of_side(body::Part::kLeftLeg);
+    case BoneId::kFoot:
+    case BoneId::kHeel:
+      return of_side(body::Part::kLeftFoot);
+  }
+  return body::Part::kTorso;
+}
+
 Skeleton::Skeleton(const body::Body& body) {
   const auto vertices = body.mesh.vertices();
   std::vector<Vec3> skin;
@@ -179,6 +207,15 @@ std::optional<BonePlace> Skeleton::PlaceOf(BoneId id, Side side, const Vec3& poi
                        : local.x() > length ? 1.0 + (local.x() - length) / b->radius_m
                                             : local.x() / length;
   return BonePlace{along, local.y() / b->radius_m, local.z() / b->radius_m};
+}
+
+double Skeleton::DistanceInRadii(BoneId id, Side side, const Vec3& point_m) const {
+  const std::optional<Bone>& b = bone(id, side);
+  if (!b) return std::numeric_limits<double>::infinity();
+  const Vec3 along = b->to_m - b->from_m;
+  const Vec3 p = point_m - b->from_m;
+  const double t = std::clamp(p.dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (p - t * along).norm() / b->radius_m;
 }
 
 }  // namespace capfit::refine

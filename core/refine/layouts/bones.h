@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "core/body/anatomy.h"
 #include "core/body/body.h"
 
 namespace capfit::refine {
@@ -29,6 +30,9 @@ inline constexpr int kBoneCount = 13;
 inline constexpr int kMidBoneCount = 4;  // the first four have no side
 
 enum class Side { kLeft, kRight };
+
+// The part of the body that a bone lies in.
+[[nodiscard]] body::Part PartOf(BoneId bone, Side side);
 
 struct Bone {
   Eigen::Vector3d from_m = Eigen::Vector3d::Zero();
@@ -59,6 +63,9 @@ class Skeleton {
   // The inverse of Position, for makers of layouts.
   [[nodiscard]] std::optional<BonePlace> PlaceOf(BoneId id, Side side,
                                                  const Eigen::Vector3d& point_m) const;
+  // How far the point is from the stretch between the bone's ends, in bone radii; infinite where
+  // the bone is missing.
+  [[nodiscard]] double DistanceInRadii(BoneId id, Side side, const Eigen::Vector3d& point_m) const;
 
  private:
   std::array<std::array<std::optional<Bone>, kBoneCount>, 2> bones_;

@@ -13,36 +13,6 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kLeastHungRadiusM = 0.006;
-
-body::Part PartOf(BoneId bone, Side side) {
-  const auto of_side = [side](body::Part left) {
-    return side == Side::kLeft ? left : body::MirrorPart(left);
-  };
-  switch (bone) {
-    case BoneId::kBelly:
-    case BoneId::kRibs:
-    case BoneId::kChest:
-    case BoneId::kClavicle:
-    case BoneId::kPelvis:
-      return body::Part::kTorso;
-    case BoneId::kHead:
-      return body::Part::kHead;
-    case BoneId::kUpperArm:
-    case BoneId::kForearm:
-      return of_side(body::Part::kLeftArm);
-    case BoneId::kHand:
-      return of_side(body::Part::kLeftHand);
-    case BoneId::kThigh:
-    case BoneId::kShin:
-      return of_side(body::Part::kLeftLeg);
-    case BoneId::kFoot:
-    case BoneId::kHeel:
-      return of_side(body::Part::kLeftFoot);
-  }
-  return body::Part::kTorso;
-}
-
 class Hanger {
  public:
   Hanger(const Layout& layout, const body::Body& body, const body::PartSelection& parts,

@@ -24,14 +24,8 @@ BoneId NearestBone(const std::vector<Subject>& subjects, const Graphs& graphs, i
   for (int b = 0; b < (graphs[0].IsOnPlane(v) ? kMidBoneCount : kBoneCount); ++b) {
     double sum = 0.0;
     for (std::size_t k = 0; k < graphs.size(); ++k) {
-      const std::optional<Bone>& bone =
-          subjects[k].skeleton.bone(static_cast<BoneId>(b), Side::kLeft);
-      if (!bone) sum = std::numeric_limits<double>::infinity();
-      if (!bone) break;
-      const Eigen::Vector3d along = bone->to_m - bone->from_m;
-      const Eigen::Vector3d p = graphs[k].nodes[U(v)].center_m - bone->from_m;
-      const double t = std::clamp(p.dot(along) / along.squaredNorm(), 0.0, 1.0);
-      sum += (p - t * along).norm() / bone->radius_m;
+      sum += subjects[k].skeleton.DistanceInRadii(static_cast<BoneId>(b), Side::kLeft,
+                                                  graphs[k].nodes[U(v)].center_m);
     }
     if (sum < least) least = sum, nearest = static_cast<BoneId>(b);
   }
