@@ -159,7 +159,8 @@ class BodyFit {
     clock_.Begin(Stage::kCapsule);
     PrimitiveStage stage = BuildUnderBudget(*body_, options_, features.polygons, curves);
     set_ = std::move(stage.set);
-    if (options_.quality == Quality::kPaper && options_.fit == FitMode::kBestFit && !options_.layout) {
+    if (options_.quality == Quality::kPaper && options_.fit == FitMode::kBestFit &&
+        !options_.layout) {
       clock_.Begin(Stage::kRefine);
       set_ = SettleBestFit(*body_, options_, std::move(set_));
     }
@@ -241,8 +242,7 @@ class BodyFit {
 
   absl::Status Bind() {
     result_.primitives = ToCallerFrame(set_, caller_from_body_);
-    result_.sphere_names =
-        options_.layout ? NamesOf(*options_.layout) : SphereNames(*body_, set_);
+    result_.sphere_names = options_.layout ? NamesOf(*options_.layout) : SphereNames(*body_, set_);
     result_.sphere_places = refine::PlacesOf(*body_, set_);
     if (!options_.want_polygons || options_.quality == Quality::kTight) {
       // An index of a polygon that is not in the result would say nothing.

@@ -123,8 +123,8 @@ struct FitResult {
   // For each sphere: unique, the same for the sphere on the other side but for left and right; see
   // sphere_names.h.
   std::vector<std::string> sphere_names;
-  // For each sphere where on the body it is, in measures that hold for any body: with the names, the
-  // origins and the capsules a layout to keep. Nothing where the body lacks the landmarks.
+  // For each sphere where on the body it is, in measures that hold for any body: with the names,
+  // the origins and the capsules a layout to keep. Nothing where the body lacks the landmarks.
   std::vector<std::optional<refine::BodyPlace>> sphere_places;
   std::vector<LandmarkResult> landmarks;
   std::vector<PolygonResult> polygons;  // where asked for

@@ -1,7 +1,7 @@
 // What keeping a layout costs: each body fitted freely (32 spheres, 32 capsules, tight, all parts)
 // and to the layout of another body's result.
 //
-//   layout_report BODY... [--from BODY]...      E_r and time of each, and their ratios
+//   layout_report BODY... [--from NAME|BODY]... E_r and time of each, and their ratios
 //   layout_report BODY... --neighbour           each to the layout of its own free result
 #include <algorithm>
 #include <chrono>
@@ -17,6 +17,7 @@
 #include "CLI/CLI.hpp"
 #include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
+#include "core/refine/layouts/standard_layouts.h"
 
 namespace {
 
@@ -69,8 +70,8 @@ std::optional<Timed> FitTimed(const PolygonSoup& soup, const FitOptions& options
 FitOptions Free(int spheres, bool best_fit) {
   FitOptions options;
   options.quality = capfit::pipeline::Quality::kTight;
-  options.fit = best_fit ? capfit::pipeline::FitMode::kBestFit
-                         : capfit::pipeline::FitMode::kEnclose;
+  options.fit =
+      best_fit ? capfit::pipeline::FitMode::kBestFit : capfit::pipeline::FitMode::kEnclose;
   options.parts = {true, true, true, true, true, true};
   options.max_spheres = spheres;
   options.max_capsules = spheres;
@@ -101,7 +102,7 @@ int main(int argc, char** argv) {
   int spheres = 32;
   int runs = 1;
   app.add_option("BODY", bodies)->required();
-  app.add_option("--from", from, "Bodies whose free results give the layouts");
+  app.add_option("--from", from, "Standard layouts, or bodies whose free results give them");
   app.add_flag("--neighbour", neighbour, "Each body keeps the layout of its own free result");
   app.add_flag("--best", best_fit, "Best fits");
   app.add_option("--spheres", spheres, "Spheres, and as many capsules");
@@ -110,6 +111,10 @@ int main(int argc, char** argv) {
 
   std::vector<KeptLayout> layouts;
   for (const std::string& path : from) {
+    if (const KeptLayout* standard = capfit::refine::FindStandardLayout(path)) {
+      layouts.push_back(*standard);
+      continue;
+    }
     const auto soup = Read(path);
     const auto fit = soup ? FitOnce(*soup, Free(spheres, best_fit)) : std::nullopt;
     if (!fit) return 1;
@@ -132,12 +137,10 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const auto fit = FitTimed(*soup, Keeping(kept[i], best_fit), runs);
       if (!fit) continue;
-      const double ratio =
-          fit->result.metrics.E_r / free->result.metrics.E_r;
+      const double ratio = fit->result.metrics.E_r / free->result.metrics.E_r;
       ratios[i].push_back(ratio);
       times[i].push_back(fit->ms / free->ms);
-      std::printf("  %.4f (%.3f) %.2f t", fit->result.metrics.E_r, ratio,
-                  fit->ms / free->ms);
+      std::printf("  %.4f (%.3f) %.2f t", fit->result.metrics.E_r, ratio, fit->ms / free->ms);
       if (fit->result.metrics.vertices_out > 0) {
         std::printf(" %d OUT", fit->result.metrics.vertices_out);
       }
@@ -147,7 +150,8 @@ int main(int argc, char** argv) {
   }
   std::printf("%-34s %7s %7s", "median ratio", "", "");
   for (std::size_t i = 0; i < ratios.size(); ++i) {
-    if (!ratios[i].empty()) std::printf("         (%.3f) %.2f t", Median(ratios[i]), Median(times[i]));
+    if (!ratios[i].empty())
+      std::printf("         (%.3f) %.2f t", Median(ratios[i]), Median(times[i]));
   }
   std::printf("\n");
   return 0;

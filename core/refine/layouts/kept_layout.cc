@@ -16,7 +16,7 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr std::array<std::string_view, kBoneCount> kBoneNames = {
-    "belly", "ribs",   "chest", "head",  "clavicle", "upper_arm", "forearm",
+    "belly", "ribs",   "chest", "head", "clavicle", "upper_arm", "forearm",
     "hand",  "pelvis", "thigh", "shin", "foot",     "heel"};
 constexpr std::size_t kMostSpheres = 500;
 constexpr std::size_t kMostCapsules = 1000;
@@ -114,9 +114,9 @@ absl::Status CheckCapsules(const KeptLayout& layout) {
       }
     }
     if (ends[0] >= ends[1]) {
-      return InvalidField(ErrorReason::kOutOfRange, field,
-                          absl::StrCat("joins ", ends[0], " and ", ends[1],
-                                       ", the first must be the lower"));
+      return InvalidField(
+          ErrorReason::kOutOfRange, field,
+          absl::StrCat("joins ", ends[0], " and ", ends[1], ", the first must be the lower"));
     }
     if (!known.insert(ends).second) {
       return InvalidField(ErrorReason::kDuplicate, field, "joins two spheres that are joined");
@@ -131,8 +131,8 @@ bool IsSymmetric(const KeptLayout& layout) {
   return std::all_of(layout.spheres.begin(), layout.spheres.end(),
                      [](const KeptSphere& s) { return s.mirror >= 0; }) &&
          std::all_of(layout.capsules.begin(), layout.capsules.end(), [&](const auto& ends) {
-           const auto [a, b] = std::minmax(layout.spheres[U(ends[0])].mirror,
-                                           layout.spheres[U(ends[1])].mirror);
+           const auto [a, b] =
+               std::minmax(layout.spheres[U(ends[0])].mirror, layout.spheres[U(ends[1])].mirror);
            return capsules.contains({a, b});
          });
 }
