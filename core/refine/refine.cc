@@ -42,7 +42,8 @@ constexpr double kMostSpacing = 0.027;
 constexpr int kFineSteps = 8;
 constexpr double kFineLooseness = 0.5;  // the shape is found, it need not be found anew
 constexpr int kFineTakeInSteps = 2;
-constexpr int kHungSteps = 12;            // for a layout that is kept
+constexpr int kHungSteps = 8;             // for a layout that is kept
+constexpr int kHungFineSteps = 4;         // coverage takes in what these leave out
 constexpr double kHungShapeFound = 0.45;  // of its time, as measured
 // How much of the time of a best fit has gone by when it is done with each, as measured.
 constexpr double kSettled = 0.02;
@@ -228,10 +229,9 @@ void Enclose(const tighten::CoverTarget& target, const RefineOptions& options,
   meter.Expect(kHungShapeFound, work(kHungSteps));
   const EnclosingTask task(target, graph.symmetric, options.tolerance_m, spacings.usual);
   task.FindShape(kHungSteps, 1.0, /*seed=*/1, pool, meter, graph);
-  meter.Expect(1.0, work(kFineSteps + kFineTakeInSteps));
+  meter.Expect(1.0, work(kHungFineSteps));
   const EnclosingTask fine(target, graph.symmetric, options.tolerance_m, spacings.fine);
-  fine.FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
-  fine.TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graph);
+  fine.FindShape(kHungFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
 }
 
 void FitBest(const body::Body& body, const RefineOptions& options, WorkMeter& meter,

@@ -85,6 +85,12 @@ FitOptions Keeping(const KeptLayout& layout, bool best_fit) {
   return options;
 }
 
+void PrintStages(const char* what, const FitResult& result) {
+  std::fprintf(stderr, "%s:", what);
+  for (const double seconds : result.stage_seconds) std::fprintf(stderr, " %.1f", 1e3 * seconds);
+  std::fprintf(stderr, " ms\n");
+}
+
 double Median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());
@@ -99,11 +105,13 @@ int main(int argc, char** argv) {
   std::vector<std::string> from;
   bool neighbour = false;
   bool best_fit = false;
+  bool stages = false;
   int spheres = 32;
   int runs = 1;
   app.add_option("BODY", bodies)->required();
   app.add_option("--from", from, "Standard layouts, or bodies whose free results give them");
   app.add_flag("--neighbour", neighbour, "Each body keeps the layout of its own free result");
+  app.add_flag("--stages", stages, "Milliseconds of each stage too, to standard error");
   app.add_flag("--best", best_fit, "Best fits");
   app.add_option("--spheres", spheres, "Spheres, and as many capsules");
   app.add_option("--runs", runs, "Times are those of the fastest");
@@ -137,6 +145,10 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const auto fit = FitTimed(*soup, Keeping(kept[i], best_fit), runs);
       if (!fit) continue;
+      if (stages) {
+        PrintStages("free", free->result);
+        PrintStages("kept", fit->result);
+      }
       const double ratio = fit->result.metrics.E_r / free->result.metrics.E_r;
       ratios[i].push_back(ratio);
       times[i].push_back(fit->ms / free->ms);
