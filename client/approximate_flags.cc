@@ -3,9 +3,12 @@
 #include "client/landmarks_file.h"
 #include "client/option_words.h"
 #include "client/picture/file_bytes.h"
+#include "client/picture/result_body.h"
+#include "client/picture/result_set.h"
 #include "client/word_option.h"
 #include "core/base/status.h"
 #include "core/pipeline/engines.h"
+#include "core/refine/layouts/standard_layouts.h"
 
 namespace capfit::client {
 namespace {
@@ -15,7 +18,8 @@ constexpr char kInput[] = "Input";
 constexpr char kOutput[] = "Output";
 constexpr char kBudget[] = "Budget (one of primitives, spheres and capsules, or polygon error)";
 
-void AddBudget(CLI::App& command, pipeline::FitOptions& options) {
+void AddBudget(CLI::App& command, FitFlags& flags) {
+  pipeline::FitOptions& options = flags.options;
   CLI::Option* const primitives = command.add_option("--max-primitives", options.max_primitives,
                                                      "Spheres and cones together, at most [64]");
   CLI::Option* const error =
@@ -29,9 +33,16 @@ void AddBudget(CLI::App& command, pipeline::FitOptions& options) {
       command.add_option("--engine", options.engine,
                          "Cloth engine whose limits and capsules hold: " + pipeline::EngineNames());
   engine->type_name("NAME");
+  CLI::Option* const layout =
+      command.add_option("--layout", flags.layout,
+                         "Keep the spheres, names and capsules of a former RESULT.json, or of a "
+                         "standard layout: " +
+                             refine::StandardLayoutNames());
+  layout->type_name("FILE|NAME");
+  layout->excludes(primitives)->excludes(error)->excludes(spheres)->excludes(capsules);
   primitives->excludes(error)->excludes(spheres)->excludes(capsules);
   error->excludes(spheres)->excludes(capsules);
-  for (CLI::Option* const option : {primitives, error, spheres, capsules, engine}) {
+  for (CLI::Option* const option : {primitives, error, spheres, capsules, engine, layout}) {
     option->group(kBudget);
   }
 }
@@ -49,6 +60,25 @@ body::PartSelection Selection(const std::vector<std::string>& words) {
     for (const std::string& word : words) parts.*member |= word == name || word == "all";
   }
   return parts;
+}
+
+// A name, or a file.
+absl::Status ReadLayout(const FitFlags& flags, pipeline::FitOptions& options) {
+  if (const refine::KeptLayout* const known = refine::FindStandardLayout(flags.layout)) {
+    options.layout = *known;
+    if (flags.parts.empty()) options.parts = known->parts();
+    return absl::OkStatus();
+  }
+  const absl::StatusOr<std::string> text = ReadFileBytes(flags.layout);
+  if (!text.ok()) {
+    return absl::NotFoundError(absl::StrCat("cannot read ", flags.layout,
+                                            ", which is no standard layout either; those are ",
+                                            refine::StandardLayoutNames()));
+  }
+  CAPFIT_ASSIGN_OR_RETURN(const ResultSet result, ParseResultSet(*text));
+  CAPFIT_ASSIGN_OR_RETURN(options.layout, LayoutOf(result));
+  if (flags.parts.empty()) options.parts = PartsOfResult(result);
+  return absl::OkStatus();
 }
 
 }  // namespace
@@ -116,7 +146,7 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
   command.add_option("--seed", options.seed, "Seed of the random restarts")
       ->capture_default_str()
       ->group(kWhatToFit);
-  AddBudget(command, options);
+  AddBudget(command, flags);
   AddWordOption(command, "--skinning", options.skinning, SkinningWords(),
                 "dense: mean value coordinates beside RESULT.json")
       ->group(kOutput);
@@ -143,6 +173,7 @@ absl::StatusOr<pipeline::FitOptions> OptionsOf(const FitFlags& flags) {
     CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(flags.landmarks_file));
     CAPFIT_ASSIGN_OR_RETURN(options.landmarks, ParseLandmarks(text));
   }
+  if (!flags.layout.empty()) CAPFIT_RETURN_IF_ERROR(ReadLayout(flags, options));
   return options;
 }
 

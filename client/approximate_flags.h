@@ -17,6 +17,7 @@ struct FitFlags {
   std::vector<std::string> require_parts;  // words; empty: none
   double tolerance_mm = 0.0;
   std::string landmarks_file;  // empty: none
+  std::string layout;          // name of a standard layout, or a RESULT.json; empty: none
 };
 
 // Adds the flags to `command`, in groups; CLI11 checks words and that there is one budget at most.
@@ -32,7 +33,8 @@ void AddPartsFlag(CLI::App& command, std::vector<std::string>& parts);
 // "torso", "arms", ...; "all" for all six. No words: the default selection.
 [[nodiscard]] body::PartSelection PartsOf(const std::vector<std::string>& words);
 
-// The options, with the landmarks read. NOT_FOUND and INVALID_ARGUMENT for the landmarks file.
+// The options, with landmarks and layout read. A layout is fitted for the parts that it was made
+// for where the caller names none. NOT_FOUND and INVALID_ARGUMENT for these files.
 [[nodiscard]] absl::StatusOr<pipeline::FitOptions> OptionsOf(const FitFlags& flags);
 
 }  // namespace capfit::client

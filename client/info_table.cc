@@ -67,6 +67,16 @@ std::string EnginesTable(const v1::GetServerInfoResponse& info) {
   return table;
 }
 
+std::string LayoutsTable(const v1::GetServerInfoResponse& info) {
+  if (info.layouts().empty()) return "";
+  std::string table = "\n" + InfoLine("%-16s %8s %9s", "layout", "spheres", "capsules");
+  for (const v1::StandardLayout& layout : info.layouts()) {
+    table += InfoLine("%-16s %8d %9d", layout.name().c_str(), layout.sphere_count(),
+                      layout.capsule_count());
+  }
+  return table;
+}
+
 // "quality.paper" and "quality.tight" on one line.
 std::string FeaturesTable(const v1::GetServerInfoResponse& info) {
   std::vector<std::pair<std::string, std::vector<std::string>>> kinds;
@@ -87,7 +97,7 @@ std::string FeaturesTable(const v1::GetServerInfoResponse& info) {
 
 std::string InfoTable(const v1::GetServerInfoResponse& info) {
   return absl::StrCat("capfit-server ", info.version(), "\n") + LimitsTable(info.limits()) +
-         FormatsLine(info) + EnginesTable(info) + FeaturesTable(info);
+         FormatsLine(info) + EnginesTable(info) + LayoutsTable(info) + FeaturesTable(info);
 }
 
 }  // namespace capfit::client

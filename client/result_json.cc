@@ -5,6 +5,7 @@
 
 #include "client/message_json.h"
 #include "proto/wire/enum_conversion.h"
+#include "proto/wire/layout_conversion.h"
 #include "proto/wire/result_conversion.h"
 
 namespace capfit::client {
@@ -54,6 +55,10 @@ void AddPrimitives(const pipeline::FitResult& result, ordered_json& root) {
     polygons.push_back(IndexJson(origin.polygon));
   }
   root["sphere_mirrors"] = mirrors;
+  ordered_json& places = root["sphere_places"] = ordered_json::array();
+  for (const std::optional<refine::BodyPlace>& place : result.sphere_places) {
+    places.push_back(place ? MessageJson(wire::PlaceToWire(*place)) : ordered_json());
+  }
   if (HasPolygons(result)) root["sphere_polygons"] = polygons;
   ordered_json& capsule_parts = root["capsule_parts"] = ordered_json::array();
   for (const capsule::CapsuleEnds& ends : set.capsules) {

@@ -7,6 +7,7 @@
 //    "body": {"vertex_count": .., "box_min": [3], ...}, "options": {"budget": {...}, ...},
 //    "spheres": [[x, y, z, r], ...], "capsules": [[i, j], ...],
 //    "sphere_names": [...], "sphere_parts": [...], "sphere_mirrors": [...],
+//    "sphere_places": [{"bone": "upper_arm", "is_right": false, "along": .., ...}, ...],
 //    "sphere_polygons": [...], "capsule_parts": [...],
 //    "landmarks": {"left_wrist": {"position": [3], "method": "measured", "confidence": 0.9}, ...},
 //    "warnings": [{"code": .., "message": .., "count": ..}, ...],

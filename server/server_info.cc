@@ -5,6 +5,7 @@
 
 #include "core/base/version.h"
 #include "core/pipeline/engines.h"
+#include "core/refine/layouts/standard_layouts.h"
 #include "proto/wire/enum_conversion.h"
 
 namespace capfit::server {
@@ -49,6 +50,7 @@ const std::vector<Feature>& Features() {
       {"option.tolerance_m", [](FitOptions& o) { o.tolerance_m = 0.001; }},
       {"option.feature_polygons", [](FitOptions& o) { o.want_polygons = true; }},
       {"option.vertex_gaps", [](FitOptions& o) { o.want_vertex_gaps = true; }},
+      {"layout", [](FitOptions& o) { o.layout = refine::StandardLayouts().front(); }},
   };
   return features;
 }
@@ -69,6 +71,15 @@ void AddEngines(v1::GetServerInfoResponse& info) {
     engine.set_max_capsules(known.max_capsules);
     engine.set_max_shapes(known.max_shapes);
     engine.set_profile(wire::ToWire(known.profile));
+  }
+}
+
+void AddLayouts(v1::GetServerInfoResponse& info) {
+  for (const refine::KeptLayout& known : refine::StandardLayouts()) {
+    v1::StandardLayout& layout = *info.add_layouts();
+    layout.set_name(known.name);
+    layout.set_sphere_count(known.count().spheres);
+    layout.set_capsule_count(known.count().capsules);
   }
 }
 
@@ -94,6 +105,7 @@ v1::GetServerInfoResponse DescribeServer(const ServerConfig& config, int threads
   }
   AddEngines(info);
   AddFeatures(backend, info);
+  AddLayouts(info);
   return info;
 }
 

@@ -13,10 +13,7 @@ namespace {
 
 // Which part a word of "sphere_parts" means; the torso for words that are not known.
 body::Part PartFromWord(const std::string& word) {
-  for (int i = 0; i < body::kPartCount; ++i) {
-    if (body::PartName(static_cast<body::Part>(i)) == word) return static_cast<body::Part>(i);
-  }
-  return body::Part::kTorso;
+  return body::PartFromName(word).value_or(body::Part::kTorso);
 }
 
 }  // namespace

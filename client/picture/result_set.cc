@@ -89,6 +89,57 @@ absl::StatusOr<std::vector<std::string>> SphereWords(const json& root, const std
   return words;
 }
 
+// The list of that name, one entry for each sphere; nothing where it is not there.
+absl::StatusOr<const json*> SphereList(const json& root, const std::string& name,
+                                       std::size_t sphere_count) {
+  const auto list = root.find(name);
+  if (list == root.end()) return nullptr;
+  if (list->is_array() && list->size() == sphere_count) return &*list;
+  return Wrong(name, absl::StrCat("must be an array of ", sphere_count, " entries"));
+}
+
+absl::Status ReadMirrors(const json& root, ResultSet& set) {
+  set.sphere_mirrors.assign(set.spheres.size(), -1);
+  CAPFIT_ASSIGN_OR_RETURN(const json* const list,
+                          SphereList(root, "sphere_mirrors", set.spheres.size()));
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    const json& mirror = (*list)[i];
+    if (mirror.is_null()) continue;
+    if (!mirror.is_number_unsigned() || mirror.get<std::uint64_t>() >= set.spheres.size()) {
+      return Wrong(absl::StrCat("sphere_mirrors[", i, "]"),
+                   absl::StrCat("must be null or an index below ", set.spheres.size()));
+    }
+    set.sphere_mirrors[i] = mirror.get<int>();
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<refine::BodyPlace> Place(const json& entry, const std::string& field) {
+  const json bone = entry.is_object() ? entry.value("bone", json()) : json();
+  const std::optional<refine::BoneId> known =
+      refine::BoneByName(bone.is_string() ? bone.get<std::string>() : std::string());
+  if (!known) return Wrong(field + ".bone", "must be the name of a bone");
+  CAPFIT_ASSIGN_OR_RETURN(const std::vector<double> n,
+                          Numbers({entry.value("along", json()), entry.value("aside", json()),
+                                   entry.value("ahead", json()), entry.value("radius", json())},
+                                  4, field));
+  const bool is_right = entry.value("is_right", json()) == true;
+  return refine::BodyPlace{
+      *known, is_right ? refine::Side::kRight : refine::Side::kLeft, {n[0], n[1], n[2]}, n[3]};
+}
+
+absl::Status ReadPlaces(const json& root, ResultSet& set) {
+  set.sphere_places.assign(set.spheres.size(), std::nullopt);
+  CAPFIT_ASSIGN_OR_RETURN(const json* const list,
+                          SphereList(root, "sphere_places", set.spheres.size()));
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+    if ((*list)[i].is_null()) continue;
+    CAPFIT_ASSIGN_OR_RETURN(set.sphere_places[i],
+                            Place((*list)[i], absl::StrCat("sphere_places[", i, "]")));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status ReadLandmarks(const json& root, ResultSet& set) {
   if (!root.contains("landmarks") || !root["landmarks"].is_object()) return absl::OkStatus();
   for (const auto& [name, value] : root["landmarks"].items()) {
@@ -222,6 +273,21 @@ absl::Status ReadOwn(const json& root, ResultSet& set) {
 
 }  // namespace
 
+absl::StatusOr<refine::KeptLayout> LayoutOf(const ResultSet& result) {
+  refine::KeptLayout layout;
+  layout.capsules = result.capsules;
+  for (std::size_t i = 0; i < result.spheres.size(); ++i) {
+    const std::optional<body::Part> part = body::PartFromName(result.sphere_parts[i]);
+    if (!part) {
+      return Wrong(absl::StrCat("sphere_parts[", i, "]"),
+                   "must name a part: a layout is a RESULT.json of capfit");
+    }
+    layout.spheres.push_back(
+        {result.sphere_names[i], *part, result.sphere_mirrors[i], result.sphere_places[i]});
+  }
+  return layout;
+}
+
 absl::StatusOr<ResultSet> ParseResultSet(const std::string& json_text) {
   const json root = json::parse(json_text, nullptr, /*allow_exceptions=*/false);
   if (!root.is_object()) return Wrong("result", "is not a JSON object");
@@ -231,6 +297,8 @@ absl::StatusOr<ResultSet> ParseResultSet(const std::string& json_text) {
   CAPFIT_RETURN_IF_ERROR(ReadCapsules(root, set));
   CAPFIT_ASSIGN_OR_RETURN(set.sphere_parts, SphereWords(root, "sphere_parts", set.spheres.size()));
   CAPFIT_ASSIGN_OR_RETURN(set.sphere_names, SphereWords(root, "sphere_names", set.spheres.size()));
+  CAPFIT_RETURN_IF_ERROR(ReadMirrors(root, set));
+  CAPFIT_RETURN_IF_ERROR(ReadPlaces(root, set));
   CAPFIT_RETURN_IF_ERROR(ReadLandmarks(root, set));
   CAPFIT_RETURN_IF_ERROR(ReadPolygons(root, set));
   ReadMetrics(root, set);

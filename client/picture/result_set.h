@@ -15,6 +15,7 @@
 #include "core/body/anatomy.h"
 #include "core/character/find_character.h"
 #include "core/geometry/sphere.h"
+#include "core/refine/layouts/kept_layout.h"
 
 namespace capfit::client {
 
@@ -39,6 +40,9 @@ struct ResultSet {
   std::vector<std::array<int, 2>> capsules;  // indices into spheres
   std::vector<std::string> sphere_parts;     // same size as spheres; "" where not told
   std::vector<std::string> sphere_names;     // same size as spheres; "" where not told
+  // Same size as spheres; -1 and nothing where not told.
+  std::vector<int> sphere_mirrors;
+  std::vector<std::optional<refine::BodyPlace>> sphere_places;
   std::map<std::string, Eigen::Vector3d> landmarks;
   std::map<std::string, double> metrics;  // the whole's, those that are numbers: "volume_error"
   std::vector<ResultPolygon> polygons;    // where they were asked for
@@ -54,6 +58,10 @@ struct ResultSet {
   std::string engine;                               // whose limits held; "" for none
   std::optional<Eigen::Matrix3d> body_from_caller;  // the turn from the mesh's axes to the body's
 };
+
+// The layout of a result, to be kept on another body (`--layout FILE`). INVALID_ARGUMENT where the
+// result has no names or parts of a body: it is not capfit's own.
+[[nodiscard]] absl::StatusOr<refine::KeptLayout> LayoutOf(const ResultSet& result);
 
 // Landmarks may be plain lists [x, y, z] too. Errors: INVALID_ARGUMENT naming the member
 // ("capsules[3][1] is 40, must be below 32"), also for a format_version of a later capfit.

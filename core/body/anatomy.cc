@@ -1,5 +1,7 @@
 #include "core/body/anatomy.h"
 
+#include <algorithm>
+
 namespace capfit::body {
 namespace {
 
@@ -42,6 +44,12 @@ constexpr std::array<std::string_view, kLandmarkCount> kLandmarkNames = {"head_t
 }  // namespace
 
 std::string_view PartName(Part part) { return kPartNames[static_cast<std::size_t>(part)]; }
+
+std::optional<Part> PartFromName(std::string_view name) {
+  const auto found = std::find(kPartNames.begin(), kPartNames.end(), name);
+  if (found == kPartNames.end()) return std::nullopt;
+  return static_cast<Part>(found - kPartNames.begin());
+}
 
 std::string_view SegmentName(Segment segment) {
   return kSegmentNames[static_cast<std::size_t>(segment)];

@@ -48,6 +48,7 @@ inline constexpr int kChainCount = 5;  // the first five parts are chains
 
 // "torso", "left_arm", ...: the words in results.
 [[nodiscard]] std::string_view PartName(Part part);
+[[nodiscard]] std::optional<Part> PartFromName(std::string_view name);
 [[nodiscard]] Part PartOf(Segment segment);  // neck counts as torso
 // "torso", "left_upper_arm", ...: one for each segment.
 [[nodiscard]] std::string_view SegmentName(Segment segment);

@@ -53,6 +53,21 @@ constexpr Table<body::Part, v1::BodyPart, 10> kParts = {
      {body::Part::kLeftFoot, v1::BODY_PART_LEFT_FOOT},
      {body::Part::kRightFoot, v1::BODY_PART_RIGHT_FOOT}}};
 
+constexpr Table<refine::BoneId, v1::Bone, refine::kBoneCount> kBones = {
+    {{refine::BoneId::kBelly, v1::BONE_BELLY},
+     {refine::BoneId::kRibs, v1::BONE_RIBS},
+     {refine::BoneId::kChest, v1::BONE_CHEST},
+     {refine::BoneId::kHead, v1::BONE_HEAD},
+     {refine::BoneId::kClavicle, v1::BONE_CLAVICLE},
+     {refine::BoneId::kUpperArm, v1::BONE_UPPER_ARM},
+     {refine::BoneId::kForearm, v1::BONE_FOREARM},
+     {refine::BoneId::kHand, v1::BONE_HAND},
+     {refine::BoneId::kPelvis, v1::BONE_PELVIS},
+     {refine::BoneId::kThigh, v1::BONE_THIGH},
+     {refine::BoneId::kShin, v1::BONE_SHIN},
+     {refine::BoneId::kFoot, v1::BONE_FOOT},
+     {refine::BoneId::kHeel, v1::BONE_HEEL}}};
+
 constexpr Table<Stage, v1::Stage, 9> kStages = {{{Stage::kMesh, v1::STAGE_MESH},
                                                  {Stage::kBody, v1::STAGE_BODY},
                                                  {Stage::kSection, v1::STAGE_SECTION},
@@ -121,6 +136,7 @@ v1::UpAxis ToWire(body::UpAxis up) { return WireOf(kUpAxes, up); }
 v1::MeshFileFormat ToWire(formats::MeshFormat format) { return WireOf(kFormats, format); }
 v1::LandmarkMethod ToWire(body::LandmarkMethod method) { return WireOf(kMethods, method); }
 v1::BodyPart ToWire(body::Part part) { return WireOf(kParts, part); }
+v1::Bone ToWire(refine::BoneId bone) { return WireOf(kBones, bone); }
 v1::Stage ToWire(Stage stage) { return WireOf(kStages, stage); }
 v1::MeshPartKind ToWire(character::PartKind kind) { return WireOf(kMeshPartKinds, kind); }
 v1::Sex ToWire(section::Sex sex) { return WireOf(kSexes, sex); }
@@ -138,6 +154,7 @@ std::optional<body::LandmarkMethod> FromWire(v1::LandmarkMethod method) {
   return CoreOf(kMethods, method);
 }
 std::optional<body::Part> FromWire(v1::BodyPart part) { return CoreOf(kParts, part); }
+std::optional<refine::BoneId> FromWire(v1::Bone bone) { return CoreOf(kBones, bone); }
 std::optional<Stage> FromWire(v1::Stage stage) { return CoreOf(kStages, stage); }
 std::optional<character::PartKind> FromWire(v1::MeshPartKind kind) {
   return CoreOf(kMeshPartKinds, kind);

@@ -22,6 +22,7 @@
 #include "core/character/part_words.h"
 #include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
+#include "core/refine/layouts/bones.h"
 #include "core/section/feature_polygon.h"
 
 namespace capfit::wire {
@@ -31,6 +32,7 @@ namespace capfit::wire {
 [[nodiscard]] v1::MeshFileFormat ToWire(formats::MeshFormat format);
 [[nodiscard]] v1::LandmarkMethod ToWire(body::LandmarkMethod method);
 [[nodiscard]] v1::BodyPart ToWire(body::Part part);
+[[nodiscard]] v1::Bone ToWire(refine::BoneId bone);
 [[nodiscard]] v1::Stage ToWire(Stage stage);
 [[nodiscard]] v1::Sex ToWire(section::Sex sex);
 [[nodiscard]] v1::FitMode ToWire(pipeline::FitMode mode);
@@ -44,6 +46,7 @@ namespace capfit::wire {
 [[nodiscard]] std::optional<formats::MeshFormat> FromWire(v1::MeshFileFormat format);
 [[nodiscard]] std::optional<body::LandmarkMethod> FromWire(v1::LandmarkMethod method);
 [[nodiscard]] std::optional<body::Part> FromWire(v1::BodyPart part);
+[[nodiscard]] std::optional<refine::BoneId> FromWire(v1::Bone bone);
 [[nodiscard]] std::optional<Stage> FromWire(v1::Stage stage);
 [[nodiscard]] std::optional<section::Sex> FromWire(v1::Sex sex);
 [[nodiscard]] std::optional<pipeline::FitMode> FromWire(v1::FitMode mode);

@@ -8,9 +8,14 @@
 #include "core/base/status.h"
 #include "core/pipeline/engines.h"
 #include "proto/wire/enum_conversion.h"
+#include "proto/wire/layout_conversion.h"
+#include "proto/wire/result_conversion.h"
 
 namespace capfit::wire {
 namespace {
+
+// EffectiveOptions.layout of a layout that came with the request.
+constexpr char kOwnLayout[] = "own";
 
 // Fills `target` from an enum of the wire, or names the number that is not known.
 template <typename Core, typename Wire>
@@ -182,6 +187,9 @@ absl::StatusOr<pipeline::FitOptions> OptionsFromWire(const v1::ApproximateBodyHe
   options.tolerance_m = wire.tolerance_m();
   options.engine = wire.engine();
   options.character = CharacterFromWire(wire);
+  if (!header.has_layout()) return options;
+  CAPFIT_ASSIGN_OR_RETURN(options.layout, LayoutFromWire(header.layout()));
+  if (wire.parts().empty()) options.parts = options.layout->parts();
   return options;
 }
 
@@ -209,12 +217,13 @@ void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeade
   wire.set_tolerance_m(options.tolerance_m);
   wire.set_engine(options.engine);
   CharacterToWire(options.character, wire);
+  if (options.layout) *header.mutable_layout() = LayoutToWire(*options.layout);
 }
 
 absl::Status WithWirePaths(const absl::Status& status, const v1::FitOptions& options) {
   constexpr char kLandmarks[] = "options.landmarks.";
   const std::string field = FieldOf(status).value_or("");
-  if (field.rfind(kLandmarks, 0) != 0) return status;
+  if (field.rfind(kLandmarks, 0) != 0) return WithLayoutPaths(status);
   const std::string name = field.substr(sizeof(kLandmarks) - 1);
   for (int i = 0; i < options.landmarks_size(); ++i) {
     if (options.landmarks(i).name() != name) continue;
@@ -249,6 +258,8 @@ v1::EffectiveOptions EffectiveOptionsToWire(const pipeline::FitOptions& options)
   wire.set_want_feature_polygons(options.want_polygons);
   wire.set_want_vertex_gaps(options.want_vertex_gaps);
   CharacterToWire(options.character, wire);
+  if (options.layout)
+    wire.set_layout(options.layout->name.empty() ? kOwnLayout : options.layout->name);
   return wire;
 }
 
@@ -274,6 +285,10 @@ absl::StatusOr<pipeline::FitOptions> EffectiveOptionsFromWire(const v1::Effectiv
   options.want_polygons = wire.want_feature_polygons();
   options.want_vertex_gaps = wire.want_vertex_gaps();
   options.character = CharacterFromWire(wire);
+  if (!wire.layout().empty()) {
+    options.layout.emplace();
+    if (wire.layout() != kOwnLayout) options.layout->name = PlainText(wire.layout());
+  }
   return options;
 }
 

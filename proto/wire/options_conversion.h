@@ -8,8 +8,8 @@
 
 namespace capfit::wire {
 
-// The options of a header: `options`, and unit and axis from `mesh`. Ranges of numbers are not
-// checked here but by pipeline::ValidateOptions. INVALID_ARGUMENT names the field
+// The options of a header: `options`, `layout`, and unit and axis from `mesh`. Ranges of numbers
+// are not checked here but by pipeline::ValidateOptions. INVALID_ARGUMENT names the field
 // ("options.landmarks[2].name"); UNIMPLEMENTED for weights of a form that capfit does not make.
 [[nodiscard]] absl::StatusOr<pipeline::FitOptions> OptionsFromWire(
     const v1::ApproximateBodyHeader& header);
@@ -22,7 +22,7 @@ void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeade
 [[nodiscard]] absl::Status WithWirePaths(const absl::Status& status, const v1::FitOptions& options);
 
 // What held in the end (FitResult::effective_options), both ways; the landmarks themselves are not
-// sent back.
+// sent back, and of a layout only its name.
 [[nodiscard]] v1::EffectiveOptions EffectiveOptionsToWire(const pipeline::FitOptions& options);
 [[nodiscard]] absl::StatusOr<pipeline::FitOptions> EffectiveOptionsFromWire(
     const v1::EffectiveOptions& wire);

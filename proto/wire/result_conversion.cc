@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
+#include "proto/wire/layout_conversion.h"
 #include "proto/wire/options_conversion.h"
 
 namespace capfit::wire {
@@ -226,6 +227,9 @@ v1::PrimitiveSet PrimitivesToWire(const pipeline::FitResult& result) {
     if (origin.polygon >= 0) sphere.set_polygon(origin.polygon);
     if (origin.mirror >= 0) sphere.set_mirror(origin.mirror);
     if (i < result.sphere_names.size()) sphere.set_name(PlainText(result.sphere_names[i]));
+    if (i < result.sphere_places.size() && result.sphere_places[i]) {
+      *sphere.mutable_place() = PlaceToWire(*result.sphere_places[i]);
+    }
   }
   for (std::size_t i = 0; i < set.capsules.size(); ++i) {
     v1::Capsule& capsule = *wire.add_capsules();
@@ -343,6 +347,10 @@ absl::Status PrimitivesFromWire(const v1::PrimitiveSet& wire, pipeline::FitResul
     set.origins.push_back({*part, sphere.has_polygon() ? sphere.polygon() : -1,
                            sphere.has_mirror() ? sphere.mirror() : -1});
     result.sphere_names.push_back(sphere.name());
+    std::optional<refine::BodyPlace>& place = result.sphere_places.emplace_back();
+    if (!sphere.has_place()) continue;
+    CAPFIT_ASSIGN_OR_RETURN(
+        place, PlaceFromWire(sphere.place(), absl::StrCat("primitives.spheres[", i, "].place")));
   }
   for (int i = 0; i < wire.capsules_size(); ++i) {
     const v1::Capsule& capsule = wire.capsules(i);

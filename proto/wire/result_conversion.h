@@ -54,7 +54,7 @@ struct WeightBlock {
 void LandmarksFromWire(const v1::Landmarks& wire, pipeline::FitResult& result);
 [[nodiscard]] absl::StatusOr<pipeline::PolygonResult> PolygonFromWire(
     const v1::FeaturePolygon& wire);
-// Fills `primitives` and `sphere_names`.
+// Fills `primitives`, `sphere_names` and `sphere_places`.
 [[nodiscard]] absl::Status PrimitivesFromWire(const v1::PrimitiveSet& wire,
                                               pipeline::FitResult& result);
 [[nodiscard]] absl::Status SummaryFromWire(const v1::Summary& wire, pipeline::FitResult& result);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/status.h"
+#include "core/refine/layouts/standard_layouts.h"
 
 namespace capfit::wire {
 namespace {
@@ -54,6 +55,67 @@ TEST(OptionsConversion, AnEmptyHeaderGivesTheDefaults) {
   const auto options = OptionsFromWire({});
   ASSERT_TRUE(options.ok()) << options.status();
   ExpectSame(*options, FitOptions());
+}
+
+TEST(OptionsConversion, StandardLayoutsGoByName) {
+  FitOptions options;
+  options.layout = *refine::FindStandardLayout("standard-32");
+  options.parts = options.layout->parts();
+  v1::ApproximateBodyHeader header;
+  OptionsToWire(options, header);
+  EXPECT_EQ(header.layout().name(), "standard-32");
+  // Without parts those of the layout.
+  header.mutable_options()->clear_parts();
+  const auto back = OptionsFromWire(header);
+  ASSERT_TRUE(back.ok()) << back.status();
+  ExpectSame(*back, options);
+  EXPECT_EQ(back->layout->spheres.size(), options.layout->spheres.size());
+}
+
+TEST(OptionsConversion, OtherLayoutsComeBackWhole) {
+  FitOptions options;
+  options.layout = *refine::FindStandardLayout("standard-32");
+  options.layout->name.clear();
+  options.layout->spheres[3].mirror = -1;
+  const auto back = RoundTrip(options);
+  ASSERT_TRUE(back.ok()) << back.status();
+  const refine::KeptLayout& layout = *back->layout;
+  EXPECT_EQ(layout.name, "");
+  EXPECT_EQ(layout.capsules, options.layout->capsules);
+  ASSERT_EQ(layout.spheres.size(), options.layout->spheres.size());
+  for (std::size_t i = 0; i < layout.spheres.size(); ++i) {
+    const refine::KeptSphere& sphere = layout.spheres[i];
+    const refine::KeptSphere& wanted = options.layout->spheres[i];
+    EXPECT_EQ(sphere.name, wanted.name);
+    EXPECT_EQ(sphere.part, wanted.part);
+    EXPECT_EQ(sphere.mirror, wanted.mirror);
+    EXPECT_EQ(sphere.place->bone, wanted.place->bone);
+    EXPECT_EQ(sphere.place->side, wanted.place->side);
+    EXPECT_EQ(sphere.place->place.along, wanted.place->place.along);
+    EXPECT_EQ(sphere.place->place.aside, wanted.place->place.aside);
+    EXPECT_EQ(sphere.place->place.ahead, wanted.place->place.ahead);
+    EXPECT_EQ(sphere.place->radius, wanted.place->radius);
+  }
+}
+
+TEST(OptionsConversion, SaysWhatIsWrongWithALayout) {
+  v1::ApproximateBodyHeader header;
+  const auto field = [&header] { return FieldOf(OptionsFromWire(header).status()).value_or(""); };
+  header.mutable_layout();
+  EXPECT_EQ(field(), "layout");
+  header.mutable_layout()->set_name("standard-1000");
+  EXPECT_EQ(field(), "layout.name");
+  v1::Sphere& sphere = *header.mutable_layout()->mutable_set()->add_spheres();
+  EXPECT_EQ(field(), "layout.set.spheres[0].part");
+  sphere.set_part(v1::BODY_PART_HEAD);
+  sphere.mutable_place();
+  EXPECT_EQ(field(), "layout.set.spheres[0].place.bone");
+  sphere.mutable_place()->set_bone(v1::BONE_HEAD);
+  sphere.set_name("head_1");
+  const auto options = OptionsFromWire(header);
+  ASSERT_TRUE(options.ok()) << options.status();
+  EXPECT_EQ(FieldOf(WithWirePaths(pipeline::ValidateOptions(*options), header.options())),
+            "layout.set.spheres[0].place.radius");
 }
 
 TEST(OptionsConversion, DefaultsComeBack) {

@@ -64,7 +64,7 @@ absl::Status CheckPlace(const KeptSphere& sphere, std::size_t index) {
   }
   const BodyPlace& at = *sphere.place;
   const Vec3 place(at.place.along, at.place.aside, at.place.ahead);
-  if (!(place.cwiseAbs().maxCoeff() <= kFurthestPlace)) {
+  if (!place.allFinite() || place.cwiseAbs().maxCoeff() > kFurthestPlace) {
     return InvalidField(ErrorReason::kOutOfRange, FieldOfSphere(index, "place"),
                         absl::StrCat("is further than ", kFurthestPlace, " from its bone"));
   }
