@@ -103,8 +103,8 @@ class SkeletonReader {
                        absl::StrCat("its joint node ", node, " stands nowhere"));
     }
     joint = static_cast<std::int32_t>(skeleton_.joints.size());
-    skeleton_.joints.push_back({NameAt(json_[node], "name"), position, -1, {}, to_mesh,
-                                static_cast<std::int32_t>(node)});
+    skeleton_.joints.push_back(
+        {NameAt(json_[node], "name"), position, -1, {}, to_mesh, static_cast<std::int32_t>(node)});
     return joint;
   }
 
