@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/export/gltf_colliders.h"
+#include "core/export/mesh_hulls.h"
 #include "core/export/vrm_colliders.h"
 #include "tests/readers/sample_set.h"
 
@@ -51,11 +52,18 @@ absl::StatusOr<Exported> WriteVrmSample(const ColliderSet& set, const std::strin
   return capfit::exports::WriteVrm(set, BytesOf(original));
 }
 
+absl::StatusOr<Exported> WriteHullsSample(const ColliderSet& set, const std::string&) {
+  return capfit::exports::WriteHulls(set);
+}
+
+absl::StatusOr<Exported> WriteUnionSample(const ColliderSet& set, const std::string&) {
+  return capfit::exports::WriteUnion(set);
+}
+
 const std::vector<SampleFormat>& Formats() {
   static const auto& formats = *new std::vector<SampleFormat>{
-      {"gltf", WriteGltfSample},
-      {"gltf_preview", WriteGltfPreview},
-      {"vrm", WriteVrmSample},
+      {"gltf", WriteGltfSample},   {"gltf_preview", WriteGltfPreview}, {"vrm", WriteVrmSample},
+      {"hulls", WriteHullsSample}, {"union", WriteUnionSample},
   };
   return formats;
 }
