@@ -17,6 +17,7 @@
 
 #include "core/export/gltf_colliders.h"
 #include "core/export/mesh_hulls.h"
+#include "core/export/usd_colliders.h"
 #include "core/export/vrm_colliders.h"
 #include "tests/readers/sample_set.h"
 
@@ -60,10 +61,22 @@ absl::StatusOr<Exported> WriteUnionSample(const ColliderSet& set, const std::str
   return capfit::exports::WriteUnion(set);
 }
 
+absl::StatusOr<Exported> WriteUsdSample(const ColliderSet& set, const std::string&) {
+  return capfit::exports::WriteUsd(set);
+}
+
+absl::StatusOr<Exported> WriteUniformUsd(const ColliderSet& set, const std::string&) {
+  auto exported = capfit::exports::WriteUsd(set, {.is_tapered = false});
+  if (exported.ok()) exported->files[0].name = "uniform.usda";
+  return exported;
+}
+
 const std::vector<SampleFormat>& Formats() {
   static const auto& formats = *new std::vector<SampleFormat>{
-      {"gltf", WriteGltfSample},   {"gltf_preview", WriteGltfPreview}, {"vrm", WriteVrmSample},
-      {"hulls", WriteHullsSample}, {"union", WriteUnionSample},
+      {"gltf", WriteGltfSample},   {"gltf_preview", WriteGltfPreview},
+      {"vrm", WriteVrmSample},     {"usd", WriteUsdSample},
+      {"hulls", WriteHullsSample}, {"usd_uniform", WriteUniformUsd},
+      {"union", WriteUnionSample},
   };
   return formats;
 }
