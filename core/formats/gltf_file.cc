@@ -2,65 +2,24 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <string_view>
 #include <utility>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/formats/gltf_chunks.h"
 #include "core/formats/gltf_json.h"
 #include "core/formats/gltf_meshopt.h"
-#include "core/formats/text_scanner.h"
 
 namespace capfit::formats {
 namespace {
 
 using nlohmann::json;
 
-static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
-
-// Parsed JSON takes up to thirty times its text. The description of an avatar has some 100 kB.
-constexpr std::size_t kMostJsonBytes = 8 << 20;
-// A longer string in it is a buffer or an image and takes no more than itself.
-constexpr std::size_t kLongString = 1024;
 constexpr std::size_t kLongestExtension = 64;
 constexpr std::size_t kMostUnpackedBytes = 256 << 20;
-
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
-constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN"
-
-std::uint32_t WordAt(std::span<const std::byte> bytes, std::size_t offset) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + offset, sizeof word);
-  return word;
-}
-
-// Without what stands in long strings.
-std::size_t BytesToParse(std::string_view text) {
-  std::size_t bytes = text.size();
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '"') continue;
-    const std::size_t begin = ++i;
-    while (i < text.size() && text[i] != '"') i += text[i] == '\\' ? 2 : 1;
-    const std::size_t length = std::min(i, text.size()) - begin;
-    if (length > kLongString) bytes -= length;
-  }
-  return bytes;
-}
-
-absl::StatusOr<json> ParseDescription(std::span<const std::byte> bytes, const char* where) {
-  if (bytes.size() > kMostJsonBytes) {
-    const std::size_t size = BytesToParse(AsText(bytes));
-    if (size > kMostJsonBytes) return FileTooLarge({}, size, "bytes of JSON", kMostJsonBytes);
-  }
-  std::optional<json> parsed = ParseGltfJson(AsText(bytes));
-  if (parsed.has_value()) return *std::move(parsed);
-  return FileError(ErrorReason::kMalformedFile, {},
-                   absl::StrCat("has ", where, " that is no JSON object"));
-}
 
 // What the extension changes is not where the surface lies: looks, light, sound, movement.
 bool IsBesideTheGeometry(std::string_view extension) {
@@ -97,74 +56,25 @@ absl::Status CheckVersion(const json& gltf) {
       ValueAndLimit(Printable(version), 2));
 }
 
-// What stands behind "data:TYPE;base64,"; nothing for other addresses.
-std::optional<std::string_view> Base64Of(std::string_view uri) {
-  const std::size_t comma = uri.substr(0, kLongString).find(',');
-  if (uri.substr(0, 5) != "data:" || comma == std::string_view::npos) return std::nullopt;
-  constexpr std::string_view kEnding = ";base64";
-  const std::string_view kind = uri.substr(0, comma);
-  if (kind.size() < kEnding.size() || kind.substr(kind.size() - kEnding.size()) != kEnding) {
-    return std::nullopt;
-  }
-  return uri.substr(comma + 1);
-}
-
 }  // namespace
 
 absl::StatusOr<GltfFile> GltfFile::Open(std::span<const std::byte> bytes) {
   GltfFile file;
-  const bool is_text = AsText(bytes).substr(0, 4) != "glTF" && LooksLikeGltfText(AsText(bytes));
-  CAPFIT_RETURN_IF_ERROR(is_text ? file.OpenText(bytes) : file.OpenChunks(bytes));
+  CAPFIT_ASSIGN_OR_RETURN(const GltfChunks chunks, SplitGltf(bytes));
+  file.binary_ = chunks.binary;
+  CAPFIT_RETURN_IF_ERROR(file.Parse(chunks.description));
   CAPFIT_RETURN_IF_ERROR(CheckVersion(file.json_));
   CAPFIT_RETURN_IF_ERROR(CheckRequiredExtensions(file.json_));
   CAPFIT_RETURN_IF_ERROR(file.UnpackBuffers());
   return file;
 }
 
-absl::Status GltfFile::OpenText(std::span<const std::byte> bytes) {
-  CAPFIT_ASSIGN_OR_RETURN(json_, ParseDescription(bytes, "text"));
-  return absl::OkStatus();
-}
-
-absl::Status GltfFile::OpenChunks(std::span<const std::byte> bytes) {
-  if (bytes.size() < 20 || WordAt(bytes, 0) != 0x46546C67) {
-    return FileError(ErrorReason::kMalformedFile, {},
-                     "is no GLB file: it must begin with 'glTF' and a header");
+absl::Status GltfFile::Parse(std::string_view description) {
+  std::optional<json> parsed = ParseGltfJson(description);
+  if (!parsed.has_value()) {
+    return FileError(ErrorReason::kMalformedFile, {}, "has a description that is no JSON object");
   }
-  if (const std::uint32_t version = WordAt(bytes, 4); version != 2) {
-    return FileError(ErrorReason::kUnsupportedFile, {},
-                     absl::StrCat("is of glTF version ", version, ", must be of version 2"),
-                     ValueAndLimit(version, 2));
-  }
-  const std::size_t length = WordAt(bytes, 8);
-  if (length > bytes.size()) {
-    return FileError(ErrorReason::kMalformedFile, {},
-                     absl::StrCat("ends early: its header claims ", length,
-                                  " bytes, but it has only ", bytes.size()),
-                     ValueAndLimit(length, bytes.size()));
-  }
-  bytes = bytes.first(std::max<std::size_t>(length, 20));
-  bool has_json = false;
-  for (std::size_t offset = 12; offset + 8 <= bytes.size();) {
-    const std::size_t size = WordAt(bytes, offset);
-    const std::uint32_t type = WordAt(bytes, offset + 4);
-    offset += 8;
-    if (size > bytes.size() - offset) {
-      return FileError(ErrorReason::kMalformedFile, {},
-                       absl::StrCat("ends early: a chunk claims ", size, " bytes, but only ",
-                                    bytes.size() - offset, " follow"),
-                       ValueAndLimit(size, bytes.size() - offset));
-    }
-    const std::span<const std::byte> chunk = bytes.subspan(offset, size);
-    if (type == kJsonChunk && !has_json) {
-      CAPFIT_ASSIGN_OR_RETURN(json_, ParseDescription(chunk, "a JSON chunk"));
-      has_json = true;
-    } else if (type == kBinaryChunk && binary_.empty()) {
-      binary_ = chunk;
-    }
-    offset += std::min(bytes.size() - offset, (size + 3) / 4 * 4);
-  }
-  if (!has_json) return FileError(ErrorReason::kMalformedFile, {}, "has no JSON chunk");
+  json_ = *std::move(parsed);
   return absl::OkStatus();
 }
 
@@ -241,12 +151,6 @@ absl::Status GltfFile::Claim(std::size_t bytes, const FilePlace& place) {
   }
   claimed_bytes_ += bytes;
   return absl::OkStatus();
-}
-
-bool LooksLikeGltfText(std::string_view text) {
-  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);  // byte order mark
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  return begin != std::string_view::npos && text[begin] == '{';
 }
 
 }  // namespace capfit::formats

@@ -17,9 +17,6 @@
 
 namespace capfit::formats {
 
-// Whether the text begins as JSON does that describes a file (.gltf).
-[[nodiscard]] bool LooksLikeGltfText(std::string_view text);
-
 class GltfFile {
  public:
   // Checks the header and the lengths of the chunks, parses the JSON, and unpacks buffers that are
@@ -43,8 +40,7 @@ class GltfFile {
 
  private:
   GltfFile() = default;
-  absl::Status OpenChunks(std::span<const std::byte> bytes);
-  absl::Status OpenText(std::span<const std::byte> bytes);
+  absl::Status Parse(std::string_view description);
   absl::Status UnpackBuffers();
   [[nodiscard]] absl::StatusOr<std::span<const std::byte>> Range(const nlohmann::json& view,
                                                                  const FilePlace& place) const;

@@ -6,7 +6,7 @@
 
 #include "core/base/status.h"
 #include "core/formats/file_error.h"
-#include "core/formats/gltf_file.h"
+#include "core/formats/gltf_chunks.h"
 #include "core/formats/read_glb.h"
 #include "core/formats/read_obj.h"
 #include "core/formats/read_off.h"
