@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "absl/strings/str_cat.h"
+#include "core/export/ball_warnings.h"
 #include "core/export/file_text.h"
 #include "core/export/frame.h"
 #include "core/export/joint_frame.h"
@@ -106,18 +107,6 @@ Json RapierShape(const Solid& solid) {
   return {{"shape", "capsule"},
           {"half_height", 0.5 * solid.hull.length_m()},
           {"radius", solid.hull.a().radius_m}};
-}
-
-std::vector<Warning> BallWarnings(const std::vector<Solid>& solids, const std::string& engine) {
-  const auto is_inner = [](const Solid& s) { return s.capsule.has_value() && s.IsBall(); };
-  const auto count = std::count_if(solids.begin(), solids.end(), is_inner);
-  if (count == 0) return {};
-  const auto first = std::find_if(solids.begin(), solids.end(), is_inner);
-  return {{"INNER_SPHERES",
-           absl::StrCat(count, " capsules, the first '", first->name,
-                        "', have one sphere inside the other: for ", engine,
-                        " they are the larger sphere, which is the same solid"),
-           count}};
 }
 
 std::vector<Warning> HullWarnings(const std::vector<Solid>& solids) {
