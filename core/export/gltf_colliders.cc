@@ -13,6 +13,7 @@
 #include "core/export/gltf_extras.h"
 #include "core/export/gltf_preview.h"
 #include "core/export/joint_nodes.h"
+#include "core/export/lathe.h"
 #include "core/export/solids.h"
 #include "core/formats/read_mesh.h"
 
@@ -74,7 +75,7 @@ class GltfWriter {
     node["extras"]["capfit"] = ExtrasOf(solid);
     if (!options_.has_preview) return;
     const LatheMesh mesh = Lathe(solid, kPreviewSegments, LatheKind::kOnSurface);
-    node["mesh"] = preview_.AddMesh(solid.name, mesh, true);
+    node["mesh"] = preview_.AddMesh(solid.name, mesh.vertices, mesh.normals, mesh.triangles);
   }
 
   std::size_t AddShape(const Solid& solid) {

@@ -175,6 +175,8 @@ std::size_t GltfDocument::AddNode(json node, std::optional<std::size_t> parent) 
 }
 
 Eigen::Affine3d GltfDocument::ToWorld(std::size_t node) const {
+  const auto placed = placed_.find(node);
+  if (placed != placed_.end()) return placed->second;
   Eigen::Affine3d to_world = Eigen::Affine3d::Identity();
   if (node < nodes_.to_world.size()) to_world.matrix() = nodes_.to_world[node];
   return to_world;
@@ -194,6 +196,7 @@ std::size_t GltfDocument::AddPlacedNode(const std::string& name, const Eigen::Is
   std::vector<json> nodes = NodesOf(local.linear(), local.translation());
   nodes.back()["name"] = name;
   for (json& node : nodes) parent = AddNode(std::move(node), parent);
+  placed_.emplace(parent, world);
   return parent;
 }
 

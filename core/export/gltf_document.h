@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -38,7 +39,8 @@ class GltfDocument {
   std::size_t Add(const char* key, nlohmann::json value);
   // Adds a node below `parent`, or without one at the root of the scene.
   std::size_t AddNode(nlohmann::json node, std::optional<std::size_t> parent);
-  // Where a node stands: those added here are taken to stand at the origin.
+  // Where a node stands, of the file's own or added by AddPlacedNode; the scene's origin for those
+  // that AddNode added.
   [[nodiscard]] Eigen::Affine3d ToWorld(std::size_t node) const;
   // Whether the node flattens nothing that is below it.
   [[nodiscard]] bool HasInverse(std::size_t node) const;
@@ -65,6 +67,7 @@ class GltfDocument {
   std::string binary_;               // the binary chunk
   std::vector<std::string> others_;  // chunks of other types
   formats::GltfNodes nodes_;
+  std::map<std::size_t, Eigen::Isometry3d> placed_;
 };
 
 }  // namespace capfit::exports

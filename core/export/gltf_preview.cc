@@ -18,6 +18,7 @@ constexpr int kVertices = 34962;
 constexpr int kIndices = 34963;
 constexpr int kFloat = 5126;
 constexpr int kUnsignedShort = 5123;
+constexpr int kUnsignedInt = 5125;
 
 template <typename Number>
 std::string_view BytesOf(const std::vector<Number>& numbers) {
@@ -51,15 +52,14 @@ std::size_t GltfPreview::AddVectors(const std::vector<Eigen::Vector3d>& vectors,
   return document_.Add("accessors", std::move(accessor));
 }
 
-std::size_t GltfPreview::AddIndices(const LatheMesh& mesh) {
-  std::vector<std::uint16_t> indices;
-  for (const std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle) {
-      indices.push_back(static_cast<std::uint16_t>(corner));
-    }
+template <typename Index>
+std::size_t GltfPreview::AddIndices(const std::vector<Corners>& triangles, int component_type) {
+  std::vector<Index> indices;
+  for (const Corners& triangle : triangles) {
+    for (const std::uint32_t corner : triangle) indices.push_back(static_cast<Index>(corner));
   }
   return document_.Add("accessors", {{"bufferView", document_.AddView(BytesOf(indices), kIndices)},
-                                     {"componentType", kUnsignedShort},
+                                     {"componentType", component_type},
                                      {"count", indices.size()},
                                      {"type", "SCALAR"}});
 }
@@ -75,13 +75,19 @@ std::size_t GltfPreview::Material() {
   return *material_;
 }
 
-std::size_t GltfPreview::AddMesh(const std::string& name, const LatheMesh& mesh, bool has_normals) {
-  json attributes = {{"POSITION", AddVectors(mesh.vertices, true)}};
-  if (has_normals) attributes["NORMAL"] = AddVectors(mesh.normals, false);
-  json primitive = {{"attributes", std::move(attributes)},
-                    {"indices", AddIndices(mesh)},
-                    {"material", Material()}};
-  return document_.Add("meshes", {{"name", name}, {"primitives", {std::move(primitive)}}});
+std::size_t GltfPreview::AddMesh(const std::string& name,
+                                 const std::vector<Eigen::Vector3d>& vertices,
+                                 const std::vector<Eigen::Vector3d>& normals,
+                                 const std::vector<Corners>& triangles) {
+  json attributes = {{"POSITION", AddVectors(vertices, true)}};
+  if (!normals.empty()) attributes["NORMAL"] = AddVectors(normals, false);
+  const std::size_t indices = vertices.size() <= std::numeric_limits<std::uint16_t>::max()
+                                  ? AddIndices<std::uint16_t>(triangles, kUnsignedShort)
+                                  : AddIndices<std::uint32_t>(triangles, kUnsignedInt);
+  json primitive = {
+      {"attributes", std::move(attributes)}, {"indices", indices}, {"material", Material()}};
+  return document_.Add("meshes",
+                       {{"name", name}, {"primitives", json::array({std::move(primitive)})}});
 }
 
 }  // namespace capfit::exports

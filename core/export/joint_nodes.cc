@@ -7,6 +7,12 @@
 #include "core/formats/gltf_json.h"
 
 namespace capfit::exports {
+namespace {
+
+// How far squared lengths may be from 1: the rounding of floats.
+constexpr double kUnscaled = 1e-5;
+
+}  // namespace
 
 absl::StatusOr<JointNodes> JointNodes::Create(const ColliderSet& set, GltfDocument& document) {
   const std::size_t count = formats::ArrayAt(document.root(), "nodes").size();
@@ -43,6 +49,21 @@ std::size_t JointNodes::AddNode(const std::string& name, const Eigen::Isometry3d
   const std::optional<std::size_t> node = NodeOf(joint);
   if (node.has_value()) return document_.AddPlacedNode(name, world, *node);
   return document_.AddPlacedNode(name, world, Root());
+}
+
+std::size_t JointNodes::UnscaledNodeOf(std::int32_t joint) {
+  const std::optional<std::size_t> node = NodeOf(joint);
+  if (!node.has_value()) return Root();
+  const Eigen::Affine3d to_world = document_.ToWorld(*node);
+  const Eigen::Matrix3d squared = to_world.linear().transpose() * to_world.linear();
+  if (squared.isIdentity(kUnscaled)) return *node;
+  const auto [found, is_new] = unscaled_.try_emplace(*node, 0);
+  if (is_new) {
+    const Eigen::Isometry3d moved(Eigen::Translation3d(to_world.translation()));
+    found->second = document_.AddPlacedNode(
+        absl::StrCat("capfit_", set_.joints[static_cast<std::size_t>(joint)].name), moved, *node);
+  }
+  return found->second;
 }
 
 std::vector<Warning> JointNodes::TakeWarnings() && {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ class JointNodes {
   // Adds a node that stands at `world`, named, below the node of `joint`; without one below the
   // node "capfit_colliders", which is added once. Returns its index.
   std::size_t AddNode(const std::string& name, const Eigen::Isometry3d& world, std::int32_t joint);
+  // The same node as NodeOf where things below it keep their size, else one that is added below it
+  // and undoes its scale (once for each); "capfit_colliders" where there is none.
+  std::size_t UnscaledNodeOf(std::int32_t joint);
 
   // JOINT_FLATTENS where joints had to be passed over.
   [[nodiscard]] std::vector<Warning> TakeWarnings() &&;
@@ -38,6 +42,7 @@ class JointNodes {
   GltfDocument& document_;
   std::optional<std::size_t> root_;
   std::vector<char> is_passed_over_;  // of each joint
+  std::map<std::size_t, std::size_t> unscaled_;
 };
 
 }  // namespace capfit::exports

@@ -2,9 +2,9 @@
 //
 //   export_samples BODY FORMAT OUTDIR [MAX_PRIMITIVES]
 //
-// FORMAT: a name of kFormats, or "all". Writes OUTDIR/expected.json (see sample_set.h), the files
-// of each format, and OUTDIR/warnings.json: {FORMAT: [{code, message}]}. Exit code 2: bad use or
-// unreadable body.
+// FORMAT: a name of Formats(), or "all" that take the body. Writes OUTDIR/expected.json (see
+// sample_set.h), the files of each format, and OUTDIR/warnings.json: {FORMAT: [{code, message}]}.
+// Exit code 2: bad use or unreadable body.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +16,15 @@
 #include <vector>
 
 #include "core/export/gltf_colliders.h"
+#include "core/export/mesh_hulls.h"
+#include "core/export/mujoco.h"
+#include "core/export/nvcloth.h"
+#include "core/export/physics_json.h"
+#include "core/export/table.h"
+#include "core/export/unity.h"
+#include "core/export/unreal.h"
+#include "core/export/urdf.h"
+#include "core/export/vrm_colliders.h"
 #include "tests/readers/sample_set.h"
 
 namespace {
@@ -46,10 +55,51 @@ absl::StatusOr<Exported> WriteGltfPreview(const ColliderSet& set, const std::str
   return exported;
 }
 
+absl::StatusOr<Exported> WriteVrmSample(const ColliderSet& set, const std::string& original) {
+  return capfit::exports::WriteVrm(set, BytesOf(original));
+}
+
+absl::StatusOr<Exported> WriteHullsSample(const ColliderSet& set, const std::string&) {
+  return capfit::exports::WriteHulls(set);
+}
+
+absl::StatusOr<Exported> WriteUnionSample(const ColliderSet& set, const std::string&) {
+  return capfit::exports::WriteUnion(set);
+}
+
+// Of a format that needs nothing but the set, and cannot fail.
+template <Exported (*kWrite)(const ColliderSet&)>
+absl::StatusOr<Exported> WriteAlone(const ColliderSet& set, const std::string&) {
+  return kWrite(set);
+}
+
+absl::StatusOr<Exported> WriteMujocoSample(const ColliderSet& set, const std::string&) {
+  return capfit::exports::WriteMujoco(set);
+}
+
+absl::StatusOr<Exported> WriteMujocoMeshes(const ColliderSet& set, const std::string&) {
+  auto exported = capfit::exports::WriteMujoco(set, {.as_meshes = true});
+  if (exported.ok()) exported->files[0].name = "mujoco_meshes.xml";
+  return exported;
+}
+
+absl::StatusOr<Exported> WriteUrdfSample(const ColliderSet& set, const std::string&) {
+  return capfit::exports::WriteUrdf(set);
+}
+
 const std::vector<SampleFormat>& Formats() {
   static const auto& formats = *new std::vector<SampleFormat>{
-      {"gltf", WriteGltfSample},
-      {"gltf_preview", WriteGltfPreview},
+      {"gltf", WriteGltfSample},   {"gltf_preview", WriteGltfPreview}, {"vrm", WriteVrmSample},
+      {"hulls", WriteHullsSample}, {"union", WriteUnionSample},
+      {"unity", WriteAlone<capfit::exports::WriteUnity>},
+      {"unreal", WriteAlone<capfit::exports::WriteUnreal>},
+      {"nvcloth", WriteAlone<capfit::exports::WriteNvCloth>},
+      {"jolt", WriteAlone<capfit::exports::WriteJolt>},
+      {"bullet", WriteAlone<capfit::exports::WriteBullet>},
+      {"rapier", WriteAlone<capfit::exports::WriteRapier>},
+      {"mujoco", WriteMujocoSample}, {"mujoco_meshes", WriteMujocoMeshes},
+      {"urdf", WriteUrdfSample},
+      {"tables", WriteAlone<capfit::exports::WriteTables>},
   };
   return formats;
 }
@@ -86,6 +136,7 @@ void WriteSamples(const ColliderSet& set, const std::string& original, const std
   for (const SampleFormat& format : Formats()) {
     if (wanted != "all" && wanted != format.name) continue;
     const absl::StatusOr<Exported> exported = format.write(set, original);
+    if (wanted == "all" && !exported.ok()) continue;  // a format that wants another kind of body
     if (!exported.ok()) Fail(format.name + ": " + std::string(exported.status().message()));
     for (const auto& file : exported->files) WriteFile(folder / file.name, file.bytes);
     warnings[format.name] = Words(exported->warnings);

@@ -5,7 +5,7 @@
 import { readFileSync } from 'node:fs';
 import validator from 'gltf-validator';
 import { colliderProblems } from './collider_schema.mjs';
-import { check, distance, expectedSolids, finish, near, readJson, splitGlb } from './files.mjs';
+import { check, distance, expectedSolids, finish, near, readJson, same, splitGlb } from './files.mjs';
 import { THREE, loadScene, turn, vector } from './three_scene.mjs';
 
 const [path, expectedPath, originalPath, frame] = process.argv.slice(2);
@@ -29,13 +29,12 @@ function checkOriginal(description, binary) {
     if (['extensionsUsed', 'extensions', 'extras', 'buffers', 'scenes'].includes(key)) continue;
     const now = description[key];
     if (!Array.isArray(value)) {
-      check(JSON.stringify(sorted(value)) === JSON.stringify(sorted(now)), `${key} changed`);
+      check(same(value, now), `${key} changed`);
       continue;
     }
     value.forEach((entry, i) => {
-      const same = key === 'nodes' ? { ...now[i], children: entry.children } : now[i];
-      if (same.children === undefined) delete same.children;
-      check(JSON.stringify(sorted(entry)) === JSON.stringify(sorted(same)), `${key}[${i}] changed`);
+      const kept = key === 'nodes' ? { ...now[i], children: entry.children } : now[i];
+      check(same(entry, kept), `${key}[${i}] changed`);
       const children = entry.children ?? [];
       check(children.every((c, k) => now[i].children[k] === c), `${key}[${i}].children changed`);
     });
@@ -43,12 +42,6 @@ function checkOriginal(description, binary) {
   for (const name of before.description.extensionsUsed ?? []) {
     check(description.extensionsUsed.includes(name), `${name} is no longer declared`);
   }
-}
-
-function sorted(value) {
-  if (Array.isArray(value)) return value.map(sorted);
-  if (value === null || typeof value !== 'object') return value;
-  return Object.fromEntries(Object.keys(value).sort().map((key) => [key, sorted(value[key])]));
 }
 
 // Where a reader finds the ends of each collider now: by name, centres in the scene, radii.

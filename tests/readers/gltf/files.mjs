@@ -52,6 +52,16 @@ export function expectedSolids(expected, rows, scale) {
   return solids;
 }
 
+// Whether two values of JSON are equal, in whatever order their members come.
+export function same(a, b) {
+  if (Array.isArray(a)) {
+    return Array.isArray(b) && a.length === b.length && a.every((entry, i) => same(entry, b[i]));
+  }
+  if (a === null || b === null || typeof a !== 'object' || typeof b !== 'object') return a === b;
+  const keys = (o) => Object.keys(o).filter((key) => o[key] !== undefined);
+  return keys(a).length === keys(b).length && keys(a).every((key) => same(a[key], b[key]));
+}
+
 let failures = 0;
 // Says what is wrong; the program ends with 1 where it was called (see finish).
 export function check(is_so, message) {
