@@ -36,7 +36,7 @@ bool IsPrintableAscii(char c) { return static_cast<unsigned char>(c) < 0x80 && !
 Statement StatementOf(const ColliderSet& set, const std::string& format, const Frame& frame,
                       const std::string& axis) {
   return {{"format", format},
-          {"format_version", "1"},  // raised when a reader of older files would misread it
+          {"format_version", absl::StrCat(kFormatVersion)},
           {"capfit", set.version},
           {"source", set.source},
           {"frame", std::string(frame.name)},
@@ -53,10 +53,11 @@ std::string StatementLines(const Statement& statement, const std::string& before
   return lines;
 }
 
-std::string NumberText(double number) { return Shortest(number); }
+// (Adding 0 makes +0 of -0.)
+std::string NumberText(double number) { return Shortest(number + 0.0); }
 
 std::string FloatText(float number) {
-  std::string text = Shortest(number);
+  std::string text = Shortest(number + 0.0F);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }

@@ -12,6 +12,9 @@
 
 namespace capfit::exports {
 
+// Of every file here; raised when a reader of older files would misread a new one.
+inline constexpr int kFormatVersion = 1;
+
 // What every file says of itself: keys and values, in the order to be written: "format",
 // "format_version", "capfit" (its version), "source", "frame", "axis", "profile".
 using Statement = std::vector<std::pair<std::string, std::string>>;

@@ -5,19 +5,37 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
+std::string Compact(const OrderedJson& value) {
+  return value.dump(-1, ' ', true, OrderedJson::error_handler_t::replace);
+}
+
+// Entries of lists one a line.
+std::string MemberText(const OrderedJson& member) {
+  if (!member.is_array() || member.empty()) return Compact(member);
+  std::string text = "[";
+  for (const OrderedJson& entry : member) {
+    text += (text.size() == 1 ? "\n  " : ",\n  ") + Compact(entry);
+  }
+  return text + "\n ]";
+}
+
 }  // namespace
 
 OrderedJson StatementJson(const Statement& statement) {
   OrderedJson json = OrderedJson::object();
   for (const auto& [key, value] : statement) json[key] = value;
+  json["format_version"] = kFormatVersion;
   return json;
 }
 
 std::string JsonText(const OrderedJson& json) {
-  return json.dump(1, ' ', true, OrderedJson::error_handler_t::replace) + "\n";
+  std::string text = "{";
+  for (const auto& [key, member] : json.items()) {
+    text += (text.size() == 1 ? "\n " : ",\n ") + Compact(key) + ": " + MemberText(member);
+  }
+  return text + "\n}\n";
 }
 
-// The library's own way of mending bytes: out as a string of JSON, and in again.
 std::string ValidUtf8(const std::string& text) {
   const std::string quoted = OrderedJson(text).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   return OrderedJson::parse(quoted).get<std::string>();

@@ -12,7 +12,8 @@ namespace capfit::exports {
 // An object with the statement's members, to which a format adds its own.
 [[nodiscard]] nlohmann::ordered_json StatementJson(const Statement& statement);
 
-// ASCII, one space of indentation; bytes that are no UTF-8 become U+FFFD.
+// The text of an object: ASCII, a line for each member and for each entry of those that are lists;
+// bytes that are no UTF-8 become U+FFFD.
 [[nodiscard]] std::string JsonText(const nlohmann::ordered_json& json);
 
 // The same text, bytes that are no UTF-8 replaced by U+FFFD.

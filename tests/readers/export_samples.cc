@@ -2,7 +2,8 @@
 //
 //   export_samples BODY FORMAT OUTDIR [MAX_PRIMITIVES]
 //
-// FORMAT: a name of Formats(), or "all" that take the body. Writes OUTDIR/expected.json (see
+// FORMAT: names of Formats() with commas between, or "all" that take the body. BODY "-" is no file but
+// the made-up set of edge_set.h. Writes OUTDIR/expected.json (see
 // sample_set.h), the files of each format, and OUTDIR/warnings.json: {FORMAT: [{code, message}]}.
 // Exit code 2: bad use or unreadable body.
 #include <cstdio>
@@ -11,7 +12,9 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <set>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -25,6 +28,7 @@
 #include "core/export/unreal.h"
 #include "core/export/urdf.h"
 #include "core/export/vrm_colliders.h"
+#include "tests/readers/edge_set.h"
 #include "tests/readers/sample_set.h"
 
 namespace {
@@ -128,13 +132,21 @@ json Words(const std::vector<capfit::Warning>& warnings) {
   return words;
 }
 
+std::set<std::string> Words(const std::string& list) {
+  std::set<std::string> words;
+  std::istringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');) words.insert(word);
+  return words;
+}
+
 void WriteSamples(const ColliderSet& set, const std::string& original, const std::string& wanted,
                   const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   WriteFile(folder / "expected.json", capfit::readers::Expected(set).dump(1));
   json warnings = json::object();
+  const std::set<std::string> words = Words(wanted);
   for (const SampleFormat& format : Formats()) {
-    if (wanted != "all" && wanted != format.name) continue;
+    if (wanted != "all" && !words.contains(format.name)) continue;
     const absl::StatusOr<Exported> exported = format.write(set, original);
     if (wanted == "all" && !exported.ok()) continue;  // a format that wants another kind of body
     if (!exported.ok()) Fail(format.name + ": " + std::string(exported.status().message()));
@@ -149,6 +161,10 @@ void WriteSamples(const ColliderSet& set, const std::string& original, const std
 int main(int argc, char** argv) {
   if (argc < 4 || argc > 5) Fail("use: export_samples BODY FORMAT OUTDIR [MAX_PRIMITIVES]");
   const std::string path = argv[1];
+  if (path == "-") {
+    WriteSamples(capfit::readers::EdgeSet(), "", argv[2], argv[3]);
+    return 0;
+  }
   const std::string bytes = Read(path);
   capfit::pipeline::FitOptions options;
   options.parts = {true, true, true, true, true, true};
