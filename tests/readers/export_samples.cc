@@ -2,23 +2,23 @@
 //
 //   export_samples BODY FORMAT OUTDIR [MAX_PRIMITIVES]
 //
-// FORMAT: a name of Formats(), or "all" that take the body. Writes OUTDIR/expected.json (see
-// sample_set.h), the files of each format, and OUTDIR/warnings.json: {FORMAT: [{code, message}]}.
-// Exit code 2: bad use or unreadable body.
+// FORMAT: names of Formats() with commas between, or "all" that take the body. BODY "-" is no file
+// but the made-up set of edge_set.h. Writes OUTDIR/expected.json (see sample_set.h), the files of
+// each format, and OUTDIR/warnings.json: {FORMAT: [{code, message}]}. Exit code 2: bad use or
+// unreadable body.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
+#include <set>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
-#include "core/export/gltf_colliders.h"
-#include "core/export/mesh_hulls.h"
-#include "core/export/usd_colliders.h"
-#include "core/export/vrm_colliders.h"
+#include "core/export/export.h"
+#include "tests/readers/edge_set.h"
 #include "tests/readers/sample_set.h"
 
 namespace {
@@ -27,58 +27,31 @@ using capfit::exports::ColliderSet;
 using capfit::exports::Exported;
 using nlohmann::json;
 
-// `original`: the bytes of the body's own file.
-using Write = std::function<absl::StatusOr<Exported>(const ColliderSet&, const std::string&)>;
-
+// A format, or one with an option, whose first file then has a name of its own.
 struct SampleFormat {
   std::string name;
-  Write write;
+  std::string format;
+  capfit::exports::ExportOptions options;
+  std::string file;  // empty: as it is
 };
 
-std::span<const std::byte> BytesOf(const std::string& text) {
-  return std::as_bytes(std::span(text));
-}
-
-absl::StatusOr<Exported> WriteGltfSample(const ColliderSet& set, const std::string& original) {
-  return capfit::exports::WriteGltf(set, BytesOf(original));
-}
-
-absl::StatusOr<Exported> WriteGltfPreview(const ColliderSet& set, const std::string& original) {
-  auto exported = capfit::exports::WriteGltf(set, BytesOf(original), {.has_preview = true});
-  if (exported.ok()) exported->files[0].name = "preview.glb";
-  return exported;
-}
-
-absl::StatusOr<Exported> WriteVrmSample(const ColliderSet& set, const std::string& original) {
-  return capfit::exports::WriteVrm(set, BytesOf(original));
-}
-
-absl::StatusOr<Exported> WriteHullsSample(const ColliderSet& set, const std::string&) {
-  return capfit::exports::WriteHulls(set);
-}
-
-absl::StatusOr<Exported> WriteUnionSample(const ColliderSet& set, const std::string&) {
-  return capfit::exports::WriteUnion(set);
-}
-
-absl::StatusOr<Exported> WriteUsdSample(const ColliderSet& set, const std::string&) {
-  return capfit::exports::WriteUsd(set);
-}
-
-absl::StatusOr<Exported> WriteUniformUsd(const ColliderSet& set, const std::string&) {
-  auto exported = capfit::exports::WriteUsd(set, {.is_tapered = false});
-  if (exported.ok()) exported->files[0].name = "uniform.usda";
-  return exported;
-}
-
-const std::vector<SampleFormat>& Formats() {
-  static const auto& formats = *new std::vector<SampleFormat>{
-      {"gltf", WriteGltfSample},   {"gltf_preview", WriteGltfPreview},
-      {"vrm", WriteVrmSample},     {"usd", WriteUsdSample},
-      {"hulls", WriteHullsSample}, {"usd_uniform", WriteUniformUsd},
-      {"union", WriteUnionSample},
-  };
+std::vector<SampleFormat> Formats() {
+  std::vector<SampleFormat> formats;
+  for (const capfit::exports::ExportFormat& format : capfit::exports::ExportFormats()) {
+    formats.push_back({std::string(format.name), std::string(format.name), {}, ""});
+  }
+  formats.push_back({"gltf_preview", "gltf", {.has_preview = true}, "preview.glb"});
+  formats.push_back({"usd_uniform", "usd", {.is_plain = true}, "uniform.usda"});
+  formats.push_back({"mujoco_meshes", "mujoco", {.is_plain = true}, "mujoco_meshes.xml"});
   return formats;
+}
+
+absl::StatusOr<Exported> WriteSample(const SampleFormat& format, const ColliderSet& set,
+                                     const std::string& original) {
+  absl::StatusOr<Exported> exported = capfit::exports::Export(
+      set, format.format, std::as_bytes(std::span(original)), format.options);
+  if (exported.ok() && !format.file.empty()) exported->files[0].name = format.file;
+  return exported;
 }
 
 [[noreturn]] void Fail(const std::string& message) {
@@ -105,14 +78,22 @@ json Words(const std::vector<capfit::Warning>& warnings) {
   return words;
 }
 
+std::set<std::string> Words(const std::string& list) {
+  std::set<std::string> words;
+  std::istringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');) words.insert(word);
+  return words;
+}
+
 void WriteSamples(const ColliderSet& set, const std::string& original, const std::string& wanted,
                   const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   WriteFile(folder / "expected.json", capfit::readers::Expected(set).dump(1));
   json warnings = json::object();
+  const std::set<std::string> words = Words(wanted);
   for (const SampleFormat& format : Formats()) {
-    if (wanted != "all" && wanted != format.name) continue;
-    const absl::StatusOr<Exported> exported = format.write(set, original);
+    if (wanted != "all" && !words.contains(format.name)) continue;
+    const absl::StatusOr<Exported> exported = WriteSample(format, set, original);
     if (wanted == "all" && !exported.ok()) continue;  // a format that wants another kind of body
     if (!exported.ok()) Fail(format.name + ": " + std::string(exported.status().message()));
     for (const auto& file : exported->files) WriteFile(folder / file.name, file.bytes);
@@ -126,6 +107,10 @@ void WriteSamples(const ColliderSet& set, const std::string& original, const std
 int main(int argc, char** argv) {
   if (argc < 4 || argc > 5) Fail("use: export_samples BODY FORMAT OUTDIR [MAX_PRIMITIVES]");
   const std::string path = argv[1];
+  if (path == "-") {
+    WriteSamples(capfit::readers::EdgeSet(), "", argv[2], argv[3]);
+    return 0;
+  }
   const std::string bytes = Read(path);
   capfit::pipeline::FitOptions options;
   options.parts = {true, true, true, true, true, true};
