@@ -45,7 +45,7 @@ std::string Printable(std::string_view word, std::size_t most_characters) {
   return word.size() > most_characters ? printable + "..." : printable;
 }
 
-std::string Quoted(std::string_view word) { return "'" + Printable(word) + "'"; }
+std::string Quoted(std::string_view word) { return absl::StrCat("'", Printable(word), "'"); }
 
 absl::Status BadCoordinate(const FilePlace& place, int axis, double value) {
   const CoordinateProblem problem = ProblemOf(value);

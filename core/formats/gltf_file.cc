@@ -58,19 +58,19 @@ absl::Status CheckVersion(const json& gltf) {
 
 }  // namespace
 
-absl::StatusOr<GltfFile> GltfFile::Open(std::span<const std::byte> bytes) {
+absl::StatusOr<GltfFile> GltfFile::Open(std::span<const std::byte> bytes, GltfContent content) {
   GltfFile file;
   CAPFIT_ASSIGN_OR_RETURN(const GltfChunks chunks, SplitGltf(bytes));
   file.binary_ = chunks.binary;
-  CAPFIT_RETURN_IF_ERROR(file.Parse(chunks.description));
+  CAPFIT_RETURN_IF_ERROR(file.Parse(chunks.description, content));
   CAPFIT_RETURN_IF_ERROR(CheckVersion(file.json_));
   CAPFIT_RETURN_IF_ERROR(CheckRequiredExtensions(file.json_));
   CAPFIT_RETURN_IF_ERROR(file.UnpackBuffers());
   return file;
 }
 
-absl::Status GltfFile::Parse(std::string_view description) {
-  std::optional<json> parsed = ParseGltfJson(description);
+absl::Status GltfFile::Parse(std::string_view description, GltfContent content) {
+  std::optional<json> parsed = ParseGltfJson(description, content);
   if (!parsed.has_value()) {
     return FileError(ErrorReason::kMalformedFile, {}, "has a description that is no JSON object");
   }

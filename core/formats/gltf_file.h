@@ -14,6 +14,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/formats/file_error.h"
+#include "core/formats/gltf_json.h"
 
 namespace capfit::formats {
 
@@ -22,8 +23,9 @@ class GltfFile {
   // Checks the header and the lengths of the chunks, parses the JSON, and unpacks buffers that are
   // written in it as base64. INVALID_ARGUMENT says what is wrong; an extension that the file calls
   // required and that changes its geometry in a way not read here is refused by name
-  // (UNSUPPORTED_FILE). Keeps a view of `bytes`.
-  [[nodiscard]] static absl::StatusOr<GltfFile> Open(std::span<const std::byte> bytes);
+  // (UNSUPPORTED_FILE). Keeps a view of `bytes`. `content`: see ParseGltfJson.
+  [[nodiscard]] static absl::StatusOr<GltfFile> Open(std::span<const std::byte> bytes,
+                                                     GltfContent content = GltfContent::kMeshes);
 
   GltfFile(GltfFile&&) = default;
   GltfFile& operator=(GltfFile&&) = default;
@@ -40,7 +42,7 @@ class GltfFile {
 
  private:
   GltfFile() = default;
-  absl::Status Parse(std::string_view description);
+  absl::Status Parse(std::string_view description, GltfContent content);
   absl::Status UnpackBuffers();
   [[nodiscard]] absl::StatusOr<std::span<const std::byte>> Range(const nlohmann::json& view,
                                                                  const FilePlace& place) const;

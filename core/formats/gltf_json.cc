@@ -15,9 +15,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 12> kWanted = {
-    "asset",     "scene",       "scenes", "nodes",     "meshes",     "buffers",
-    "accessors", "bufferViews", "skins",  "materials", "extensions", "extensionsRequired"};
+constexpr std::array<std::string_view, 10> kWanted = {
+    "asset",     "scene",       "scenes", "nodes",      "buffers",
+    "accessors", "bufferViews", "skins",  "extensions", "extensionsRequired"};
 
 constexpr std::size_t kLongestName = 256;
 
@@ -28,6 +28,7 @@ bool IsOneOf(std::string_view name, std::string_view a, std::string_view b) {
 // Takes the parser's events and builds what is wanted.
 class WantedValues final : public json::json_sax_t {
  public:
+  explicit WantedValues(GltfContent content) : content_(content) {}
   json Take() { return std::move(root_); }
 
   bool null() override { return Add(nullptr); }
@@ -57,7 +58,7 @@ class WantedValues final : public json::json_sax_t {
   // Of a member of the object that is open.
   [[nodiscard]] bool IsWanted(std::string_view name) const {
     const std::size_t depth = open_.size();
-    if (depth == 1) return std::find(kWanted.begin(), kWanted.end(), name) != kWanted.end();
+    if (depth == 1) return IsSectionWanted(name);
     if (section_ == "materials") return depth == 3 && name == "name";
     if (section_ == "extensions") {
       if (depth == 2) return IsOneOf(name, "VRM", "VRMC_vrm");
@@ -65,6 +66,12 @@ class WantedValues final : public json::json_sax_t {
       if (depth == 4) return name == "humanBones";
     }
     return name != "extras";
+  }
+
+  [[nodiscard]] bool IsSectionWanted(std::string_view name) const {
+    if (name == "animations") return content_ == GltfContent::kAnimations;
+    if (IsOneOf(name, "meshes", "materials")) return content_ == GltfContent::kMeshes;
+    return std::find(kWanted.begin(), kWanted.end(), name) != kWanted.end();
   }
 
   bool Add(json value) {
@@ -108,6 +115,7 @@ class WantedValues final : public json::json_sax_t {
     return &member;
   }
 
+  GltfContent content_;
   json root_;
   std::vector<json*> open_;
   std::string key_;
@@ -118,8 +126,8 @@ class WantedValues final : public json::json_sax_t {
 
 }  // namespace
 
-std::optional<json> ParseGltfJson(std::string_view text) {
-  WantedValues values;
+std::optional<json> ParseGltfJson(std::string_view text, GltfContent content) {
+  WantedValues values(content);
   if (!json::sax_parse(text.begin(), text.end(), &values)) return std::nullopt;
   json root = values.Take();
   if (!root.is_object()) return std::nullopt;

@@ -14,12 +14,17 @@
 
 namespace capfit::formats {
 
-// The object that the text describes, without images, animations and extras, which may be large, of
+// What of a description is wanted.
+enum class GltfContent { kMeshes, kAnimations };
+
+// The object that the text describes, without images and extras, which may be large, and without
+// animations (or without meshes and materials, where it is the animations that are wanted), of
 // materials only the names, of the file's own extensions only VRM's table of human bones; nothing
 // where it is no JSON object. O(text).
 //
 // Not json::parse with a callback: that searches the whole array again for each of its elements.
-[[nodiscard]] std::optional<nlohmann::json> ParseGltfJson(std::string_view text);
+[[nodiscard]] std::optional<nlohmann::json> ParseGltfJson(
+    std::string_view text, GltfContent content = GltfContent::kMeshes);
 
 // json[key], or null where it is absent or `json` is no object.
 [[nodiscard]] const nlohmann::json& ValueAt(const nlohmann::json& json, const char* key);
