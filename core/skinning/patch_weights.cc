@@ -88,7 +88,7 @@ class Viewer {
   }
 
   // Without the 1.
-  static float SquareOf(const Eigen::Array4f& to) { return Dot(to, to) - 1.0F; }
+  static float SquareOf(const Eigen::Array4f& to) { return to.head<3>().square().sum(); }
 
   // Roughly the sum of the weights' sizes.
   void AddSizes(const SurfacePatch& patch, float& sizes) const {

@@ -204,9 +204,10 @@ Row RowOf(const Eigen::Vector3d& center, const SurfaceTree& tree, const SparseCa
 SparseWeights SparseMeanValueWeights(const mesh::BodyMesh& mesh,
                                      std::span<const Eigen::Vector3d> centers_m,
                                      const ThreadPool& pool, const FitObserver& observer,
+                                     std::span<const std::uint8_t> parts,
                                      const std::optional<Carriers>& carriers) {
   const SparseCarriers sparse(mesh, carriers);
-  const SurfaceTree tree(mesh);
+  const SurfaceTree tree(mesh, parts);
   std::vector<Row> rows(centers_m.size());
   pool.ForEach(rows.size(), [&](std::size_t i) {
     if (!observer.IsCancelled()) rows[i] = RowOf(centers_m[i], tree, sparse);

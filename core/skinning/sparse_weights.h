@@ -42,7 +42,9 @@ inline constexpr std::size_t kLeastSparseWeights = 32;
 // one move the centre as the dense weights do: within 2 mm of them over a walk. Centres in the trunk
 // take up to kMostSparseWeights, those of limbs some 60.
 //
-// `mesh` and `carriers` as in MeanValueWeights; of welded copies one carries. O(vertices log n +
+// `parts`: for each of the mesh's vertices which part of the body it belongs to, below 16 (patches
+// keep them apart, which matters where an arm is near the trunk); empty: nobody knows. `mesh` and
+// `carriers` as in MeanValueWeights; of welded copies one carries. O(vertices log n +
 // centres): for 64 centres and 25k triangles a tenth of the time of the dense form, for larger
 // meshes less. Every row depends on its own centre only, and its bits on nothing else. Cancelled:
 // rows not reached are empty.
@@ -50,6 +52,7 @@ inline constexpr std::size_t kLeastSparseWeights = 32;
                                                    std::span<const Eigen::Vector3d> centers_m,
                                                    const ThreadPool& pool,
                                                    const FitObserver& observer,
+                                                   std::span<const std::uint8_t> parts = {},
                                                    const std::optional<Carriers>& carriers = {});
 
 // As for dense weights: `vertices` are the caller's, weights.vertex_count of them, in any frame and

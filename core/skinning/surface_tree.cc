@@ -9,15 +9,16 @@ namespace capfit::skinning {
 namespace {
 
 // Vertices are put in order by the halvings of a box around the mesh: nine times along each axis, to
-// some 3 mm on a body. In the last five the normal's components are halved as well, so that opposite
-// normals count like places some 10 cm apart, the thickness of an arm: else patches between arm and
-// trunk would hold skin of both.
+// some 3 mm on a body. In the last three the normal's components are halved as well, so that opposite
+// normals count like places some 3 cm apart. Before all that they are put in order by part: else
+// patches between arm and trunk would hold skin of both.
+constexpr int kPartBits = 4;
 constexpr int kPlaceBits = 9;
-constexpr int kNormalBits = 5;
+constexpr int kNormalBits = 3;
 // The vertex's index is in the lowest bits; meshes have at most 2 million vertices.
 constexpr int kIndexBits = 22;
-constexpr int kKeyBits = 3 * (kPlaceBits + kNormalBits) + kIndexBits;
-static_assert(kKeyBits == 64);
+constexpr int kKeyBits = kPartBits + 3 * (kPlaceBits + kNormalBits) + kIndexBits;
+static_assert(kKeyBits <= 64);
 // Patches of so few vertices are not divided further.
 constexpr std::size_t kFewVertices = 4;
 
@@ -72,7 +73,8 @@ std::vector<Eigen::Array4f> SharesOf(const mesh::BodyMesh& mesh) {
 
 // Of each vertex, its index in the lowest bits.
 std::vector<std::uint64_t> KeysOf(const mesh::BodyMesh& mesh,
-                                  const std::vector<Eigen::Array4f>& shares) {
+                                  const std::vector<Eigen::Array4f>& shares,
+                                  std::span<const std::uint8_t> parts) {
   constexpr auto kPlaces = static_cast<float>(1u << kPlaceBits);
   constexpr auto kHalfNormals = 0.5F * static_cast<float>(1u << kNormalBits);
   const auto per_place = kPlaces / static_cast<float>((mesh.box_max() - mesh.box_min()).maxCoeff());
@@ -81,7 +83,8 @@ std::vector<std::uint64_t> KeysOf(const mesh::BodyMesh& mesh,
     const float area = shares[v][3];
     const Eigen::Array4f normal = shares[v] * (area > 0.0F ? kHalfNormals / area : 0.0F) + kHalfNormals;
     const Eigen::Array4f place = Relative(mesh.vertices()[v], mesh.box_min()) * per_place;
-    keys[v] = KeyOf(place, normal) << kIndexBits | v;
+    const std::uint64_t part = parts.empty() ? 0 : parts[v];
+    keys[v] = (part << 3 * (kPlaceBits + kNormalBits) | KeyOf(place, normal)) << kIndexBits | v;
   }
   return keys;
 }
@@ -183,7 +186,7 @@ class Builder {
 
 }  // namespace
 
-SurfaceTree::SurfaceTree(const mesh::BodyMesh& mesh)
+SurfaceTree::SurfaceTree(const mesh::BodyMesh& mesh, std::span<const std::uint8_t> parts)
     : mesh_(mesh),
       origin_(0.5 * (mesh.box_min() + mesh.box_max())),
       shares_(SharesOf(mesh)),
@@ -193,7 +196,7 @@ SurfaceTree::SurfaceTree(const mesh::BodyMesh& mesh)
   for (const mesh::Triangle& t : mesh.triangles()) {
     for (const std::uint32_t v : t) half_edges_[v] = h++;
   }
-  std::vector<std::uint64_t> keys = KeysOf(mesh, shares_);
+  std::vector<std::uint64_t> keys = KeysOf(mesh, shares_, parts);
   Sort(keys);
   order_.reserve(keys.size());
   constexpr std::uint64_t kIndex = (std::uint64_t{1} << kIndexBits) - 1;

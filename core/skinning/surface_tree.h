@@ -15,8 +15,7 @@
 
 namespace capfit::skinning {
 
-// Vertices that lie together and face alike: the skin of an arm and that of the trunk beside it are
-// apart. Floats: weights that are made of them are mended afterwards.
+// Vertices of one part of the body that lie together and face alike. Floats: weights that are made of them are mended afterwards.
 struct SurfacePatch {
   // Area-weighted mean of its vertices, relative to SurfaceTree::origin(), and a 1.
   Eigen::Array4f middle = Eigen::Array4f(0.0F, 0.0F, 0.0F, 1.0F);
@@ -34,8 +33,9 @@ struct SurfacePatch {
 
 class SurfaceTree {
  public:
-  // The mesh must outlive the tree. O(n): some 0.05 us a vertex.
-  explicit SurfaceTree(const mesh::BodyMesh& mesh);
+  // `parts`: for each vertex which part of the body it belongs to, below 16; patches keep them
+  // apart. Empty: nobody knows. The mesh must outlive the tree. O(n): some 0.05 us a vertex.
+  SurfaceTree(const mesh::BodyMesh& mesh, std::span<const std::uint8_t> parts);
 
   [[nodiscard]] const mesh::BodyMesh& mesh() const { return mesh_; }
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
