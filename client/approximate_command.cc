@@ -70,7 +70,7 @@ absl::StatusOr<pipeline::FitResult> FitBody(const ApproximateArguments& argument
 // Everything that will be written; NOT_FOUND names what cannot be.
 absl::Status CheckOutputs(const ApproximateArguments& arguments) {
   const bool is_stream = arguments.output == "-";
-  const bool has_weights = arguments.fit.options.skinning != pipeline::SkinningMode::kNone;
+  const bool has_weights = arguments.fit.options.skinning == pipeline::SkinningMode::kDense;
   const bool has_gaps = arguments.fit.options.want_vertex_gaps;
   if (is_stream && (has_weights || has_gaps)) {
     return InvalidField(ErrorReason::kConflict,

@@ -148,7 +148,8 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
       ->group(kWhatToFit);
   AddBudget(command, flags);
   AddWordOption(command, "--skinning", options.skinning, SkinningWords(),
-                "dense: mean value coordinates beside RESULT.json")
+                "What carries the centres when the body moves. sparse: weights of some 70 vertices each; "
+                "bones: of the file's joints; both in RESULT.json; dense: of all vertices, beside it")
       ->group(kOutput);
   command
       .add_flag("--heat-map", options.want_vertex_gaps,

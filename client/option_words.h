@@ -33,7 +33,10 @@ inline Words<pipeline::Quality> QualityWords() {
   return {{"paper", pipeline::Quality::kPaper}, {"tight", pipeline::Quality::kTight}};
 }
 inline Words<pipeline::SkinningMode> SkinningWords() {
-  return {{"none", pipeline::SkinningMode::kNone}, {"dense", pipeline::SkinningMode::kDense}};
+  return {{"none", pipeline::SkinningMode::kNone},
+          {"dense", pipeline::SkinningMode::kDense},
+          {"sparse", pipeline::SkinningMode::kSparse},
+          {"bones", pipeline::SkinningMode::kBones}};
 }
 inline Words<section::Sex> SexWords() {
   return {{"auto", section::Sex::kAuto},

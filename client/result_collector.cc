@@ -7,6 +7,7 @@
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/result_conversion.h"
+#include "proto/wire/skinning_conversion.h"
 
 namespace capfit::client {
 namespace {
@@ -64,6 +65,9 @@ absl::Status ResultCollector::AddPart(const v1::ApproximateBodyResponse& respons
     case Response::kPrimitives:
       return wire::PrimitivesFromWire(response.primitives(), result_);
     case Response::kSkinning:
+      if (!response.skinning().has_dense()) {
+        return wire::FewWeightsFromWire(response.skinning(), result_);
+      }
       if (!result_.weights) result_.weights.emplace();
       return wire::AppendWeights(response.skinning(), *result_.weights);
     case Response::kVertexGaps:

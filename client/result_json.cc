@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/message_json.h"
+#include "client/skinning_json.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/layout_conversion.h"
 #include "proto/wire/result_conversion.h"
@@ -174,6 +175,7 @@ std::string FormatResult(const pipeline::FitResult& result, const std::string& r
   const v1::Summary summary = wire::SummaryToWire(result, request_id);
   ordered_json root = HeadJson(summary);
   AddPrimitives(result, root);
+  AddSkinning(result, root);
   root["landmarks"] = LandmarksJson(result);
   root["warnings"] = WarningsJson(result.warnings);
   root["metrics"] = MetricsJson(summary.metrics());

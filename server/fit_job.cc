@@ -60,10 +60,11 @@ absl::Status FitJob::AddWhole(const v1::ApproximateBodyUnaryRequest& request) {
   NoteUnknownFields(request);
   CAPFIT_RETURN_IF_ERROR(InCallersWords(upload_.AddWhole(request)));
   CAPFIT_RETURN_IF_ERROR(ReadOptions());
-  if (options_.skinning == pipeline::SkinningMode::kNone) return absl::OkStatus();
+  if (options_.skinning != pipeline::SkinningMode::kDense) return absl::OkStatus();
   return InCallersWords(InvalidField(
       ErrorReason::kConflict, "options.skinning",
-      "is dense, which does not fit into one message; ApproximateBody streams the weights"));
+      "is dense, which does not fit into one message; ApproximateBody streams the weights, sparse "
+      "ones fit"));
 }
 
 absl::Status FitJob::ReadOptions() {

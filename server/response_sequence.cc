@@ -1,6 +1,10 @@
 #include "server/response_sequence.h"
 
+#include <optional>
+#include <utility>
+
 #include "proto/wire/result_conversion.h"
+#include "proto/wire/skinning_conversion.h"
 
 namespace capfit::server {
 
@@ -47,7 +51,12 @@ bool ResponseSequence::Fill(v1::ApproximateBodyResponse& response) {
 }
 
 bool ResponseSequence::FillWeights(v1::ApproximateBodyResponse& response) {
-  if (!result_.weights) return false;
+  if (!result_.weights) {
+    if (index_++ > 0) return false;
+    std::optional<v1::SkinningChunk> few = wire::FewWeightsToWire(result_);
+    if (few) *response.mutable_skinning() = *std::move(few);
+    return few.has_value();
+  }
   const wire::WeightBlock block =
       wire::BlockAt(*result_.weights, index_, first_vertex_, max_weights_);
   if (block.sphere_count == 0) return false;

@@ -37,6 +37,8 @@ const std::vector<Feature>& Features() {
       {"quality.paper", [](FitOptions& o) { o.quality = pipeline::Quality::kPaper; }},
       {"quality.tight", [](FitOptions& o) { o.quality = pipeline::Quality::kTight; }},
       {"skinning.dense", [](FitOptions& o) { o.skinning = pipeline::SkinningMode::kDense; }},
+      {"skinning.sparse", [](FitOptions& o) { o.skinning = pipeline::SkinningMode::kSparse; }},
+      {"skinning.bones", [](FitOptions& o) { o.skinning = pipeline::SkinningMode::kBones; }},
       {"option.landmarks",
        [](FitOptions& o) { o.landmarks[body::LandmarkId::kNeck] = Eigen::Vector3d::Zero(); }},
       {"option.mesh_parts",

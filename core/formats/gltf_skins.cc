@@ -1,6 +1,6 @@
 #include "core/formats/gltf_skins.h"
 
-#include <Eigen/LU>  // determinant
+#include <Eigen/LU>  // determinant, inverse
 #include <cmath>
 #include <string>
 #include <utility>
@@ -103,8 +103,9 @@ class SkeletonReader {
                        absl::StrCat("its joint node ", node, " stands nowhere"));
     }
     joint = static_cast<std::int32_t>(skeleton_.joints.size());
-    skeleton_.joints.push_back(
-        {NameAt(json_[node], "name"), position, -1, {}, to_mesh, static_cast<std::int32_t>(node)});
+    skeleton_.joints.push_back({NameAt(json_[node], "name"), position, -1, {}, to_mesh,
+                                static_cast<std::int32_t>(node), to_mesh});
+    has_bind_.push_back(0);
     return joint;
   }
 
@@ -121,14 +122,35 @@ class SkeletonReader {
                                     " matrices"),
                        ValueAndLimit(matrices.count(), nodes.size()));
     }
+    std::vector<Eigen::Matrix4d> inverse_binds;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
       Eigen::Matrix4d inverse_bind;
       for (Eigen::Index k = 0; k < 16; ++k) {
         inverse_bind(k % 4, k / 4) = matrices.At(j, static_cast<std::size_t>(k));
       }
       skin.placings[j] = (nodes_.to_world[nodes[j]] * inverse_bind).topRows<3>();
+      inverse_binds.push_back(inverse_bind);
     }
+    TakeBinds(skin, inverse_binds);
     return absl::OkStatus();
+  }
+
+  // Skins may have their vertices in different spaces: a joint that an earlier skin has told of says
+  // how this one's lies in the first one's.
+  void TakeBinds(const GltfSkin& skin, const std::vector<Eigen::Matrix4d>& inverse_binds) {
+    Eigen::Matrix4d first_from_here = Eigen::Matrix4d::Identity();
+    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+      if (has_bind_[skin.joints[j]] == 0 || !IsPlacing(inverse_binds[j].topRows<3>())) continue;
+      first_from_here.topRows<3>() =
+          skeleton_.joints[skin.joints[j]].bind * inverse_binds[j];
+      break;
+    }
+    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+      if (has_bind_[skin.joints[j]] != 0 || !IsPlacing(inverse_binds[j].topRows<3>())) continue;
+      has_bind_[skin.joints[j]] = 1;
+      skeleton_.joints[skin.joints[j]].bind =
+          (first_from_here * inverse_binds[j].inverse()).topRows<3>();
+    }
   }
 
   absl::Status AddHumanBones() {
@@ -170,6 +192,7 @@ class SkeletonReader {
   const GltfNodes& nodes_;
   const json& json_;
   std::vector<std::int32_t> joint_of_node_;
+  std::vector<char> has_bind_;  // of each joint, whether a skin told its bind
   std::size_t joints_of_skins_ = 0;
   GltfSkeleton skeleton_;
 };

@@ -25,6 +25,11 @@ struct NamedJoint {
   // From the node's own frame to the mesh's; its last column is `position`.
   Placing to_mesh = Placing::Identity();
   std::int32_t node = -1;  // index among the file's nodes, -1 where no file says
+  // From the node's own frame to where the skin has its vertices before joints move them: the
+  // inverse of its inverse bind matrix, in the space of the file's first skin. Where the file says
+  // nothing, `to_mesh`. A vertex that joints hold stands at the sum of weight * to_mesh *
+  // inverse(bind) * stored.
+  Placing bind = Placing::Identity();
 };
 
 // Which joints move a vertex: the strongest four, weights >= 0 that sum to 1; all 0: none does.

@@ -16,6 +16,7 @@
 #include "core/pipeline/take_body.h"
 #include "core/pipeline/to_caller_frame.h"
 #include "core/refine/refine.h"
+#include "core/skinning/one_joint.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -23,6 +24,17 @@ namespace {
 absl::Status CheckCancelled(const FitObserver& observer) {
   if (observer.IsCancelled()) return absl::CancelledError("the caller gave up");
   return absl::OkStatus();
+}
+
+// Whether joints hold vertices of the mesh.
+bool HasRig(const formats::PolygonSoup& soup) {
+  return !soup.joints.empty() && soup.influences.size() == soup.positions.size();
+}
+
+absl::Status NoRig() {
+  return InvalidField(ErrorReason::kConflict, "options.skinning",
+                      "is for bones, but the mesh has no skeleton that holds its vertices; ask for "
+                      "sparse weights, or send a GLB or VRM file with a skin");
 }
 
 // Another set for the same budget, before anything is enclosed.
@@ -49,11 +61,12 @@ class BodyFit {
         result_(result) {}
 
   absl::Status Run(const formats::PolygonSoup& soup) {
+    if (asked_.skinning == SkinningMode::kBones && !HasRig(soup)) return NoRig();
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
     CAPFIT_RETURN_IF_ERROR(BuildWithinLimits());
     CAPFIT_RETURN_IF_ERROR(Cover());
     CAPFIT_RETURN_IF_ERROR(Measure());
-    CAPFIT_RETURN_IF_ERROR(Bind());
+    CAPFIT_RETURN_IF_ERROR(Bind(soup));
     return absl::OkStatus();
   }
 
@@ -240,7 +253,7 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
-  absl::Status Bind() {
+  absl::Status Bind(const formats::PolygonSoup& soup) {
     result_.primitives = ToCallerFrame(set_, caller_from_body_);
     result_.sphere_names = options_.layout ? NamesOf(*options_.layout) : SphereNames(*body_, set_);
     result_.sphere_places = refine::PlacesOf(*body_, set_);
@@ -248,7 +261,9 @@ class BodyFit {
       // An index of a polygon that is not in the result would say nothing.
       for (capsule::SphereOrigin& origin : result_.primitives.origins) origin.polygon = -1;
     }
-    if (options_.skinning == SkinningMode::kNone) return absl::OkStatus();
+    result_.joints = soup.joints;
+    const bool has_rig = HasRig(soup);
+    if (options_.skinning == SkinningMode::kNone && !has_rig) return absl::OkStatus();
     clock_.Begin(Stage::kSkinning);
     // In the body frame, near the origin: the coordinates do not depend on the frame, digits do.
     std::vector<Eigen::Vector3d> centers_m;
@@ -257,8 +272,41 @@ class BodyFit {
     if (const std::optional<body::ShellSurface>& shells = body_->shells) {
       carriers = {shells->vertices_m, shells->nearest_of_mesh, shells->vertex_of_source};
     }
-    result_.weights = skinning::MeanValueWeights(body_->mesh, centers_m, pool_, clock_, carriers);
+    if (options_.skinning == SkinningMode::kDense) {
+      result_.weights = skinning::MeanValueWeights(body_->mesh, centers_m, pool_, clock_, carriers);
+    }
+    if (options_.skinning == SkinningMode::kSparse || has_rig) {
+      std::vector<std::uint8_t> parts;
+      for (const body::Segment segment : body_->vertex_segments) {
+        parts.push_back(static_cast<std::uint8_t>(segment));
+      }
+      BindFew(soup, skinning::SparseMeanValueWeights(body_->mesh, centers_m, pool_, clock_, parts,
+                                                     carriers));
+    }
     return CheckCancelled(clock_);
+  }
+
+  // What follows from the weights of few vertices, which are quick.
+  void BindFew(const formats::PolygonSoup& soup, skinning::SparseWeights sparse) {
+    if (HasRig(soup)) HangOnJoints(soup, sparse);
+    if (options_.skinning == SkinningMode::kSparse) result_.sparse_weights = std::move(sparse);
+  }
+
+  void HangOnJoints(const formats::PolygonSoup& soup, const skinning::SparseWeights& sparse) {
+    std::vector<Eigen::Vector3d> centers;
+    for (const geometry::Sphere& sphere : result_.primitives.spheres) {
+      centers.push_back(sphere.center_m);
+    }
+    std::optional<skinning::BoneWeights> bones = skinning::BonesOfSparse(sparse, centers, soup);
+    if (!bones) return;
+    skinning::OneJoint one =
+        skinning::ChooseJoints(*bones, soup.joints, result_.primitives.capsules);
+    result_.sphere_joints = std::move(one.of_sphere);
+    result_.capsule_joints = std::move(one.of_capsule);
+    for (const double drift : one.sphere_drift) {
+      result_.sphere_joint_drift_m.push_back(body_->body_from_caller.scale * drift);
+    }
+    if (options_.skinning == SkinningMode::kBones) result_.bone_weights = *std::move(bones);
   }
 
   static constexpr int kMaxCirclesPerPolygon = 8;

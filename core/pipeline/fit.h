@@ -17,10 +17,13 @@
 #include "core/body/find_body.h"
 #include "core/capsule/primitive_set.h"
 #include "core/character/find_character.h"
+#include "core/formats/polygon_soup.h"
 #include "core/metrics/measure.h"
 #include "core/refine/layouts/kept_layout.h"
 #include "core/section/feature_polygon.h"
+#include "core/skinning/bone_weights.h"
 #include "core/skinning/mean_value_coordinates.h"
+#include "core/skinning/sparse_weights.h"
 
 namespace capfit::pipeline {
 
@@ -47,7 +50,8 @@ enum class FitMode { kEnclose, kBestFit };
 // kPaper: the published method, its coverage step replaced by a better one. kTight: centres, radii
 // and topology found together (core/refine), under the same budget.
 enum class Quality { kPaper, kTight };
-enum class SkinningMode { kNone, kDense };
+// What carries the centres along: a weight of every vertex; of few vertices; of the skeleton's joints.
+enum class SkinningMode { kNone, kDense, kSparse, kBones };
 
 // How much may be spent. At most one of the three ways: max_primitives; max_spheres and/or
 // max_capsules; polygon_error. None of them: max_primitives 64.
@@ -129,7 +133,18 @@ struct FitResult {
   std::vector<LandmarkResult> landmarks;
   std::vector<PolygonResult> polygons;  // where asked for
   metrics::Metrics metrics;
+  // Where asked for, one of the three.
   std::optional<skinning::DenseWeights> weights;
+  std::optional<skinning::SparseWeights> sparse_weights;
+  std::optional<skinning::BoneWeights> bone_weights;
+  // The skeleton that came with the mesh, in the mesh's frame; empty where none did.
+  std::vector<formats::NamedJoint> joints;
+  // The joint that carries each sphere, and each capsule, best, for engines that hang each on one:
+  // indices into `joints`. Empty without a skeleton that holds vertices.
+  std::vector<std::int32_t> sphere_joints;
+  std::vector<std::int32_t> capsule_joints;
+  // How far that one joint misleads each sphere, in metres: see skinning::OneJoint.
+  std::vector<double> sphere_joint_drift_m;
   // Where asked for: for each of the caller's vertices the signed distance to the boundary of the
   // set's union, in the caller's unit: > 0 outside of the set, < 0 where the set covers it. NaN for
   // vertices of parts that were not selected, and for those of which mending left nothing (no face

@@ -19,6 +19,7 @@ constexpr double kCoverageMs = 80.0;
 constexpr double kCoverageOfRefinedMs = 30.0;
 constexpr double kMetricsMs = 20.0;
 constexpr double kDenseWeightsMs = 400.0;
+constexpr double kSparseWeightsMs = 10.0;
 
 // What is worth a message.
 constexpr double kSmallestStep = 0.005;
@@ -39,7 +40,10 @@ std::array<double, kStageCount> SharesOf(const FitOptions& options) {
   if (is_tight || is_best) set(Stage::kRefine, is_tight ? kRefineMs : kSettleMs);
   set(Stage::kCoverage, is_tight || is_best ? kCoverageOfRefinedMs : kCoverageMs);
   set(Stage::kMetrics, kMetricsMs);
-  if (options.skinning != SkinningMode::kNone) set(Stage::kSkinning, kDenseWeightsMs);
+  if (options.skinning != SkinningMode::kNone) {
+    set(Stage::kSkinning,
+        options.skinning == SkinningMode::kDense ? kDenseWeightsMs : kSparseWeightsMs);
+  }
   const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
   for (double& share : shares) share /= sum;
   return shares;

@@ -13,6 +13,8 @@ constexpr float kFineWeight = 0x1p-9f;
 // The roundings of a row add up to 1e-9 or so: 1e-5 of such a weight.
 constexpr float kAmpleWeight = 0x1p-13f;
 constexpr double kSumTolerance = 1e-10;
+// Of a sparse row's sum, and of its moment as a share of the offsets' size.
+constexpr double kMomentTolerance = 5e-11;
 // Below this share of the absolute sum, a sum of weights is noise and must not be divided by.
 constexpr double kUsableSum = 1e-9;
 // Directions in which the vertices' spread is this much smaller than in others count as flat.
@@ -142,6 +144,48 @@ float* FindFineWeight(std::span<float> row) {
   return largest;
 }
 
+// The vector (1, offset / scale) of each.
+std::vector<Eigen::Vector4d> ScaledMoments(std::span<const Eigen::Vector3d> offsets) {
+  double scale = 0.0;
+  for (const Eigen::Vector3d& offset : offsets) scale = std::max(scale, offset.norm());
+  const double inverse = scale > 0.0 ? 1.0 / scale : 0.0;
+  std::vector<Eigen::Vector4d> moments;
+  moments.reserve(offsets.size());
+  for (const Eigen::Vector3d& offset : offsets) {
+    moments.emplace_back(1.0, inverse * offset.x(), inverse * offset.y(), inverse * offset.z());
+  }
+  return moments;
+}
+
+Eigen::Vector4d Missing(const std::vector<Eigen::Vector4d>& moments,
+                        const std::vector<float>& weights) {
+  Eigen::Vector4d missing(1.0, 0.0, 0.0, 0.0);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    missing -= static_cast<double>(weights[i]) * moments[i];
+  }
+  return missing;
+}
+
+// Four that span the space: each the one that adds most to it for its size, or for the root of it.
+std::array<std::size_t, 4> FourSmall(const std::vector<Eigen::Vector4d>& moments,
+                                     std::span<const double> weights, bool is_strict) {
+  std::vector<Eigen::Vector4d> left;
+  left.reserve(moments.size());
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const double size = std::abs(weights[i]);
+    left.push_back(moments[i] / (is_strict ? size : std::sqrt(size)));
+  }
+  std::array<std::size_t, 4> chosen{};
+  for (std::size_t& one : chosen) {
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (left[i].squaredNorm() > left[one].squaredNorm()) one = i;
+    }
+    const Eigen::Vector4d direction = left[one].normalized();
+    for (Eigen::Vector4d& of : left) of -= direction.dot(of) * direction;
+  }
+  return chosen;
+}
+
 }  // namespace
 
 void MakeLinearlyPrecise(std::span<const Eigen::Vector3d> vertices,
@@ -177,6 +221,33 @@ void MendFloatSum(std::span<float> row) {
     if (std::abs(1.0 - Sum(row)) <= kSumTolerance) return;
   }
   LayOnGrid(row);
+}
+
+std::vector<float> RoundPrecisely(std::span<const Eigen::Vector3d> offsets,
+                                  std::span<const double> weights) {
+  std::vector<float> best(weights.begin(), weights.end());
+  if (weights.size() < 4) return best;
+  const std::vector<Eigen::Vector4d> moments = ScaledMoments(offsets);
+  const std::vector<float> rounded = best;
+  const Eigen::Vector4d missing = Missing(moments, rounded);
+  double least = missing.norm();
+  for (const bool is_strict : {true, false}) {
+    if (least < kMomentTolerance) break;
+    const std::array<std::size_t, 4> four = FourSmall(moments, weights, is_strict);
+    Eigen::Matrix4d supply;
+    for (int k = 0; k < 4; ++k) supply.col(k) = moments[four[static_cast<std::size_t>(k)]];
+    const Eigen::Vector4d change = supply.fullPivLu().solve(missing);
+    std::vector<float> mended = rounded;
+    for (int k = 0; k < 4; ++k) {
+      float& weight = mended[four[static_cast<std::size_t>(k)]];
+      weight = static_cast<float>(weight + change[k]);
+    }
+    const double left = Missing(moments, mended).norm();
+    if (!(left < least)) continue;
+    least = left;
+    best = std::move(mended);
+  }
+  return best;
 }
 
 }  // namespace capfit::skinning

@@ -25,6 +25,13 @@ void MakeLinearlyPrecise(std::span<const Eigen::Vector3d> vertices,
 // sums are exact. Changes no weight by more than about a unit in its last place.
 void MendFloatSum(std::span<float> row);
 
+// The weights, which sum to 1 and whose moment (sum of weight * offset) is 0, as floats that do so
+// too when they are added up in double: to 1e-10 of the offsets' size, where four of them or more
+// are small (1e-2 and below) and do not lie in a plane. What rounding loses is given to four small
+// ones, whose own rounding is finer still.
+[[nodiscard]] std::vector<float> RoundPrecisely(std::span<const Eigen::Vector3d> offsets,
+                                                std::span<const double> weights);
+
 }  // namespace capfit::skinning
 
 #endif  // CAPFIT_CORE_SKINNING_LINEAR_PRECISION_H_

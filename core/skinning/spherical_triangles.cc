@@ -122,6 +122,48 @@ class CarefulTriangle {
   double size_ = 0.0;
 };
 
+// What four pairs of triangle and centre add to the triangles' corners.
+struct LaneTriangles {
+  std::array<Lanes, 3> added;
+  Lanes care;  // not < 0 where the lane needs care: a large triangle, or one seen nearly edge-on
+};
+
+[[gnu::always_inline]] inline LaneTriangles WeighLanes(const Sight& a, const Sight& b,
+                                                       const Sight& c) {
+  const LaneVector bc = c.direction - b.direction;
+  const LaneVector ca = a.direction - c.direction;
+  const LaneVector ab = b.direction - a.direction;
+  const Lanes q_a = Dot(bc, bc);
+  const Lanes q_b = Dot(ca, ca);
+  const Lanes q_c = Dot(ab, ab);
+  // u x (v - u) instead of u x v: the difference of nearby unit vectors is exact.
+  const Lanes determinant = Dot(a.direction, Cross(b.direction, bc));
+  // All products of the normals follow from the edges:
+  //   |g_a|^2 = q_a - q_a^2 / 4,   g_a . g_b = (q_c - q_a - q_b) / 2 + q_a q_b / 4.
+  // With f = 1/2 + h, what m . g_a is made of cancels in the halves and leaves
+  //   q_a (q_b + q_c - q_a) / 8 + h_a g_a . g_a + h_b g_b . g_a + h_c g_c . g_a.
+  const Lanes h_a = HalfAngleOverSineBeyondHalf(q_a);
+  const Lanes h_b = HalfAngleOverSineBeyondHalf(q_b);
+  const Lanes h_c = HalfAngleOverSineBeyondHalf(q_c);
+  const Lanes e_a = q_b + q_c - q_a;
+  const Lanes e_b = q_c + q_a - q_b;
+  const Lanes e_c = q_a + q_b - q_c;
+  const Lanes g_ab = 0.25 * q_a * q_b - 0.5 * e_c;
+  const Lanes g_bc = 0.25 * q_b * q_c - 0.5 * e_a;
+  const Lanes g_ca = 0.25 * q_c * q_a - 0.5 * e_b;
+  const Lanes m_a = q_a * (0.125 * e_a + h_a * (1.0 - 0.25 * q_a)) + h_b * g_ab + h_c * g_ca;
+  const Lanes m_b = q_b * (0.125 * e_b + h_b * (1.0 - 0.25 * q_b)) + h_c * g_bc + h_a * g_ab;
+  const Lanes m_c = q_c * (0.125 * e_c + h_c * (1.0 - 0.25 * q_c)) + h_a * g_ca + h_b * g_bc;
+  const Lanes size = q_a.max(q_b).max(q_c);
+  const Lanes care =
+      (size - kSeriesLimit)
+          .max(kCarefulTilt * kCarefulTilt * size * size - determinant * determinant);
+  const Lanes inverse = determinant.inverse();
+  return {{m_a * inverse * a.inverse_distance, m_b * inverse * b.inverse_distance,
+           m_c * inverse * c.inverse_distance},
+          care};
+}
+
 class Accumulator {
  public:
   Accumulator(const mesh::BodyMesh& mesh, const std::array<Eigen::Vector3d, kLanes>& centers)
@@ -163,51 +205,17 @@ class Accumulator {
   }
 
   void Add(const mesh::Triangle& triangle) {
-    const Sight& a = sights_[triangle[0]];
-    const Sight& b = sights_[triangle[1]];
-    const Sight& c = sights_[triangle[2]];
-    const LaneVector bc = c.direction - b.direction;
-    const LaneVector ca = a.direction - c.direction;
-    const LaneVector ab = b.direction - a.direction;
-    const Lanes q_a = Dot(bc, bc);
-    const Lanes q_b = Dot(ca, ca);
-    const Lanes q_c = Dot(ab, ab);
-    // u x (v - u) instead of u x v: the difference of nearby unit vectors is exact.
-    const Lanes determinant = Dot(a.direction, Cross(b.direction, bc));
-    // All products of the normals follow from the edges:
-    //   |g_a|^2 = q_a - q_a^2 / 4,   g_a . g_b = (q_c - q_a - q_b) / 2 + q_a q_b / 4.
-    // With f = 1/2 + h, what m . g_a is made of cancels in the halves and leaves
-    //   q_a (q_b + q_c - q_a) / 8 + h_a g_a . g_a + h_b g_b . g_a + h_c g_c . g_a.
-    const Lanes h_a = HalfAngleOverSineBeyondHalf(q_a);
-    const Lanes h_b = HalfAngleOverSineBeyondHalf(q_b);
-    const Lanes h_c = HalfAngleOverSineBeyondHalf(q_c);
-    const Lanes e_a = q_b + q_c - q_a;
-    const Lanes e_b = q_c + q_a - q_b;
-    const Lanes e_c = q_a + q_b - q_c;
-    const Lanes g_ab = 0.25 * q_a * q_b - 0.5 * e_c;
-    const Lanes g_bc = 0.25 * q_b * q_c - 0.5 * e_a;
-    const Lanes g_ca = 0.25 * q_c * q_a - 0.5 * e_b;
-    const Lanes m_a = q_a * (0.125 * e_a + h_a * (1.0 - 0.25 * q_a)) + h_b * g_ab + h_c * g_ca;
-    const Lanes m_b = q_b * (0.125 * e_b + h_b * (1.0 - 0.25 * q_b)) + h_c * g_bc + h_a * g_ab;
-    const Lanes m_c = q_c * (0.125 * e_c + h_c * (1.0 - 0.25 * q_c)) + h_a * g_ca + h_b * g_bc;
-    const Lanes size = q_a.max(q_b).max(q_c);
-    // > 0 where the lane needs care: a large triangle, or one seen nearly edge-on.
-    const Lanes care =
-        (size - kSeriesLimit)
-            .max(kCarefulTilt * kCarefulTilt * size * size - determinant * determinant);
-    const Lanes inverse = determinant.inverse();
-    std::array<Lanes, 3> added = {m_a * inverse * a.inverse_distance,
-                                  m_b * inverse * b.inverse_distance,
-                                  m_c * inverse * c.inverse_distance};
-    if (!(care.maxCoeff() < 0.0)) TakeCare(triangle, care, added);
-    for (std::size_t k = 0; k < 3; ++k) raw_.weights[triangle[k]] += added[k];
-  }
-
-  void TakeCare(const mesh::Triangle& triangle, const Lanes& care, std::array<Lanes, 3>& added) {
     const std::array<const Sight*, 3> corners = {&sights_[triangle[0]], &sights_[triangle[1]],
                                                  &sights_[triangle[2]]};
+    LaneTriangles lanes = WeighLanes(*corners[0], *corners[1], *corners[2]);
+    if (!(lanes.care.maxCoeff() < 0.0)) TakeCare(triangle, corners, lanes);
+    for (std::size_t k = 0; k < 3; ++k) raw_.weights[triangle[k]] += lanes.added[k];
+  }
+
+  void TakeCare(const mesh::Triangle& triangle, const std::array<const Sight*, 3>& corners,
+                LaneTriangles& lanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
-      if (care[lane] < 0.0) continue;
+      if (lanes.care[lane] < 0.0) continue;
       const CarefulTriangle careful(corners, lane);
       std::array<double, 3> weights{};
       if (!raw_.hits[lane] && careful.IsHit()) {
@@ -215,7 +223,7 @@ class Accumulator {
       } else if (!raw_.hits[lane]) {
         weights = careful.Weights();
       }
-      for (std::size_t k = 0; k < 3; ++k) added[k][lane] = weights[k];
+      for (std::size_t k = 0; k < 3; ++k) lanes.added[k][lane] = weights[k];
     }
   }
 
@@ -225,6 +233,33 @@ class Accumulator {
 };
 
 }  // namespace
+
+std::array<TriangleWeights, kLanes> MeanValueTriangles(
+    std::span<const std::array<Eigen::Vector3d, 3>> corners) {
+  std::array<Sight, 3> sights;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const std::size_t at = std::min(static_cast<std::size_t>(lane), corners.size() - 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& to = corners[at][k];
+      const double inverse = 1.0 / to.norm();
+      sights[k].inverse_distance[lane] = inverse;
+      sights[k].direction.x[lane] = to.x() * inverse;
+      sights[k].direction.y[lane] = to.y() * inverse;
+      sights[k].direction.z[lane] = to.z() * inverse;
+    }
+  }
+  const LaneTriangles lanes = WeighLanes(sights[0], sights[1], sights[2]);
+  std::array<TriangleWeights, kLanes> result;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    TriangleWeights& weights = result[static_cast<std::size_t>(lane)];
+    for (std::size_t k = 0; k < 3; ++k) weights.weights[k] = lanes.added[k][lane];
+    if (lanes.care[lane] < 0.0) continue;
+    const CarefulTriangle careful({&sights[0], &sights[1], &sights[2]}, lane);
+    weights.is_hit = careful.IsHit();
+    weights.weights = weights.is_hit ? careful.Barycentric() : careful.Weights();
+  }
+  return result;
+}
 
 RawWeights MeanValueRawWeights(const mesh::BodyMesh& mesh,
                                const std::array<Eigen::Vector3d, kLanes>& centers) {

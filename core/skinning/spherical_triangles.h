@@ -36,6 +36,17 @@ struct RawWeights {
 [[nodiscard]] RawWeights MeanValueRawWeights(const mesh::BodyMesh& mesh,
                                              const std::array<Eigen::Vector3d, kLanes>& centers);
 
+// What one triangle adds, for one centre.
+struct TriangleWeights {
+  bool is_hit = false;              // the centre lies on the triangle
+  std::array<double, 3> weights{};  // of its corners; where it is hit, barycentric with sum 1
+};
+
+// The same numbers as in MeanValueRawWeights for up to four triangles and one centre. `corners`
+// relative to the centre, none of them 0.
+[[nodiscard]] std::array<TriangleWeights, kLanes> MeanValueTriangles(
+    std::span<const std::array<Eigen::Vector3d, 3>> corners);
+
 }  // namespace capfit::skinning
 
 #endif  // CAPFIT_CORE_SKINNING_SPHERICAL_TRIANGLES_H_

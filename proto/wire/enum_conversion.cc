@@ -103,9 +103,11 @@ constexpr Table<pipeline::Quality, v1::Quality, 3> kQualities = {
      {pipeline::Quality::kTight, v1::QUALITY_TIGHT},
      {pipeline::Quality::kPaper, v1::QUALITY_UNSPECIFIED}}};
 
-constexpr Table<pipeline::SkinningMode, v1::SkinningForm, 3> kSkinningForms = {
+constexpr Table<pipeline::SkinningMode, v1::SkinningForm, 5> kSkinningForms = {
     {{pipeline::SkinningMode::kNone, v1::SKINNING_FORM_NONE},
      {pipeline::SkinningMode::kDense, v1::SKINNING_FORM_DENSE},
+     {pipeline::SkinningMode::kSparse, v1::SKINNING_FORM_SPARSE},
+     {pipeline::SkinningMode::kBones, v1::SKINNING_FORM_BONES},
      {pipeline::SkinningMode::kNone, v1::SKINNING_FORM_UNSPECIFIED}}};
 
 constexpr Table<capsule::CapsuleProfile, v1::CapsuleProfile, 3> kProfiles = {

@@ -124,17 +124,6 @@ absl::Status ReadLandmark(const v1::Landmark& wire, const std::string& field,
   return absl::OkStatus();
 }
 
-absl::Status ReadSkinning(v1::SkinningForm form, pipeline::SkinningMode& mode) {
-  if (form == v1::SKINNING_FORM_SPARSE || form == v1::SKINNING_FORM_BONES) {
-    return InvalidField(ErrorReason::kNotImplemented, "options.skinning",
-                        absl::StrCat("is ", v1::SkinningForm_Name(form),
-                                     ", which this version does not make; it makes "
-                                     "SKINNING_FORM_DENSE"),
-                        {{"value", v1::SkinningForm_Name(form)}, {"limit", "SKINNING_FORM_DENSE"}});
-  }
-  return Read("options.skinning", form, mode);
-}
-
 void WriteBudget(const pipeline::FitOptions& options, v1::FitOptions& wire) {
   if (options.max_primitives) wire.mutable_budget()->set_max_primitives(*options.max_primitives);
   if (options.polygon_error) wire.mutable_budget()->set_max_polygon_error(*options.polygon_error);
@@ -175,7 +164,7 @@ absl::StatusOr<pipeline::FitOptions> OptionsFromWire(const v1::ApproximateBodyHe
   CAPFIT_RETURN_IF_ERROR(Read("options.quality", wire.quality(), options.quality));
   CAPFIT_RETURN_IF_ERROR(ReadParts(wire.parts(), "parts", options.parts));
   CAPFIT_RETURN_IF_ERROR(Read("options.sex", wire.sex(), options.sex));
-  CAPFIT_RETURN_IF_ERROR(ReadSkinning(wire.skinning(), options.skinning));
+  CAPFIT_RETURN_IF_ERROR(Read("options.skinning", wire.skinning(), options.skinning));
   for (int i = 0; i < wire.landmarks_size(); ++i) {
     CAPFIT_RETURN_IF_ERROR(
         ReadLandmark(wire.landmarks(i), absl::StrCat("options.landmarks[", i, "]"), options));

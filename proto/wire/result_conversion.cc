@@ -8,6 +8,7 @@
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/layout_conversion.h"
 #include "proto/wire/options_conversion.h"
+#include "proto/wire/skinning_conversion.h"
 
 namespace capfit::wire {
 namespace {
@@ -237,6 +238,7 @@ v1::PrimitiveSet PrimitivesToWire(const pipeline::FitResult& result) {
     capsule.set_second_sphere(set.capsules[i][1]);
     capsule.set_part(ToWire(capsule::PartOfCapsule(set, i)));
   }
+  JointsToWire(result, wire);
   return wire;
 }
 
@@ -269,6 +271,9 @@ v1::ApproximateBodyUnaryResponse ResultToWire(const pipeline::FitResult& result,
     *wire.add_feature_polygons() = PolygonToWire(polygon);
   }
   wire.mutable_vertex_gaps()->Add(result.vertex_gaps.begin(), result.vertex_gaps.end());
+  if (std::optional<v1::SkinningChunk> weights = FewWeightsToWire(result)) {
+    *wire.mutable_skinning() = *std::move(weights);
+  }
   return wire;
 }
 
@@ -362,7 +367,7 @@ absl::Status PrimitivesFromWire(const v1::PrimitiveSet& wire, pipeline::FitResul
     }
     set.capsules.push_back({capsule.first_sphere(), capsule.second_sphere()});
   }
-  return absl::OkStatus();
+  return JointsFromWire(wire, result);
 }
 
 absl::Status SummaryFromWire(const v1::Summary& wire, pipeline::FitResult& result) {

@@ -26,7 +26,7 @@ namespace capfit::wire {
 [[nodiscard]] v1::Summary SummaryToWire(const pipeline::FitResult& result,
                                         const std::string& request_id);
 
-// All of it in one message, but for weights.
+// All of it in one message, but for dense weights.
 [[nodiscard]] v1::ApproximateBodyUnaryResponse ResultToWire(const pipeline::FitResult& result,
                                                             const std::string& request_id);
 
@@ -54,7 +54,7 @@ struct WeightBlock {
 void LandmarksFromWire(const v1::Landmarks& wire, pipeline::FitResult& result);
 [[nodiscard]] absl::StatusOr<pipeline::PolygonResult> PolygonFromWire(
     const v1::FeaturePolygon& wire);
-// Fills `primitives`, `sphere_names` and `sphere_places`.
+// Fills `primitives`, `sphere_names`, `sphere_places` and what it knows of joints.
 [[nodiscard]] absl::Status PrimitivesFromWire(const v1::PrimitiveSet& wire,
                                               pipeline::FitResult& result);
 [[nodiscard]] absl::Status SummaryFromWire(const v1::Summary& wire, pipeline::FitResult& result);

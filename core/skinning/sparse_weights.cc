@@ -1,0 +1,245 @@
+#include "core/skinning/sparse_weights.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/skinning/linear_precision.h"
+#include "core/skinning/patch_weights.h"
+#include "core/skinning/surface_tree.h"
+
+namespace capfit::skinning {
+namespace {
+
+// What weights of a group get at least of a change that all share, as a share of the mean size.
+constexpr double kLeastShare = 0.02;
+// Keeps a group from tilting steeply to mend what its vertices, nearly in one plane, cannot.
+constexpr double kStiffness = 1e-3;
+// Below this share of the absolute sum, a sum of weights is noise and must not be divided by.
+constexpr double kUsableSum = 1e-9;
+constexpr std::size_t kVerticesLookedAt = 12;
+
+// Which of the caller's vertices can carry what the mesh's vertices weigh, and where they are.
+class SparseCarriers {
+ public:
+  SparseCarriers(const mesh::BodyMesh& mesh, const std::optional<Carriers>& carriers)
+      : positions_(carriers ? carriers->positions_m : mesh.vertices()),
+        of_mesh_vertex_(carriers ? carriers->of_mesh_vertex : std::span<const std::uint32_t>()),
+        source_(positions_.size(), -1) {
+    const std::span<const std::int32_t> of_source =
+        carriers ? carriers->carrier_of_source : mesh.vertex_of_source();
+    for (std::size_t s = of_source.size(); s-- > 0;) {
+      if (of_source[s] >= 0) source_[static_cast<std::size_t>(of_source[s])] = static_cast<std::int32_t>(s);
+    }
+  }
+
+  [[nodiscard]] bool MayCarry(std::size_t mesh_vertex) const {
+    return source_[CarrierOf(mesh_vertex)] >= 0;
+  }
+  [[nodiscard]] std::size_t CarrierOf(std::size_t mesh_vertex) const {
+    return of_mesh_vertex_.empty() ? mesh_vertex : of_mesh_vertex_[mesh_vertex];
+  }
+  [[nodiscard]] const Eigen::Vector3d& position(std::size_t carrier) const {
+    return positions_[carrier];
+  }
+  // Of its welded copies the first.
+  [[nodiscard]] std::int32_t source(std::size_t carrier) const { return source_[carrier]; }
+
+ private:
+  std::span<const Eigen::Vector3d> positions_;
+  std::span<const std::uint32_t> of_mesh_vertex_;
+  std::vector<std::int32_t> source_;
+};
+
+struct Entry {
+  std::uint32_t source = 0;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // from the centre
+  double weight = 0.0;
+};
+
+Eigen::Vector4d Moments(const Eigen::Vector3d& offset) {
+  return {1.0, offset.x(), offset.y(), offset.z()};
+}
+
+// Changes the weights w_i of `entries` by (|w_i| + least) (a + b . q_i) so that they sum to
+// `weight` and their moment is `moment`; with stiffness, only nearly.
+void Mend(std::span<Entry> entries, double weight, const Eigen::Vector3d& moment,
+          double least_share, double stiffness) {
+  double sizes = 0.0;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Entry& entry : entries) {
+    sizes += std::abs(entry.weight);
+    middle += entry.offset;
+  }
+  middle /= static_cast<double>(entries.size());
+  double extent = 0.0;
+  for (const Entry& entry : entries) extent = std::max(extent, (entry.offset - middle).squaredNorm());
+  if (!(sizes > 0.0)) return;
+  const double inverse = extent > 0.0 ? 1.0 / std::sqrt(extent) : 0.0;
+  const double least = least_share * sizes / static_cast<double>(entries.size());
+  Eigen::Matrix4d supply = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d missing = Moments(inverse * (moment - weight * middle));
+  missing[0] = weight;
+  for (const Entry& entry : entries) {
+    const Eigen::Vector4d m = Moments(inverse * (entry.offset - middle));
+    supply += (std::abs(entry.weight) + least) * m * m.transpose();
+    missing -= entry.weight * m;
+  }
+  supply.diagonal().array() += stiffness * supply(0, 0);
+  const Eigen::Vector4d change =
+      stiffness > 0.0 ? Eigen::Vector4d(supply.ldlt().solve(missing))
+                      : Eigen::Vector4d(supply.completeOrthogonalDecomposition().solve(missing));
+  for (Entry& entry : entries) {
+    const Eigen::Vector4d m = Moments(inverse * (entry.offset - middle));
+    entry.weight += (std::abs(entry.weight) + least) * change.dot(m);
+  }
+}
+
+// Of the patch's vertices that may carry the one nearest to where its weight lies; of large patches
+// only some are looked at. Nothing where none may.
+std::optional<std::uint32_t> CarryingVertex(const SeenPatch& seen, const Eigen::Vector3d& center,
+                                            const SurfaceTree& tree,
+                                            const SparseCarriers& carriers) {
+  const Eigen::Vector3d middle = center + seen.moment / seen.weight;
+  const std::size_t count = seen.end - seen.begin;
+  for (std::size_t step = 1 + count / kVerticesLookedAt; step > 0; step /= 2) {
+    std::optional<std::uint32_t> found;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = seen.begin + step / 2; i < seen.end; i += step) {
+      const std::uint32_t vertex = tree.order()[i];
+      const double distance = (tree.mesh().vertices()[vertex] - middle).squaredNorm();
+      if (!(distance < nearest) || !carriers.MayCarry(vertex)) continue;
+      nearest = distance;
+      found = vertex;
+    }
+    if (found) return found;
+  }
+  return std::nullopt;
+}
+
+// The entries of one centre, in the order of patches.
+std::vector<Entry> EntriesOf(const Eigen::Vector3d& center, const SurfaceTree& tree,
+                             const SparseCarriers& carriers) {
+  const std::vector<SeenPatch> seen =
+      PatchesSeenFrom(center, tree, {kLeastSparseWeights, kMostSparseWeights});
+  std::vector<Entry> entries;
+  entries.reserve(seen.size());
+  for (std::size_t i = 0; i < seen.size();) {
+    const std::uint32_t group = seen[i].group;
+    const std::size_t first = entries.size();
+    double weight = 0.0;
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    for (; i < seen.size() && seen[i].group == group; ++i) {
+      weight += seen[i].weight;
+      moment += seen[i].moment;
+      const std::optional<std::uint32_t> vertex = CarryingVertex(seen[i], center, tree, carriers);
+      if (!vertex) continue;
+      const std::size_t carrier = carriers.CarrierOf(*vertex);
+      entries.push_back({static_cast<std::uint32_t>(carriers.source(carrier)),
+                         carriers.position(carrier) - center, seen[i].weight});
+    }
+    if (entries.size() > first) {
+      Mend(std::span(entries).subspan(first), weight, moment, kLeastShare, kStiffness);
+    }
+  }
+  return entries;
+}
+
+// Patches whose vertices are carried by the same one.
+void Merge(std::vector<Entry>& entries) {
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry& a, const Entry& b) { return a.source < b.source; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (kept > 0 && entries[kept - 1].source == entries[i].source) {
+      entries[kept - 1].weight += entries[i].weight;
+    } else {
+      entries[kept++] = entries[i];
+    }
+  }
+  entries.resize(kept);
+}
+
+void DivideBySum(std::span<Entry> entries) {
+  double sum = 0.0;
+  double sizes = 0.0;
+  for (const Entry& entry : entries) {
+    sum += entry.weight;
+    sizes += std::abs(entry.weight);
+  }
+  const bool is_usable = std::abs(sum) > kUsableSum * sizes;
+  for (Entry& entry : entries) {
+    entry.weight = is_usable ? entry.weight / sum : std::abs(entry.weight) / sizes;
+  }
+}
+
+struct Row {
+  std::vector<std::uint32_t> vertices;
+  std::vector<float> weights;
+};
+
+Row RowOf(const Eigen::Vector3d& center, const SurfaceTree& tree, const SparseCarriers& carriers) {
+  std::vector<Entry> entries = EntriesOf(center, tree, carriers);
+  Merge(entries);
+  DivideBySum(entries);
+  Mend(entries, 1.0, Eigen::Vector3d::Zero(), 0.0, 0.0);
+  std::vector<Eigen::Vector3d> offsets;
+  std::vector<double> weights;
+  Row row;
+  for (const Entry& entry : entries) {
+    if (entry.weight == 0.0) continue;
+    row.vertices.push_back(entry.source);
+    offsets.push_back(entry.offset);
+    weights.push_back(entry.weight);
+  }
+  row.weights = RoundPrecisely(offsets, weights);
+  return row;
+}
+
+}  // namespace
+
+SparseWeights SparseMeanValueWeights(const mesh::BodyMesh& mesh,
+                                     std::span<const Eigen::Vector3d> centers_m,
+                                     const ThreadPool& pool, const FitObserver& observer,
+                                     std::span<const std::uint8_t> parts,
+                                     const std::optional<Carriers>& carriers) {
+  const SparseCarriers sparse(mesh, carriers);
+  const SurfaceTree tree(mesh, parts);
+  std::vector<Row> rows(centers_m.size());
+  pool.ForEach(rows.size(), [&](std::size_t i) {
+    if (!observer.IsCancelled()) rows[i] = RowOf(centers_m[i], tree, sparse);
+  });
+  SparseWeights result;
+  result.vertex_count = (carriers ? carriers->carrier_of_source : mesh.vertex_of_source()).size();
+  for (const Row& row : rows) {
+    result.vertices.insert(result.vertices.end(), row.vertices.begin(), row.vertices.end());
+    result.weights.insert(result.weights.end(), row.weights.begin(), row.weights.end());
+    result.row_ends.push_back(static_cast<std::uint32_t>(result.vertices.size()));
+  }
+  return result;
+}
+
+std::vector<Eigen::Vector3d> Apply(const SparseWeights& weights,
+                                   std::span<const Eigen::Vector3d> vertices) {
+  assert(vertices.size() == weights.vertex_count);
+  std::vector<Eigen::Vector3d> centers(weights.sphere_count(), Eigen::Vector3d::Zero());
+  if (vertices.empty()) return centers;
+  for (std::size_t s = 0; s < centers.size(); ++s) {
+    const std::size_t begin = weights.RowBegin(s);
+    if (begin == weights.row_ends[s]) continue;
+    // Relative to one of them: what the sum lacks to 1 is then not multiplied by the distance from
+    // the origin.
+    const Eigen::Vector3d origin = vertices[weights.vertices[begin]];
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t i = begin; i < weights.row_ends[s]; ++i) {
+      sum += static_cast<double>(weights.weights[i]) * (vertices[weights.vertices[i]] - origin);
+    }
+    centers[s] = origin + sum;
+  }
+  return centers;
+}
+
+}  // namespace capfit::skinning
