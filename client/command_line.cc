@@ -12,6 +12,7 @@
 #include "client/completion_command.h"
 #include "client/evaluate_command.h"
 #include "client/exit_code.h"
+#include "client/export_command.h"
 #include "client/help_format.h"
 #include "client/info_command.h"
 #include "client/inspect_command.h"
@@ -35,6 +36,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
   AddApproximateCommand(app, exit_code);
   AddInspectCommand(app, exit_code);
   AddEvaluateCommand(app, exit_code);
+  AddExportCommand(app, exit_code);
   AddAnimateCommand(app, exit_code);
   AddRenderCommand(app, exit_code);
   AddMannequinCommand(app, exit_code);

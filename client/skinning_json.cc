@@ -13,6 +13,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+constexpr std::size_t kMostNodesOfFile = 100'000;
 constexpr std::size_t kMostRows = 10'000;
 constexpr std::size_t kMostJointsOfResult = 4096;
 constexpr std::size_t kMostVerticesOfResult = 100'000'000;
@@ -96,8 +97,7 @@ absl::StatusOr<std::uint32_t> IndexBelow(const json& value, std::size_t end,
 absl::StatusOr<formats::NamedJoint> ParseJoint(const json& value, std::size_t joint_count,
                                                const std::string& field) {
   formats::NamedJoint joint;
-  CAPFIT_ASSIGN_OR_RETURN(const json* const to_mesh,
-                          ListAt(value, "to_mesh", field + ".", 12, 12));
+  CAPFIT_ASSIGN_OR_RETURN(const json* const to_mesh, ListAt(value, "to_mesh", field + ".", 12, 12));
   for (int i = 0; i < 12; ++i) {
     CAPFIT_ASSIGN_OR_RETURN(joint.to_mesh(i / 4, i % 4),
                             FiniteNumber((*to_mesh)[static_cast<std::size_t>(i)],
@@ -107,6 +107,14 @@ absl::StatusOr<formats::NamedJoint> ParseJoint(const json& value, std::size_t jo
   joint.bind = joint.to_mesh;
   const json name = value.value("name", json(""));
   if (name.is_string()) joint.name = name.get<std::string>();
+  const json human_bone = value.value("human_bone", json(""));
+  if (human_bone.is_string()) joint.human_bone = human_bone.get<std::string>();
+  const json node = value.value("node", json());
+  if (!node.is_null()) {
+    CAPFIT_ASSIGN_OR_RETURN(const std::uint32_t index,
+                            IndexBelow(node, kMostNodesOfFile, field + ".node"));
+    joint.node = static_cast<std::int32_t>(index);
+  }
   const json parent = value.value("parent", json());
   if (parent.is_null()) return joint;
   CAPFIT_ASSIGN_OR_RETURN(const std::uint32_t index,
@@ -115,22 +123,33 @@ absl::StatusOr<formats::NamedJoint> ParseJoint(const json& value, std::size_t jo
   return joint;
 }
 
+// A joint for each entry; nothing where the list is not there.
+absl::Status ParseJoints(const json& root, const char* name, std::size_t joint_count,
+                         std::vector<std::int32_t>& joints) {
+  if (!root.contains(name)) return absl::OkStatus();
+  CAPFIT_ASSIGN_OR_RETURN(const json* const list, ListAt(root, name, "", 0, kMostRows));
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    CAPFIT_ASSIGN_OR_RETURN(const std::uint32_t joint,
+                            IndexBelow((*list)[i], joint_count, absl::StrCat(name, "[", i, "]")));
+    joints.push_back(static_cast<std::int32_t>(joint));
+  }
+  return absl::OkStatus();
+}
+
 // Weights and what they are for, of one row. Adds to `indices` and `weights`.
 template <typename Index>
 absl::Status ParseRow(const json& row, const char* name, std::size_t end, const std::string& field,
                       std::vector<Index>& indices, std::vector<float>& weights) {
   CAPFIT_ASSIGN_OR_RETURN(const json* const entries,
                           ListAt(row, name, field + ".", 1, kMostVerticesOfResult));
-  CAPFIT_ASSIGN_OR_RETURN(
-      const json* const numbers,
-      ListAt(row, "weights", field + ".", entries->size(), entries->size()));
+  CAPFIT_ASSIGN_OR_RETURN(const json* const numbers,
+                          ListAt(row, "weights", field + ".", entries->size(), entries->size()));
   for (std::size_t i = 0; i < entries->size(); ++i) {
     CAPFIT_ASSIGN_OR_RETURN(
         const std::uint32_t index,
         IndexBelow((*entries)[i], end, absl::StrCat(field, ".", name, "[", i, "]")));
-    CAPFIT_ASSIGN_OR_RETURN(
-        const double weight,
-        FiniteNumber((*numbers)[i], absl::StrCat(field, ".weights[", i, "]")));
+    CAPFIT_ASSIGN_OR_RETURN(const double weight,
+                            FiniteNumber((*numbers)[i], absl::StrCat(field, ".weights[", i, "]")));
     indices.push_back(static_cast<Index>(index));
     weights.push_back(static_cast<float>(weight));
   }
@@ -146,8 +165,8 @@ absl::StatusOr<skinning::SparseWeights> ParseSparse(const json& value) {
                                      "sparse_weights.vertex_count"));
   for (std::size_t s = 0; s < rows->size(); ++s) {
     CAPFIT_RETURN_IF_ERROR(ParseRow((*rows)[s], "vertices", weights.vertex_count,
-                                    absl::StrCat("sparse_weights.rows[", s, "]"),
-                                    weights.vertices, weights.weights));
+                                    absl::StrCat("sparse_weights.rows[", s, "]"), weights.vertices,
+                                    weights.weights));
     weights.row_ends.push_back(static_cast<std::uint32_t>(weights.vertices.size()));
   }
   return weights;
@@ -160,8 +179,8 @@ absl::StatusOr<skinning::BoneWeights> ParseBones(const json& value, std::size_t 
                           ListAt(value, "rows", "bone_weights.", 0, kMostRows));
   for (std::size_t s = 0; s < rows->size(); ++s) {
     const std::string field = absl::StrCat("bone_weights.rows[", s, "]");
-    CAPFIT_RETURN_IF_ERROR(ParseRow((*rows)[s], "joints", joint_count, field, weights.joints,
-                                    weights.weights));
+    CAPFIT_RETURN_IF_ERROR(
+        ParseRow((*rows)[s], "joints", joint_count, field, weights.joints, weights.weights));
     const std::size_t count = weights.joints.size() - weights.offsets.size();
     CAPFIT_ASSIGN_OR_RETURN(const json* const offsets,
                             ListAt((*rows)[s], "offsets", field + ".", count, count));
@@ -172,8 +191,8 @@ absl::StatusOr<skinning::BoneWeights> ParseBones(const json& value, std::size_t 
       }
       Eigen::Vector3d offset;
       for (int axis = 0; axis < 3; ++axis) {
-        CAPFIT_ASSIGN_OR_RETURN(
-            offset[axis], FiniteNumber((*offsets)[i][static_cast<std::size_t>(axis)], path));
+        CAPFIT_ASSIGN_OR_RETURN(offset[axis],
+                                FiniteNumber((*offsets)[i][static_cast<std::size_t>(axis)], path));
       }
       weights.offsets.push_back(offset);
     }
@@ -212,12 +231,14 @@ absl::StatusOr<ResultSkinning> ParseSkinning(const std::string& result_text) {
       skinning.joints.push_back(std::move(joint));
     }
   }
+  const std::size_t joint_count = skinning.joints.size();
+  CAPFIT_RETURN_IF_ERROR(ParseJoints(root, "sphere_joints", joint_count, skinning.sphere_joints));
+  CAPFIT_RETURN_IF_ERROR(ParseJoints(root, "capsule_joints", joint_count, skinning.capsule_joints));
   if (root.contains("sparse_weights")) {
     CAPFIT_ASSIGN_OR_RETURN(skinning.sparse, ParseSparse(root["sparse_weights"]));
   }
   if (root.contains("bone_weights")) {
-    CAPFIT_ASSIGN_OR_RETURN(skinning.bones,
-                            ParseBones(root["bone_weights"], skinning.joints.size()));
+    CAPFIT_ASSIGN_OR_RETURN(skinning.bones, ParseBones(root["bone_weights"], joint_count));
   }
   return skinning;
 }

@@ -3,6 +3,7 @@
 #ifndef CAPFIT_CLIENT_SKINNING_JSON_H_
 #define CAPFIT_CLIENT_SKINNING_JSON_H_
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -21,6 +22,9 @@ void AddSkinning(const pipeline::FitResult& result, nlohmann::ordered_json& root
 // What carries the spheres of a RESULT.json, as far as the file itself has it.
 struct ResultSkinning {
   std::vector<formats::NamedJoint> joints;
+  // Of each sphere and capsule the joint that it hangs on; empty where the file does not say.
+  std::vector<std::int32_t> sphere_joints;
+  std::vector<std::int32_t> capsule_joints;
   std::optional<skinning::SparseWeights> sparse;
   std::optional<skinning::BoneWeights> bones;
 };

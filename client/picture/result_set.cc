@@ -238,6 +238,7 @@ void ReadOptions(const json& root, ResultSet& set) {
   if (!options.is_object()) return;
   set.quality = Word(options, "quality");
   set.engine = Word(options, "engine");
+  set.capsule_profile = Word(options, "capsule_profile");
   set.character.include = Words(options, "include_parts");
   set.character.exclude = Words(options, "exclude_parts");
   set.character.hair = options.value("include_hair", json()) == true;
@@ -266,6 +267,7 @@ absl::Status ReadOwn(const json& root, ResultSet& set) {
     return Wrong("metres_per_unit", "must be a number > 0");
   }
   set.metres_per_unit = scale.get<double>();
+  set.version = Word(root, "version");
   ReadOptions(root, set);
   CAPFIT_RETURN_IF_ERROR(ReadTurn(root, set));
   return ReadBody(root, set);

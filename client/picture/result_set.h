@@ -57,6 +57,8 @@ struct ResultSet {
   std::string quality;                              // "paper"; "" where not told
   std::string engine;                               // whose limits held; "" for none
   std::optional<Eigen::Matrix3d> body_from_caller;  // the turn from the mesh's axes to the body's
+  std::string capsule_profile;                      // what coverage was proved for: "tangent_hull"
+  std::string version;                              // of the capfit that fitted it
 };
 
 // The layout of a result, to be kept on another body (`--layout FILE`). INVALID_ARGUMENT where the
