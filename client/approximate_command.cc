@@ -1,6 +1,7 @@
 #include "client/approximate_command.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include "client/approximate_flags.h"
 #include "client/body_client.h"
 #include "client/exit_code.h"
+#include "client/export_command.h"
 #include "client/picture/file_bytes.h"
 #include "client/picture/gaps_file.h"
 #include "client/progress_line.h"
@@ -18,6 +20,7 @@
 #include "client/weights_output.h"
 #include "core/base/status.h"
 #include "core/formats/read_mesh.h"
+#include "core/pipeline/colliders.h"
 
 namespace capfit::client {
 namespace {
@@ -42,7 +45,12 @@ absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
                                             ProgressLine& progress) {
   CAPFIT_RETURN_IF_ERROR(pipeline::ValidateOptions(options));
   CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, formats::ReadMesh(bytes, format));
-  return pipeline::Fit(soup, options, ThreadPool(arguments.threads), progress);
+  CAPFIT_ASSIGN_OR_RETURN(pipeline::FitResult result,
+                          pipeline::Fit(soup, options, ThreadPool(arguments.threads), progress));
+  const std::string source =
+      arguments.body == "-" ? "body" : std::filesystem::path(arguments.body).stem().string();
+  CAPFIT_RETURN_IF_ERROR(pipeline::AddExports(options.exports, bytes, source, result));
+  return result;
 }
 
 absl::StatusOr<pipeline::FitResult> FitThere(std::span<const std::byte> bytes,
@@ -72,9 +80,12 @@ absl::Status CheckOutputs(const ApproximateArguments& arguments) {
   const bool is_stream = arguments.output == "-";
   const bool has_weights = arguments.fit.options.skinning == pipeline::SkinningMode::kDense;
   const bool has_gaps = arguments.fit.options.want_vertex_gaps;
-  if (is_stream && (has_weights || has_gaps)) {
+  const bool has_exports = !arguments.fit.exports.empty();
+  if (is_stream && (has_weights || has_gaps || has_exports)) {
     return InvalidField(ErrorReason::kConflict,
-                        has_weights ? "options.skinning" : "options.want_vertex_gaps",
+                        has_weights ? "options.skinning"
+                        : has_gaps  ? "options.want_vertex_gaps"
+                                    : "exports",
                         "writes files beside RESULT.json, so --output must be a file name");
   }
   std::vector<std::string> paths = {arguments.output};
@@ -94,6 +105,10 @@ absl::Status WriteOutputs(const pipeline::FitResult& result,
       WriteFileBytes(arguments.output, FormatResult(result, arguments.request_id)));
   if (result.weights) {
     CAPFIT_RETURN_IF_ERROR(WriteWeights(*result.weights, arguments.output));
+  }
+  const std::string folder = std::filesystem::path(arguments.output).parent_path().string();
+  for (const pipeline::ExportedFile& exported : result.exports) {
+    CAPFIT_RETURN_IF_ERROR(WriteExportFile(exported.file, folder, arguments.quiet));
   }
   if (result.vertex_gaps.empty()) return absl::OkStatus();
   return WriteVertexGaps(result.vertex_gaps, result.body_from_caller.scale, arguments.output);

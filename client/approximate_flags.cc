@@ -147,9 +147,13 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
       ->capture_default_str()
       ->group(kWhatToFit);
   AddBudget(command, flags);
-  AddWordOption(command, "--skinning", options.skinning, SkinningWords(),
-                "What carries the centres when the body moves. sparse: weights of some 70 vertices each; "
-                "bones: of the file's joints; both in RESULT.json; dense: of all vertices, beside it")
+  AddWordOption(
+      command, "--skinning", options.skinning, SkinningWords(),
+      "What carries the centres when the body moves. sparse: weights of some 70 vertices each; "
+      "bones: of the file's joints; both in RESULT.json; dense: of all vertices, beside it")
+      ->group(kOutput);
+  AddWordList(command, "--export", flags.exports, ExportWords(),
+              "Files for engines beside RESULT.json, as `capfit export` writes them")
       ->group(kOutput);
   command
       .add_flag("--heat-map", options.want_vertex_gaps,
@@ -174,6 +178,7 @@ absl::StatusOr<pipeline::FitOptions> OptionsOf(const FitFlags& flags) {
     CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(flags.landmarks_file));
     CAPFIT_ASSIGN_OR_RETURN(options.landmarks, ParseLandmarks(text));
   }
+  for (const std::string& format : flags.exports) options.exports.push_back({format, {}});
   if (!flags.layout.empty()) CAPFIT_RETURN_IF_ERROR(ReadLayout(flags, options));
   return options;
 }

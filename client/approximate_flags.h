@@ -16,8 +16,9 @@ struct FitFlags {
   std::vector<std::string> parts;          // words; empty: torso, arms, legs
   std::vector<std::string> require_parts;  // words; empty: none
   double tolerance_mm = 0.0;
-  std::string landmarks_file;  // empty: none
-  std::string layout;          // name of a standard layout, or a RESULT.json; empty: none
+  std::string landmarks_file;        // empty: none
+  std::vector<std::string> exports;  // formats
+  std::string layout;                // name of a standard layout, or a RESULT.json; empty: none
 };
 
 // Adds the flags to `command`, in groups; CLI11 checks words and that there is one budget at most.

@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/exit_code.h"
+#include "client/option_words.h"
 #include "client/picture/belongs.h"
 #include "client/picture/file_bytes.h"
 #include "client/picture/result_body.h"
@@ -31,14 +32,6 @@ struct ExportArguments {
   bool quiet = false;
   exports::ExportOptions options;
 };
-
-std::vector<std::string> FormatWords() {
-  std::vector<std::string> words;
-  for (const exports::ExportFormat& format : exports::ExportFormats()) {
-    words.emplace_back(format.name);
-  }
-  return words;
-}
 
 // The file that was fitted, or nothing; refused where it is of another body.
 absl::StatusOr<std::string> Original(const ExportArguments& arguments,
@@ -75,7 +68,10 @@ absl::Status RunExport(const ExportArguments& arguments) {
                                                     "fitted"))
                         : exported.status();
     }
-    CAPFIT_RETURN_IF_ERROR(WriteExport(*exported, arguments.folder, arguments.quiet));
+    PrintWarnings(exported->warnings);
+    for (const exports::ExportFile& file : exported->files) {
+      CAPFIT_RETURN_IF_ERROR(WriteExportFile(file, arguments.folder, arguments.quiet));
+    }
   }
   return absl::OkStatus();
 }
@@ -92,18 +88,16 @@ std::string FormatsFooter() {
 
 }  // namespace
 
-absl::Status WriteExport(const exports::Exported& exported, const std::string& folder, bool quiet) {
+absl::Status WriteExportFile(const exports::ExportFile& file, const std::string& folder,
+                             bool quiet) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
   if (error) {
     return absl::NotFoundError(absl::StrCat("cannot make ", folder, ": ", error.message()));
   }
-  PrintWarnings(exported.warnings);
-  for (const exports::ExportFile& file : exported.files) {
-    const std::string path = (std::filesystem::path(folder) / file.name).string();
-    CAPFIT_RETURN_IF_ERROR(WriteFileBytes(path, file.bytes));
-    if (!quiet) std::printf("%s (%zu bytes)\n", path.c_str(), file.bytes.size());
-  }
+  const std::string path = (std::filesystem::path(folder) / file.name).string();
+  CAPFIT_RETURN_IF_ERROR(WriteFileBytes(path, file.bytes));
+  if (!quiet) std::printf("%s (%zu bytes)\n", path.c_str(), file.bytes.size());
   return absl::OkStatus();
 }
 
@@ -114,7 +108,7 @@ void AddExportCommand(CLI::App& app, int& exit_code) {
   command->add_option("RESULT", arguments->result, "RESULT.json of `capfit approximate`")
       ->required()
       ->type_name("RESULT.json");
-  AddWordList(*command, "--to", arguments->formats, FormatWords(), "Formats, see below")
+  AddWordList(*command, "--to", arguments->formats, ExportWords(), "Formats, see below")
       ->required();
   command
       ->add_option("--body", arguments->body,

@@ -12,10 +12,10 @@ namespace capfit::client {
 
 void AddExportCommand(CLI::App& app, int& exit_code);
 
-// Writes the files into the folder, which is made where it is not there, prints the warnings and,
-// unless `quiet`, the names. NOT_FOUND names what cannot be written.
-[[nodiscard]] absl::Status WriteExport(const exports::Exported& exported, const std::string& folder,
-                                       bool quiet);
+// Writes the file into the folder, which is made where it is not there, and prints its name unless
+// `quiet`. NOT_FOUND names what cannot be written.
+[[nodiscard]] absl::Status WriteExportFile(const exports::ExportFile& file,
+                                           const std::string& folder, bool quiet);
 
 }  // namespace capfit::client
 

@@ -25,6 +25,8 @@ constexpr std::array kFlagNames = {
     FlagName{"options.tolerance_m", "--tolerance-mm"},
     FlagName{"options.want_vertex_gaps", "--heat-map"},
     FlagName{"options.engine", "--engine"},
+    FlagName{"exports", "--export"},
+    FlagName{"layout", "--layout"},
     FlagName{"options.include_parts", "--include"},
     FlagName{"options.exclude_parts", "--exclude"},
     FlagName{"options.include_hair", "--hair"},

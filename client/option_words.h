@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/export/export.h"
 #include "core/pipeline/fit.h"
 
 namespace capfit::client {
@@ -37,6 +38,13 @@ inline Words<pipeline::SkinningMode> SkinningWords() {
           {"dense", pipeline::SkinningMode::kDense},
           {"sparse", pipeline::SkinningMode::kSparse},
           {"bones", pipeline::SkinningMode::kBones}};
+}
+inline std::vector<std::string> ExportWords() {
+  std::vector<std::string> words;
+  for (const exports::ExportFormat& format : exports::ExportFormats()) {
+    words.emplace_back(format.name);
+  }
+  return words;
 }
 inline Words<section::Sex> SexWords() {
   return {{"auto", section::Sex::kAuto},

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
+#include "proto/wire/export_conversion.h"
 #include "proto/wire/result_conversion.h"
 #include "proto/wire/skinning_conversion.h"
 
@@ -22,7 +23,7 @@ absl::Status Broken(const std::string& problem) {
 bool MayRepeat(int part) {
   return part == Response::kProgress || part == Response::kWarning ||
          part == Response::kFeaturePolygon || part == Response::kSkinning ||
-         part == Response::kVertexGaps;
+         part == Response::kVertexGaps || part == Response::kExportChunk;
 }
 
 // Where a part stands in the answer: by number, but for the summary, which is the last.
@@ -73,6 +74,9 @@ absl::Status ResultCollector::AddPart(const v1::ApproximateBodyResponse& respons
     case Response::kVertexGaps:
       vertex_count_ = response.vertex_gaps().total_vertex_count();
       return wire::AppendGaps(response.vertex_gaps(), result_.vertex_gaps);
+    case Response::kExportChunk:
+      export_bytes_ = response.export_chunk().total_bytes();
+      return wire::AppendExport(response.export_chunk(), result_.exports);
     case Response::kSummary:
       return wire::SummaryFromWire(response.summary(), result_);
     case Response::PART_NOT_SET:
@@ -93,6 +97,11 @@ absl::StatusOr<pipeline::FitResult> ResultCollector::Finish() && {
   if (static_cast<std::int64_t>(result_.vertex_gaps.size()) != vertex_count_) {
     return Broken(
         absl::StrCat("it brings ", result_.vertex_gaps.size(), " vertex gaps of ", vertex_count_));
+  }
+  if (!result_.exports.empty() &&
+      static_cast<std::int64_t>(result_.exports.back().file.bytes.size()) != export_bytes_) {
+    return Broken(absl::StrCat("it brings ", result_.exports.back().file.bytes.size(), " bytes of ",
+                               export_bytes_, " of a file"));
   }
   return std::move(result_);
 }

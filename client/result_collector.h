@@ -28,6 +28,7 @@ class ResultCollector {
   pipeline::FitResult result_;
   int last_part_ = 0;
   std::int64_t vertex_count_ = 0;  // that the vertex gaps announce
+  std::int64_t export_bytes_ = 0;  // of the file whose pieces come
 };
 
 }  // namespace capfit::client

@@ -9,6 +9,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/export/export.h"
+#include "core/pipeline/colliders.h"
 #include "proto/wire/options_conversion.h"
 #include "proto/wire/result_conversion.h"
 #include "proto/wire/status_conversion.h"
@@ -17,6 +19,8 @@
 namespace capfit::server {
 namespace {
 
+// Files of exports are named after the body's file, whose name the server is not told.
+constexpr char kExportSource[] = "body";
 constexpr char kPushbackTrailer[] = "grpc-retry-pushback-ms";
 
 absl::Status CheckMessageSize(const google::protobuf::Message& request, const char* field) {
@@ -71,7 +75,20 @@ absl::Status FitJob::ReadOptions() {
   absl::StatusOr<pipeline::FitOptions> options = wire::OptionsFromWire(upload_.header());
   if (!options.ok()) return InCallersWords(options.status());
   options_ = *std::move(options);
-  return InCallersWords(services_.backend.validate(options_));
+  CAPFIT_RETURN_IF_ERROR(InCallersWords(services_.backend.validate(options_)));
+  return InCallersWords(CheckExports());
+}
+
+absl::Status FitJob::CheckExports() const {
+  for (std::size_t i = 0; i < options_.exports.size(); ++i) {
+    const std::string& format = options_.exports[i].format;
+    if (!exports::FindExportFormat(format)->needs_original) continue;
+    if (upload_.header().mesh().has_file()) continue;
+    return InvalidField(
+        ErrorReason::kConflict, absl::StrCat("exports[", i, "].format"),
+        absl::StrCat("is ", format, ", for which the mesh must come as a file of that kind"));
+  }
+  return absl::OkStatus();
 }
 
 void FitJob::NoteUnknownFields(const google::protobuf::Message& request) {
@@ -114,6 +131,9 @@ absl::StatusOr<pipeline::FitResult> FitJob::Compute(FitObserver& observer) {
   absl::StatusOr<pipeline::FitResult> result =
       services_.backend.fit(soup, options_, services_.pool, observer);
   if (absl::IsCancelled(result.status())) return GaveUp();
+  if (!result.ok()) return result;
+  CAPFIT_RETURN_IF_ERROR(
+      pipeline::AddExports(options_.exports, upload_.file(), kExportSource, *result));
   return result;
 }
 

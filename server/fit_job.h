@@ -64,6 +64,8 @@ class FitJob {
 
  private:
   [[nodiscard]] absl::Status ReadOptions();
+  // That formats which need the mesh's own file will have one.
+  [[nodiscard]] absl::Status CheckExports() const;
   void NoteUnknownFields(const google::protobuf::Message& request);
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> Compute(FitObserver& observer);
   // An error in the words of the request, with the warnings about it.

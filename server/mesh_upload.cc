@@ -118,6 +118,7 @@ absl::Status MeshUpload::AddWhole(const v1::ApproximateBodyUnaryRequest& request
   header_.set_request_id(request.request_id());
   *header_.mutable_options() = request.options();
   if (request.has_layout()) *header_.mutable_layout() = request.layout();
+  *header_.mutable_exports() = request.exports();
   v1::MeshHeader& mesh = *header_.mutable_mesh();
   mesh.set_unit(request.mesh().unit());
   mesh.set_up_axis(request.mesh().up_axis());

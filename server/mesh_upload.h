@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -49,6 +50,10 @@ class MeshUpload {
 
   // Reads the file, or hands out the arrays. O(bytes): not for a thread that must not block.
   [[nodiscard]] absl::StatusOr<formats::PolygonSoup> Finish() &&;
+  // The file as it came, also after Finish(); empty where the mesh came as arrays.
+  [[nodiscard]] std::span<const std::byte> file() const {
+    return std::as_bytes(std::span(file_bytes_));
+  }
 
  private:
   [[nodiscard]] absl::Status AddHeader(const v1::ApproximateBodyHeader& header);

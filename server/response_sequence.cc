@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "proto/wire/export_conversion.h"
 #include "proto/wire/result_conversion.h"
 #include "proto/wire/skinning_conversion.h"
 
@@ -40,6 +41,8 @@ bool ResponseSequence::Fill(v1::ApproximateBodyResponse& response) {
       return FillWeights(response);
     case Section::kVertexGaps:
       return FillGaps(response);
+    case Section::kExports:
+      return FillExports(response);
     case Section::kSummary:
       if (index_++ > 0) return false;
       *response.mutable_summary() = wire::SummaryToWire(result_, request_id_);
@@ -66,6 +69,18 @@ bool ResponseSequence::FillWeights(v1::ApproximateBodyResponse& response) {
     index_ += block.sphere_count;
     first_vertex_ = 0;
   }
+  return true;
+}
+
+bool ResponseSequence::FillExports(v1::ApproximateBodyResponse& response) {
+  if (index_ >= result_.exports.size()) return false;
+  const pipeline::ExportedFile& file = result_.exports[index_];
+  *response.mutable_export_chunk() =
+      wire::ExportToWire(file, first_byte_, sizeof(float) * max_weights_);
+  first_byte_ += response.export_chunk().data().size();
+  if (first_byte_ < file.file.bytes.size()) return true;
+  ++index_;
+  first_byte_ = 0;
   return true;
 }
 

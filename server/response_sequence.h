@@ -13,9 +13,9 @@ namespace capfit::server {
 // Weights or gaps in one message: 192 Ki floats are 768 KiB, well below the 1 MiB that is promised.
 inline constexpr std::size_t kMaxWeightsPerMessage = 192 * 1024;
 
-// Yields warnings, landmarks, feature polygons, primitives, weights, vertex gaps and the summary,
-// in this order.
-// Holds the result and one message at most, so a slow reader costs no more than that.
+// Yields warnings, landmarks, feature polygons, primitives, weights, vertex gaps, exported files
+// and the summary, in this order. Holds the result and one message at most, so a slow reader costs
+// no more than that.
 class ResponseSequence {
  public:
   ResponseSequence(pipeline::FitResult result, std::string request_id,
@@ -35,6 +35,7 @@ class ResponseSequence {
     kPrimitives,
     kWeights,
     kVertexGaps,
+    kExports,
     kSummary,
     kEnd
   };
@@ -43,6 +44,7 @@ class ResponseSequence {
   [[nodiscard]] bool Fill(v1::ApproximateBodyResponse& response);
   [[nodiscard]] bool FillWeights(v1::ApproximateBodyResponse& response);
   [[nodiscard]] bool FillGaps(v1::ApproximateBodyResponse& response);
+  [[nodiscard]] bool FillExports(v1::ApproximateBodyResponse& response);
 
   pipeline::FitResult result_;
   std::string request_id_;
@@ -51,6 +53,7 @@ class ResponseSequence {
   // Within the section; of the sphere for weights, of the vertex for gaps.
   std::size_t index_ = 0;
   std::size_t first_vertex_ = 0;  // weights only
+  std::size_t first_byte_ = 0;    // exports only
 };
 
 }  // namespace capfit::server

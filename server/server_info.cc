@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/version.h"
+#include "core/export/export.h"
 #include "core/pipeline/engines.h"
 #include "core/refine/layouts/standard_layouts.h"
 #include "proto/wire/enum_conversion.h"
@@ -53,6 +54,10 @@ const std::vector<Feature>& Features() {
       {"option.feature_polygons", [](FitOptions& o) { o.want_polygons = true; }},
       {"option.vertex_gaps", [](FitOptions& o) { o.want_vertex_gaps = true; }},
       {"layout", [](FitOptions& o) { o.layout = refine::StandardLayouts().front(); }},
+      {"export",
+       [](FitOptions& o) {
+         o.exports = {{"gltf", {}}};
+       }},
   };
   return features;
 }
@@ -85,6 +90,15 @@ void AddLayouts(v1::GetServerInfoResponse& info) {
   }
 }
 
+void AddExportFormats(v1::GetServerInfoResponse& info) {
+  for (const exports::ExportFormat& known : exports::ExportFormats()) {
+    v1::ExportFormat& format = *info.add_export_formats();
+    format.set_name(std::string(known.name));
+    format.set_summary(std::string(known.summary));
+    format.set_needs_original(known.needs_original);
+  }
+}
+
 }  // namespace
 
 v1::GetServerInfoResponse DescribeServer(const ServerConfig& config, int threads,
@@ -108,6 +122,7 @@ v1::GetServerInfoResponse DescribeServer(const ServerConfig& config, int threads
   AddEngines(info);
   AddFeatures(backend, info);
   AddLayouts(info);
+  AddExportFormats(info);
   return info;
 }
 

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "absl/strings/str_cat.h"
+#include "core/base/status.h"
+#include "core/export/export.h"
 #include "core/pipeline/engines.h"
 
 namespace capfit::pipeline {
@@ -18,6 +21,27 @@ exports::ColliderSet CollidersOf(const FitResult& result, std::string source) {
   set.source = std::move(source);
   set.version = result.version;
   return set;
+}
+
+absl::Status AddExports(std::span<const ExportWish> wishes, std::span<const std::byte> original,
+                        const std::string& source, FitResult& result) {
+  if (wishes.empty()) return absl::OkStatus();
+  const exports::ColliderSet set = CollidersOf(result, source);
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    absl::StatusOr<exports::Exported> exported =
+        exports::Export(set, wishes[i].format, original, wishes[i].options);
+    if (!exported.ok()) {
+      return WithField(exported.status(), absl::StrCat("exports[", i, "].format"));
+    }
+    for (Warning& warning : exported->warnings) {
+      warning.message = absl::StrCat(wishes[i].format, ": ", warning.message);
+      result.warnings.push_back(std::move(warning));
+    }
+    for (exports::ExportFile& file : exported->files) {
+      result.exports.push_back({wishes[i].format, std::move(file)});
+    }
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace capfit::pipeline

@@ -2,8 +2,11 @@
 #ifndef CAPFIT_CORE_PIPELINE_COLLIDERS_H_
 #define CAPFIT_CORE_PIPELINE_COLLIDERS_H_
 
+#include <cstddef>
+#include <span>
 #include <string>
 
+#include "absl/status/status.h"
 #include "core/export/collider_set.h"
 #include "core/pipeline/fit.h"
 
@@ -11,6 +14,14 @@ namespace capfit::pipeline {
 
 // `source`: the name of the mesh's file without folder and ending, or empty.
 [[nodiscard]] exports::ColliderSet CollidersOf(const FitResult& result, std::string source);
+
+// Makes the files that the options asked for. `original`: the bytes of the mesh's file, or empty
+// where it came as arrays. Warnings of a format begin with its name. INVALID_ARGUMENT names the
+// wish
+// ("exports[1].format").
+[[nodiscard]] absl::Status AddExports(std::span<const ExportWish> wishes,
+                                      std::span<const std::byte> original,
+                                      const std::string& source, FitResult& result);
 
 }  // namespace capfit::pipeline
 

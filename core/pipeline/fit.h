@@ -17,6 +17,7 @@
 #include "core/body/find_body.h"
 #include "core/capsule/primitive_set.h"
 #include "core/character/find_character.h"
+#include "core/export/export.h"
 #include "core/formats/polygon_soup.h"
 #include "core/metrics/measure.h"
 #include "core/refine/layouts/kept_layout.h"
@@ -50,8 +51,21 @@ enum class FitMode { kEnclose, kBestFit };
 // kPaper: the published method, its coverage step replaced by a better one. kTight: centres, radii
 // and topology found together (core/refine), under the same budget.
 enum class Quality { kPaper, kTight };
-// What carries the centres along: a weight of every vertex; of few vertices; of the skeleton's joints.
+// What carries the centres along: a weight of every vertex; of few vertices; of the skeleton's
+// joints.
 enum class SkinningMode { kNone, kDense, kSparse, kBones };
+
+// A format of exports::ExportFormats().
+struct ExportWish {
+  std::string format;
+  exports::ExportOptions options;
+};
+
+// A file of an export, and the format it belongs to.
+struct ExportedFile {
+  std::string format;
+  exports::ExportFile file;
+};
 
 // How much may be spent. At most one of the three ways: max_primitives; max_spheres and/or
 // max_capsules; polygon_error. None of them: max_primitives 64.
@@ -86,6 +100,8 @@ struct FitOptions {
   std::uint64_t seed = 0;
   bool want_polygons = false;     // return the feature polygons with their circles
   bool want_vertex_gaps = false;  // return each vertex's signed distance to the set
+  // Files for engines. Fit makes none: they may need the mesh's own file; see AddExports.
+  std::vector<ExportWish> exports = {};
 };
 
 // OK, or INVALID_ARGUMENT naming the option, its value and its range; UNIMPLEMENTED for what this
@@ -150,6 +166,7 @@ struct FitResult {
   // vertices of parts that were not selected, and for those of which mending left nothing (no face
   // uses them). Welded copies have the same value.
   std::vector<float> vertex_gaps;
+  std::vector<ExportedFile> exports;  // see AddExports
   std::vector<Warning> warnings;
   geometry::Similarity body_from_caller;  // scale: metres per caller's unit
   // What held in the end: the options with their defaults filled in and the engine's limits

@@ -75,6 +75,31 @@ absl::Status CheckLayout(const FitOptions& options) {
   return check("layout.capsules", count.capsules, engine.max_capsules);
 }
 
+absl::Status CheckExports(const std::vector<ExportWish>& wishes) {
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    const std::string field = absl::StrCat("exports[", i, "]");
+    const std::string& format = wishes[i].format;
+    if (exports::FindExportFormat(format) == nullptr) {
+      return InvalidField(
+          ErrorReason::kUnknownValue, field + ".format",
+          absl::StrCat("is \"", format.substr(0, 40), "\", must be one of ",
+                       exports::ExportFormatNames()),
+          {{"value", format.substr(0, 40)}, {"limit", exports::ExportFormatNames()}});
+    }
+    for (std::size_t before = 0; before < i; ++before) {
+      if (wishes[before].format != format) continue;
+      return InvalidField(ErrorReason::kDuplicate, field + ".format",
+                          absl::StrCat("is ", format, " for the second time"));
+    }
+    const double overshoot_m = wishes[i].options.max_overshoot_m;
+    if (!(overshoot_m >= exports::kMinOvershootM && overshoot_m <= exports::kMaxOvershootM)) {
+      return OutOfRange(field + ".max_overshoot_m", overshoot_m, exports::kMinOvershootM,
+                        exports::kMaxOvershootM);
+    }
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckParts(const body::PartSelection& parts) {
   if (parts.torso || parts.arms || parts.legs || parts.head || parts.hands || parts.feet) {
     return absl::OkStatus();
@@ -133,6 +158,7 @@ absl::Status ValidateOptions(const FitOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckLayout(options));
   CAPFIT_RETURN_IF_ERROR(CheckParts(options.parts));
   CAPFIT_RETURN_IF_ERROR(CheckLandmarks(options));
+  CAPFIT_RETURN_IF_ERROR(CheckExports(options.exports));
   CAPFIT_RETURN_IF_ERROR(CheckPartNames("options.include_parts", options.character.include));
   CAPFIT_RETURN_IF_ERROR(CheckPartNames("options.exclude_parts", options.character.exclude));
   if (options.grows_only && options.quality != Quality::kPaper) {

@@ -8,6 +8,7 @@
 #include "core/base/status.h"
 #include "core/pipeline/engines.h"
 #include "proto/wire/enum_conversion.h"
+#include "proto/wire/export_conversion.h"
 #include "proto/wire/layout_conversion.h"
 #include "proto/wire/result_conversion.h"
 
@@ -176,6 +177,7 @@ absl::StatusOr<pipeline::FitOptions> OptionsFromWire(const v1::ApproximateBodyHe
   options.tolerance_m = wire.tolerance_m();
   options.engine = wire.engine();
   options.character = CharacterFromWire(wire);
+  options.exports = ExportsFromWire(header.exports());
   if (!header.has_layout()) return options;
   CAPFIT_ASSIGN_OR_RETURN(options.layout, LayoutFromWire(header.layout()));
   if (wire.parts().empty()) options.parts = options.layout->parts();
@@ -207,6 +209,7 @@ void OptionsToWire(const pipeline::FitOptions& options, v1::ApproximateBodyHeade
   wire.set_engine(options.engine);
   CharacterToWire(options.character, wire);
   if (options.layout) *header.mutable_layout() = LayoutToWire(*options.layout);
+  ExportsToWire(options.exports, *header.mutable_exports());
 }
 
 absl::Status WithWirePaths(const absl::Status& status, const v1::FitOptions& options) {

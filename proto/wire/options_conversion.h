@@ -8,8 +8,8 @@
 
 namespace capfit::wire {
 
-// The options of a header: `options`, `layout`, and unit and axis from `mesh`. Ranges of numbers
-// are not checked here but by pipeline::ValidateOptions. INVALID_ARGUMENT names the field
+// The options of a header: `options`, `layout`, `exports`, and unit and axis from `mesh`. Ranges of
+// numbers are not checked here but by pipeline::ValidateOptions. INVALID_ARGUMENT names the field
 // ("options.landmarks[2].name"); UNIMPLEMENTED for weights of a form that capfit does not make.
 [[nodiscard]] absl::StatusOr<pipeline::FitOptions> OptionsFromWire(
     const v1::ApproximateBodyHeader& header);

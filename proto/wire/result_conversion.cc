@@ -271,6 +271,12 @@ v1::ApproximateBodyUnaryResponse ResultToWire(const pipeline::FitResult& result,
     *wire.add_feature_polygons() = PolygonToWire(polygon);
   }
   wire.mutable_vertex_gaps()->Add(result.vertex_gaps.begin(), result.vertex_gaps.end());
+  for (const pipeline::ExportedFile& known : result.exports) {
+    v1::ExportFile& file = *wire.add_exports();
+    file.set_format(known.format);
+    file.set_name(known.file.name);
+    file.set_data(known.file.bytes);
+  }
   if (std::optional<v1::SkinningChunk> weights = FewWeightsToWire(result)) {
     *wire.mutable_skinning() = *std::move(weights);
   }
