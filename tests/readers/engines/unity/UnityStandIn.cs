@@ -61,10 +61,10 @@ namespace UnityEngine
 
     public static class Debug
     {
-        public static int Errors, Warnings;
+        public static List<string> Problems = new List<string>();
         public static void Log(string message) { }
-        public static void LogWarning(string message) { ++Warnings; }
-        public static void LogError(string message) { ++Errors; Console.Error.WriteLine(message); }
+        public static void LogWarning(string message) { Problems.Add(message); }
+        public static void LogError(string message) { Problems.Add(message); }
     }
 
     public static class Application { public static bool isPlaying; }
