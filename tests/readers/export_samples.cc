@@ -27,6 +27,7 @@
 #include "core/export/unity.h"
 #include "core/export/unreal.h"
 #include "core/export/urdf.h"
+#include "core/export/usd_colliders.h"
 #include "core/export/vrm_colliders.h"
 #include "tests/readers/edge_set.h"
 #include "tests/readers/sample_set.h"
@@ -91,10 +92,22 @@ absl::StatusOr<Exported> WriteUrdfSample(const ColliderSet& set, const std::stri
   return capfit::exports::WriteUrdf(set);
 }
 
+absl::StatusOr<Exported> WriteUsdSample(const ColliderSet& set, const std::string&) {
+  return capfit::exports::WriteUsd(set);
+}
+
+absl::StatusOr<Exported> WriteUniformUsd(const ColliderSet& set, const std::string&) {
+  auto exported = capfit::exports::WriteUsd(set, {.is_tapered = false});
+  if (exported.ok()) exported->files[0].name = "uniform.usda";
+  return exported;
+}
+
 const std::vector<SampleFormat>& Formats() {
   static const auto& formats = *new std::vector<SampleFormat>{
-      {"gltf", WriteGltfSample},   {"gltf_preview", WriteGltfPreview}, {"vrm", WriteVrmSample},
-      {"hulls", WriteHullsSample}, {"union", WriteUnionSample},
+      {"gltf", WriteGltfSample},   {"gltf_preview", WriteGltfPreview},
+      {"vrm", WriteVrmSample},     {"usd", WriteUsdSample},
+      {"hulls", WriteHullsSample}, {"usd_uniform", WriteUniformUsd},
+      {"union", WriteUnionSample},
       {"unity", WriteAlone<capfit::exports::WriteUnity>},
       {"unreal", WriteAlone<capfit::exports::WriteUnreal>},
       {"nvcloth", WriteAlone<capfit::exports::WriteNvCloth>},

@@ -1,7 +1,9 @@
 // Reads an exported GLB with the Khronos validator and three.js, and compares it with the result
 // and with the file that the body came in.
 //
-//   node check_gltf.mjs EXPORTED.glb EXPECTED.json ORIGINAL|- rigged|upright
+//   node check_gltf.mjs EXPORTED.glb EXPECTED.json ORIGINAL|- rigged|still|upright
+//
+// rigged: joints are posed too; upright: the file is in metres, +Y up, whatever the body came in.
 import { readFileSync } from 'node:fs';
 import validator from 'gltf-validator';
 import { colliderProblems } from './collider_schema.mjs';

@@ -7,6 +7,7 @@ import { readFileSync } from 'node:fs';
 import validator from 'gltf-validator';
 import { VRMLoaderPlugin } from '@pixiv/three-vrm';
 import { check, distance, expectedSolids, finish, near, readJson, same, splitGlb } from './files.mjs';
+import { coverageProblems } from './hulls.mjs';
 import { THREE, loadScene, turn, vector } from './three_scene.mjs';
 
 const OVERSHOOT_M = 0.005;
@@ -16,45 +17,6 @@ const expected = readJson(expectedPath);
 const solids = expectedSolids(expected, null, 1);
 const unit = 1 / expected.metres_per_unit;
 const tolerance = 1e-6 * unit;
-
-// Signed distance to the hull of one or two spheres.
-function signedDistance(ends, p) {
-  if (ends.length === 1) return distance(ends[0].center, p) - ends[0].radius;
-  const [a, b] = ends.map((e) => vector(e.center));
-  const axis = b.clone().sub(a);
-  const length = axis.length();
-  axis.divideScalar(length);
-  const sin = (ends[0].radius - ends[1].radius) / length;
-  const cos = Math.sqrt(1 - sin * sin);
-  const from = vector(p).sub(a);
-  const axial = from.dot(axis);
-  const radial = from.addScaledVector(axis, -axial).length();
-  const slant = cos * axial - sin * radial;
-  if (slant <= 0) return distance(ends[0].center, p) - ends[0].radius;
-  if (slant >= cos * length) return distance(ends[1].center, p) - ends[1].radius;
-  return cos * radial + sin * axial - ends[0].radius;
-}
-
-// Points of the hull's surface: where rays from the axis leave it.
-function surfacePoints(ends) {
-  const [a, b] = [ends[0], ends.at(-1)].map((e) => vector(e.center));
-  const points = [];
-  for (let i = 0; i < 400; i += 1) {
-    const y = 1 - (2 * i + 1) / 400;
-    const turned = i * 2.399963;
-    const flat = Math.sqrt(1 - y * y);
-    const direction = new THREE.Vector3(flat * Math.cos(turned), y, flat * Math.sin(turned));
-    const start = a.clone().lerp(b, (i % 21) / 20);
-    let [low, high] = [0, 10 * unit];
-    for (let k = 0; k < 60; k += 1) {
-      const middle = (low + high) / 2;
-      const at = start.clone().addScaledVector(direction, middle).toArray();
-      if (signedDistance(ends, at) < 0) low = middle; else high = middle;
-    }
-    points.push(start.addScaledVector(direction, low).toArray());
-  }
-  return points;
-}
 
 const endsOf = (collider) => {
   const { shape } = collider;
@@ -91,14 +53,8 @@ async function ownColliders(gltf, description) {
 function checkCoverage(own) {
   for (const solid of solids) {
     const pieces = own.get(solid.name).map(endsOf);
-    check(pieces.length > 0, `${solid.name} is missing`);
-    for (const point of surfacePoints(solid.ends)) {
-      const out = Math.min(...pieces.map((ends) => signedDistance(ends, point)));
-      check(out <= tolerance, `${solid.name} sticks out by ${out}`);
-    }
-    for (const end of pieces.flat()) {
-      const over = signedDistance(solid.ends, end.center) + end.radius;
-      check(over <= OVERSHOOT_M * unit + tolerance, `${solid.name} is ${over} too large`);
+    for (const problem of coverageProblems(solid, pieces, OVERSHOOT_M * unit, unit)) {
+      check(false, problem);
     }
   }
 }
