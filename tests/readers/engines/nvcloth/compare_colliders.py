@@ -15,7 +15,7 @@ expected_set.compare_spheres(expected, spheres)
 assert capsules == expected["capsules"], "other capsules"
 warnings = {w["code"] for w in expected_set.warnings(folder, "nvcloth")}
 too_many = len(spheres) > 32 or len(capsules) > 32
-assert too_many == ("NVCLOTH_LIMIT" in warnings), "the limit of 32"
+assert too_many == ("COLLIDER_LIMIT" in warnings), "the limit of 32"
 inner = sum(len(solid["ends"]) == 1 for solid in expected["solids"] if solid["capsule"] is not None)
-assert (inner > 0) == ("CAPSULES_SKIPPED" in warnings), "skipped capsules"
+assert (inner > 0) == ("INNER_SPHERES" in warnings), "skipped capsules"
 print(f"ok: {os.path.basename(folder)}: {len(spheres)} spheres, {len(capsules)} capsules in C and C++")

@@ -65,7 +65,7 @@ def compare_file(folder, expected):
     lone = [i for i, s in enumerate(expected["spheres"]) if s["lone"]]
     assert root["loneSpheres"] == lone
     warned = {w["code"] for w in expected_set.warnings(folder, "unity")}
-    assert ("CLOTH_LIMIT" in warned) == (len(root["spheres"]) > 32 or len(root["pairs"]) > 32)
+    assert ("COLLIDER_LIMIT" in warned) == (len(root["spheres"]) > 32 or len(root["pairs"]) > 32)
 
 
 def made_ends(words):
