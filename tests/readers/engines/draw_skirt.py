@@ -25,6 +25,9 @@ def solid_triangles(ends, rings=16, segments=24):
     other = numpy.cross(axis, side)
     slant = numpy.arcsin((first["radius"] - last["radius"]) / length) if length > 0 else 0.0
     outline = [(a, first["radius"], t) for t in numpy.linspace(-numpy.pi / 2, slant, rings)]
+    # Short faces along the cone: what is drawn last is what is nearer in the middle.
+    outline += [(a + t * (b - a), first["radius"] + t * (last["radius"] - first["radius"]), slant)
+                for t in numpy.linspace(0, 1, 1 + int(length / 0.01))[1:-1]]
     outline += [(b, last["radius"], t) for t in numpy.linspace(slant, numpy.pi / 2, rings)]
     around = numpy.linspace(0, 2 * numpy.pi, segments + 1)
     out = numpy.cos(around)[:, None] * side + numpy.sin(around)[:, None] * other
@@ -43,11 +46,13 @@ def draw(axes, frame, faces):
     normals = numpy.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     normals /= numpy.linalg.norm(normals, axis=1, keepdims=True) + 1e-12
     shade = 0.35 + 0.65 * numpy.abs(normals @ LIGHT)
-    order = numpy.argsort(triangles[:, :, 2].mean(1))
+    depth = triangles[:, :, 2].mean(1)
+    depth[len(body):] += 0.01
+    order = numpy.argsort(depth)
     shaded = (colours * shade[:, None])[order]
     axes.add_collection(PolyCollection(triangles[order][:, :, :2], facecolors=shaded,
                                        edgecolors=shaded, linewidths=0.3))
-    axes.set_xlim(-0.55, 0.55)
+    axes.set_xlim(-0.62, 0.55)
     axes.set_ylim(-0.02, 1.7)
     axes.set_aspect("equal")
     axes.axis("off")
