@@ -38,11 +38,11 @@ struct UnionOptions {
   MeshFrame frame = MeshFrame::kYUp;
 };
 
-// The union of all solids as one closed mesh without inner faces. Its vertices lie on the union's
-// surface to 1e-6 m, but for those that solid::MakeSolid has put across gaps narrower than some
-// cells, which lie outside. Faces cut into round parts by some tenths of a millimetre, and fill
-// creases between two solids by up to a cell. Files "_union.obj" and "_union.glb", as above. About
-// 0.15 s at 8 mm on a body.
+// The union of all solids as one closed mesh without inner faces, around it: where the union is
+// round vertices are lifted off its surface by as much as faces between them would cut into it (1
+// to 2 mm at 8 mm), so that coverage is kept to some hundredths of a millimetre. Creases between
+// two solids are filled by up to a cell, and gaps narrower than some cells are bridged
+// (solid::MakeSolid). Files "_union.obj" and "_union.glb", as above. About 0.2 s at 8 mm on a body.
 // Warnings: UNION_DEVIATION (how far faces were found inside and outside of the union's surface at
 // most), and those of MakeSolid. Errors: as above, and those of MakeSolid: FAILED_PRECONDITION
 // where the solids are in pieces far from each other.

@@ -100,7 +100,7 @@ class MujocoWriter {
     const std::string start =
         absl::StrCat("MuJoCo has no tapered capsule: ", tapered_count_, " became ");
     if (!options_.as_meshes) {
-      return {{"UNIFORM_PIECES",
+      return {{"CAPSULES_REPLACED",
                absl::StrCat(start, piece_count_, " capsules of one radius that enclose them, up to ",
                             options_.max_overshoot_m, " m too large"),
                tapered_count_}};
@@ -109,7 +109,7 @@ class MujocoWriter {
     for (const Solid& solid : solids) {
       radius_m = std::max({radius_m, solid.hull.a().radius_m, solid.hull.b().radius_m});
     }
-    return {{"CONVEX_HULLS",
+    return {{"CAPSULES_REPLACED",
              absl::StrCat(start, "convex meshes around them, up to ",
                           LatheDeviation(kMeshSegments) * radius_m, " m too large"),
              tapered_count_}};

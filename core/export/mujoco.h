@@ -22,8 +22,8 @@ struct MujocoOptions {
 // one or more geoms "NAME" (NAME_2, ...) of type capsule by `fromto`, whose union encloses it;
 // what is a ball becomes a sphere. The body's own frame has the axes that the joint has.
 //
-// Errors: INVALID_ARGUMENT for an overshoot out of range. Warnings: UNIFORM_PIECES (how many capsules
-// became how many), CONVEX_HULLS (with meshes).
+// Errors: INVALID_ARGUMENT for an overshoot out of range. Warnings: CAPSULES_REPLACED (how many capsules
+// became what, and by how much it is too large).
 [[nodiscard]] absl::StatusOr<Exported> WriteMujoco(const ColliderSet& set,
                                                    const MujocoOptions& options = {});
 

@@ -69,7 +69,7 @@ std::string Document(const ColliderSet& upright) {
 
 void WarnOfLimit(const std::string& what, std::size_t count, std::vector<Warning>& warnings) {
   if (count <= kNvClothLimit) return;
-  warnings.push_back({"NVCLOTH_LIMIT",
+  warnings.push_back({"COLLIDER_LIMIT",
                       absl::StrCat(count, " ", what, ", but NvCloth takes at most ", kNvClothLimit,
                                    ": fit again with engine nvcloth"),
                       static_cast<std::int64_t>(count)});
@@ -93,7 +93,7 @@ void WarnOfSkipped(const ColliderSet& upright, std::vector<Warning>& warnings) {
     first = k;
   }
   if (count == 0) return;
-  warnings.push_back({"CAPSULES_SKIPPED",
+  warnings.push_back({"INNER_SPHERES",
                       absl::StrCat(count, " capsules, the first '", CapsuleNames(upright)[first],
                                    "', have one sphere inside the other: NvCloth skips them, and "
                                    "the spheres alone are the same solid"),
@@ -109,7 +109,7 @@ Exported WriteNvCloth(const ColliderSet& set) {
   WarnOfLimit("capsules", upright.capsule_count(), exported.warnings);
   WarnOfSkipped(upright, exported.warnings);
   if (!upright.joints.empty()) {
-    exported.warnings.push_back({"NO_BONES",
+    exported.warnings.push_back({"RIG_LEFT_OUT",
                                  "the header holds the spheres as the body stood; the joint that "
                                  "carries each is a comment: move them with it"});
   }

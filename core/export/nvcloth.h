@@ -12,9 +12,9 @@ namespace capfit::exports {
 // Cloth::setCapsules; the name of each, and the joint that carries it, in a comment beside it. An
 // array without entries has one of zeros, since C has no empty arrays.
 //
-// Warnings: NVCLOTH_LIMIT (more than 32 spheres or capsules: NvCloth refuses them), CAPSULES_SKIPPED
+// Warnings: COLLIDER_LIMIT (more than 32 spheres or capsules: NvCloth refuses them), INNER_SPHERES
 // (capsules with one sphere inside the other, or touching it from inside: NvCloth skips them, and the
-// spheres alone are the same solid), NO_BONES (the spheres stand as the body stood: to be moved by
+// spheres alone are the same solid), RIG_LEFT_OUT (the spheres stand as the body stood: to be moved by
 // the caller).
 [[nodiscard]] Exported WriteNvCloth(const ColliderSet& set);
 

@@ -118,7 +118,7 @@ std::vector<Warning> HullWarnings(const std::vector<Solid>& solids) {
     largest = std::max(largest, Deviation(solid));
   }
   if (count == 0) return {};
-  return {{"CONVEX_HULLS",
+  return {{"CAPSULES_REPLACED",
            absl::StrCat("Rapier has no tapered capsule: ", count,
                         " became convex hulls around it, up to ", largest, " m too large"),
            count}};

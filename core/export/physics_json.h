@@ -32,7 +32,7 @@ namespace capfit::exports {
 //                            hull may lie outside of the true shape, nothing of which it leaves out
 //   ball                     radius
 //
-// Warnings: CONVEX_HULLS (Rapier: how many, and the largest deviation); INNER_SPHERES (capsules that are
+// Warnings: CAPSULES_REPLACED (Rapier: how many, and the largest deviation); INNER_SPHERES (capsules that are
 // a sphere, in all three).
 [[nodiscard]] Exported WriteJolt(const ColliderSet& set);
 [[nodiscard]] Exported WriteBullet(const ColliderSet& set);

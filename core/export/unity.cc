@@ -141,7 +141,7 @@ class UnityWriter {
 
 void WarnOfClothLimit(const std::string& what, std::size_t count, std::vector<Warning>& warnings) {
   if (count <= kClothLimit) return;
-  warnings.push_back({"CLOTH_LIMIT",
+  warnings.push_back({"COLLIDER_LIMIT",
                       absl::StrCat(count, " ", what, ", but Unity Cloth takes ", kClothLimit,
                                    " and ignores the rest: fit again with engine unity_cloth"),
                       static_cast<std::int64_t>(count)});

@@ -25,7 +25,7 @@ namespace capfit::exports {
 // and `boneUp` are in the bone's own axes as glTF importers for Unity keep them (x turned about): for a
 // character that already moves.
 //
-// Warnings: CLOTH_LIMIT (more than 32 spheres or pairs: Unity Cloth ignores the rest),
+// Warnings: COLLIDER_LIMIT (more than 32 spheres or pairs: Unity Cloth ignores the rest),
 // INNER_SPHERES (capsules with one sphere inside the other: spheres for Magica Cloth).
 [[nodiscard]] Exported WriteUnity(const ColliderSet& set);
 

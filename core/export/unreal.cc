@@ -74,7 +74,7 @@ Exported WriteUnreal(const ColliderSet& set) {
   exported.warnings = BallWarnings(solids, "Unreal");
   if (set.joints.empty()) {
     exported.warnings.push_back(
-        {"NO_BONES", "the mesh came without a rig: all shapes hang on the skeleton's root bone"});
+        {"NO_RIG", "the mesh came without a rig: all shapes hang on the skeleton's root bone"});
   }
   return exported;
 }

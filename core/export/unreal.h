@@ -13,7 +13,7 @@ namespace capfit::exports {
 // the first sphere, at +Z, Length between the centres, and FKSphereElem for lone spheres. What bodies
 // there had before is replaced. Names of elements are those of capsules and spheres.
 //
-// Warnings: NO_BONES (without a rig all hangs on the root bone), INNER_SPHERES (capsules with one
+// Warnings: NO_RIG (without a rig all hangs on the root bone), INNER_SPHERES (capsules with one
 // sphere inside the other are spheres).
 [[nodiscard]] Exported WriteUnreal(const ColliderSet& set);
 

@@ -104,7 +104,8 @@ def take_names_of(bones):
 
 def quarter_turns(bones):
     """By how many quarter turns about Z the importer stood the body otherwise."""
-    known = [b for b in DATA["bones"] if b["name"] in bones]
+    names = [b["name"] for b in DATA["bones"]]
+    known = [b for b in DATA["bones"] if b["name"] in bones and names.count(b["name"]) == 1]
     if not known:
         if DATA["bones"]:
             raise RuntimeError("capfit: the skeletal mesh has no bone of the fitted rig")

@@ -112,7 +112,7 @@ class UrdfWriter {
 
   [[nodiscard]] std::vector<Warning> Warnings() const {
     if (capsule_count_ == 0) return {};
-    return {{"CYLINDERS",
+    return {{"CAPSULES_REPLACED",
              absl::StrCat("URDF has no capsule: ", capsule_count_, " became spheres and ",
                           cylinder_count_, " cylinders that enclose them, up to ",
                           options_.max_overshoot_m, " m too large"),

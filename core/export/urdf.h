@@ -19,7 +19,7 @@ struct UrdfOptions {
 // each capsule that it ends, and cylinders along their +Z ("CAPSULE_1", ...) for the cone between:
 // together they enclose the capsules.
 //
-// Errors: INVALID_ARGUMENT for an overshoot out of range. Warnings: CYLINDERS (how many capsules
+// Errors: INVALID_ARGUMENT for an overshoot out of range. Warnings: CAPSULES_REPLACED (how many capsules
 // became how many, and by how much they are too large).
 [[nodiscard]] absl::StatusOr<Exported> WriteUrdf(const ColliderSet& set,
                                                  const UrdfOptions& options = {});

@@ -118,5 +118,6 @@ def read(root, path):
 
 def pages(root):
     """All documents that are checked, relative to the root."""
-    for pattern in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "client/*/README.md"):
+    for pattern in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "docs/engines/*.md",
+                    "client/*/README.md"):
         yield from (path.relative_to(root) for path in sorted(root.glob(pattern)))

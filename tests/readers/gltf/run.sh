@@ -18,6 +18,7 @@ command -v node >/dev/null || skip "no Node.js: deploy/install_packages.sh test"
 [ -e "$bodies/female_average_rest.obj" ] || skip "no bodies in $bodies; set CAPFIT_BODIES"
 
 scratch=$(mktemp -d)
+mkdir "$scratch/in"
 trap 'rm -rf "$scratch"' EXIT
 checks=$here
 if [ ! -d "$here/node_modules/gltf-validator" ]; then
@@ -58,13 +59,13 @@ for body in female_average_rest male_heavy_rest child_rest male_muscular_tpose; 
   run check_meshes.mjs "$out/${name}_union" "$out/expected.json" union
 done
 # Text with its buffer inside comes back as a GLB.
-run make_text.mjs "$avatars/armour_man.glb" "$scratch/text.gltf"
-samples "$scratch/text.gltf" gltf_preview
+run make_text.mjs "$avatars/armour_man.glb" "$scratch/in/text.gltf"
+samples "$scratch/in/text.gltf" gltf_preview
 run check_gltf.mjs "$out/preview.glb" "$out/expected.json" "$avatars/armour_man.glb" rigged
 # The avatars that have the names of VRM's sample rig.
 for body in skirt_woman dressed_deleted_quantised; do
   for version in 0 1; do
-    vrm=$scratch/${body}_$version.vrm
+    vrm=$scratch/in/${body}_$version.vrm
     run make_vrm.mjs "$avatars/$body.glb" "$version" "$vrm"
     samples "$vrm" vrm
     run check_vrm.mjs "$out/${name}_colliders.vrm" "$out/expected.json" "$vrm"
