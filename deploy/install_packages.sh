@@ -4,7 +4,8 @@
 #   deploy/install_packages.sh [build] [test] [bench] [check] [run]
 #
 #   build  compiler and libraries                     (default)
-#   test   what the tests call besides: Python and the builder of its package, JSON Schema, buf, plugins
+#   test   what the tests call besides: Python and the builder of its package, JSON Schema, buf, plugins,
+#          physics engines and a C# compiler that read exports
 #   bench  what draws the plots of the evaluation
 #   check  formatter, linter, fuzzer and sanitizer runtimes
 #   run    the shared libraries of the finished programs only
@@ -21,6 +22,7 @@ test=(
   python3 python3-grpcio python3-protobuf python3-numpy python3-jsonschema
   python3-pip python3-setuptools python3-wheel npm git
   protoc-gen-go protoc-gen-go-grpc protobuf-compiler-grpc-java-plugin
+  libbullet-dev liburdfdom-dev mono-mcs
 )
 bench=(python3 python3-matplotlib)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3 mypy)

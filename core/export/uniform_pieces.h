@@ -1,11 +1,11 @@
-// Capsules of one radius, cylinders and balls in place of a tapered capsule, with nothing of it
-// out.
+// Capsules of one radius, cylinders and balls in place of a tapered capsule, with nothing of it out.
 #ifndef CAPFIT_CORE_EXPORT_UNIFORM_PIECES_H_
 #define CAPFIT_CORE_EXPORT_UNIFORM_PIECES_H_
 
 #include <Eigen/Core>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "core/geometry/tapered_capsule.h"
 
 namespace capfit::exports {
@@ -15,6 +15,9 @@ namespace capfit::exports {
 inline constexpr double kDefaultOvershootM = 0.005;
 inline constexpr double kMinOvershootM = 0.0002;
 inline constexpr double kMaxOvershootM = 0.5;
+
+// OK, or INVALID_ARGUMENT where it is out of that range.
+[[nodiscard]] absl::Status CheckOvershoot(double max_overshoot_m);
 
 // The points within `radius_m` of the segment from a to b. a == b: a ball.
 struct UniformPiece {

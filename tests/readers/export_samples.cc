@@ -2,7 +2,8 @@
 //
 //   export_samples BODY FORMAT OUTDIR [MAX_PRIMITIVES]
 //
-// FORMAT: a name of Formats(), or "all" that take the body. Writes OUTDIR/expected.json (see
+// FORMAT: names of Formats() with commas between, or "all" that take the body. BODY "-" is no file but
+// the made-up set of edge_set.h. Writes OUTDIR/expected.json (see
 // sample_set.h), the files of each format, and OUTDIR/warnings.json: {FORMAT: [{code, message}]}.
 // Exit code 2: bad use or unreadable body.
 #include <cstdio>
@@ -11,14 +12,24 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <set>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/export/gltf_colliders.h"
 #include "core/export/mesh_hulls.h"
+#include "core/export/mujoco.h"
+#include "core/export/nvcloth.h"
+#include "core/export/physics_json.h"
+#include "core/export/table.h"
+#include "core/export/unity.h"
+#include "core/export/unreal.h"
+#include "core/export/urdf.h"
 #include "core/export/usd_colliders.h"
 #include "core/export/vrm_colliders.h"
+#include "tests/readers/edge_set.h"
 #include "tests/readers/sample_set.h"
 
 namespace {
@@ -61,6 +72,26 @@ absl::StatusOr<Exported> WriteUnionSample(const ColliderSet& set, const std::str
   return capfit::exports::WriteUnion(set);
 }
 
+// Of a format that needs nothing but the set, and cannot fail.
+template <Exported (*kWrite)(const ColliderSet&)>
+absl::StatusOr<Exported> WriteAlone(const ColliderSet& set, const std::string&) {
+  return kWrite(set);
+}
+
+absl::StatusOr<Exported> WriteMujocoSample(const ColliderSet& set, const std::string&) {
+  return capfit::exports::WriteMujoco(set);
+}
+
+absl::StatusOr<Exported> WriteMujocoMeshes(const ColliderSet& set, const std::string&) {
+  auto exported = capfit::exports::WriteMujoco(set, {.as_meshes = true});
+  if (exported.ok()) exported->files[0].name = "mujoco_meshes.xml";
+  return exported;
+}
+
+absl::StatusOr<Exported> WriteUrdfSample(const ColliderSet& set, const std::string&) {
+  return capfit::exports::WriteUrdf(set);
+}
+
 absl::StatusOr<Exported> WriteUsdSample(const ColliderSet& set, const std::string&) {
   return capfit::exports::WriteUsd(set);
 }
@@ -77,6 +108,15 @@ const std::vector<SampleFormat>& Formats() {
       {"vrm", WriteVrmSample},     {"usd", WriteUsdSample},
       {"hulls", WriteHullsSample}, {"usd_uniform", WriteUniformUsd},
       {"union", WriteUnionSample},
+      {"unity", WriteAlone<capfit::exports::WriteUnity>},
+      {"unreal", WriteAlone<capfit::exports::WriteUnreal>},
+      {"nvcloth", WriteAlone<capfit::exports::WriteNvCloth>},
+      {"jolt", WriteAlone<capfit::exports::WriteJolt>},
+      {"bullet", WriteAlone<capfit::exports::WriteBullet>},
+      {"rapier", WriteAlone<capfit::exports::WriteRapier>},
+      {"mujoco", WriteMujocoSample}, {"mujoco_meshes", WriteMujocoMeshes},
+      {"urdf", WriteUrdfSample},
+      {"tables", WriteAlone<capfit::exports::WriteTables>},
   };
   return formats;
 }
@@ -105,13 +145,21 @@ json Words(const std::vector<capfit::Warning>& warnings) {
   return words;
 }
 
+std::set<std::string> Words(const std::string& list) {
+  std::set<std::string> words;
+  std::istringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');) words.insert(word);
+  return words;
+}
+
 void WriteSamples(const ColliderSet& set, const std::string& original, const std::string& wanted,
                   const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   WriteFile(folder / "expected.json", capfit::readers::Expected(set).dump(1));
   json warnings = json::object();
+  const std::set<std::string> words = Words(wanted);
   for (const SampleFormat& format : Formats()) {
-    if (wanted != "all" && wanted != format.name) continue;
+    if (wanted != "all" && !words.contains(format.name)) continue;
     const absl::StatusOr<Exported> exported = format.write(set, original);
     if (wanted == "all" && !exported.ok()) continue;  // a format that wants another kind of body
     if (!exported.ok()) Fail(format.name + ": " + std::string(exported.status().message()));
@@ -126,6 +174,10 @@ void WriteSamples(const ColliderSet& set, const std::string& original, const std
 int main(int argc, char** argv) {
   if (argc < 4 || argc > 5) Fail("use: export_samples BODY FORMAT OUTDIR [MAX_PRIMITIVES]");
   const std::string path = argv[1];
+  if (path == "-") {
+    WriteSamples(capfit::readers::EdgeSet(), "", argv[2], argv[3]);
+    return 0;
+  }
   const std::string bytes = Read(path);
   capfit::pipeline::FitOptions options;
   options.parts = {true, true, true, true, true, true};

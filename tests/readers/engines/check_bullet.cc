@@ -1,0 +1,82 @@
+// Builds the shapes of bullet_colliders.json in Bullet (double precision) and compares its distances
+// with the result's own, outside, where Bullet's are exact.
+//
+//   check_bullet FOLDER
+#include <BulletCollision/CollisionShapes/btMultiSphereShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "tests/readers/engines/expected_solids.h"
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double kTolerance = 1e-6;
+
+btVector3 VectorOf(const json& n) {
+  return {n.at(0).get<double>(), n.at(1).get<double>(), n.at(2).get<double>()};
+}
+
+btTransform TransformOf(const json& position, const json& rotation) {
+  const btQuaternion turn(rotation.at(0).get<double>(), rotation.at(1).get<double>(),
+                          rotation.at(2).get<double>(), rotation.at(3).get<double>());
+  return btTransform(turn, VectorOf(position));
+}
+
+std::unique_ptr<btConvexInternalShape> ShapeOf(const json& shape) {
+  if (shape.at("shape") == "btSphereShape") {
+    return std::make_unique<btSphereShape>(shape.at("radius").get<double>());
+  }
+  std::array<btVector3, 2> positions{};
+  std::array<btScalar, 2> radii{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    positions[k] = VectorOf(shape.at("positions").at(k));
+    radii[k] = shape.at("radii").at(k).get<double>();
+  }
+  auto made = std::make_unique<btMultiSphereShape>(positions.data(), radii.data(), 2);
+  made->setMargin(0.0);  // Bullet's own 4 cm lie inside of the radii, and some are smaller
+  return made;
+}
+
+// Where the joint carries the shape.
+btTransform PlaceOf(const json& root, const json& shape) {
+  const btTransform local = TransformOf(shape.at("joint_position"), shape.at("joint_rotation"));
+  const int joint = shape.at("joint").get<int>();
+  if (joint < 0) return local;
+  const json& frame = root.at("joints").at(static_cast<std::size_t>(joint));
+  return TransformOf(frame.at("position"), frame.at("rotation")) * local;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const std::string folder = argv[1];
+  const json root = capfit::readers::FileJson(folder + "/bullet_colliders.json");
+  const auto solids = capfit::readers::ExpectedSolids(folder);
+  capfit::readers::Failures failures;
+  failures.Check(root.at("shapes").size() == solids.size(), "the number of shapes");
+  int points = 0;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const auto& [name, sphere_names, hull] = solids[i];
+    const json& shape = root.at("shapes").at(i);
+    failures.Check(shape.at("name") == name, name + " is not at its place");
+    const auto made = ShapeOf(shape);
+    const btTransform place = PlaceOf(root, shape);
+    for (const Eigen::Vector3d& surface : capfit::readers::SurfacePoints(hull, 60)) {
+      const Eigen::Vector3d point = surface + 0.05 * hull.Locate(surface).normal;
+      btGjkEpaSolver2::sResults results;
+      const double distance = btGjkEpaSolver2::SignedDistance(
+          btVector3(point.x(), point.y(), point.z()), 0.0, made.get(), place, results);
+      failures.Near(distance, hull.SignedDistance(point), kTolerance, name);
+      ++points;
+    }
+  }
+  return failures.Finish(std::to_string(solids.size()) + " shapes in Bullet, " +
+                         std::to_string(points) + " distances");
+}

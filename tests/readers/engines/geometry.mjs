@@ -1,0 +1,90 @@
+// Points, quaternions (x, y, z, w) and the solids of a set, as the checks of this folder need them.
+import { expectedSolids, readJson } from '../gltf/files.mjs';
+
+export const add = (a, b) => a.map((x, i) => x + b[i]);
+export const subtract = (a, b) => a.map((x, i) => x - b[i]);
+export const scale = (a, s) => a.map((x) => x * s);
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) =>
+  [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+
+export function rotate(q, v) {
+  const axis = q.slice(0, 3);
+  const twice = scale(cross(axis, v), 2);
+  return add(add(v, scale(twice, q[3])), cross(axis, twice));
+}
+// The turn `b`, then the turn `a`.
+export const multiply = (a, b) => [
+  a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
+  a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
+  a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
+  a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]];
+export const turnAboutX = (angle) => [Math.sin(angle / 2), 0, 0, Math.cos(angle / 2)];
+
+// A frame { position, rotation } of the first one's, seen from where the first one is seen.
+export const compose = (outer, inner) => ({
+  position: add(outer.position, rotate(outer.rotation, inner.position)),
+  rotation: multiply(outer.rotation, inner.rotation),
+});
+
+// What the result has, in metres with Y up: each solid with one sphere or two { center, radius }.
+export function uprightSolids(folder) {
+  const expected = readJson(`${folder}/expected.json`);
+  return expectedSolids(expected, expected.upright_from_mesh, expected.metres_per_unit);
+}
+
+// The frame of a joint as the files of shapes have it; of -1 the one that all is in.
+export const jointOf = (file, index) =>
+  (index < 0 ? { position: [0, 0, 0], rotation: [0, 0, 0, 1] } : file.joints[index]);
+
+// (Math.hypot takes ten times as long.)
+const norm = (v) => Math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+export function between(a, b) {
+  const x = a[0] - b[0];
+  const y = a[1] - b[1];
+  const z = a[2] - b[2];
+  return Math.sqrt(x * x + y * y + z * z);
+}
+
+// The exact signed distance from a point to the hull of one sphere or two, negative inside.
+export function signedDistance(ends, p) {
+  const [a, b] = ends;
+  if (!b) return between(p, a.center) - a.radius;
+  const axis = subtract(b.center, a.center);
+  const length = norm(axis);
+  const sine = (a.radius - b.radius) / length;
+  const cosine = Math.sqrt(1 - sine * sine);
+  const from = subtract(p, a.center);
+  const along = dot(from, axis) / length;
+  const across = Math.sqrt(Math.max(0, dot(from, from) - along * along));
+  const slant = cosine * along - sine * across;
+  if (slant <= 0) return norm(from) - a.radius;
+  if (slant >= cosine * length) return between(p, b.center) - b.radius;
+  return cosine * across + sine * along - a.radius;
+}
+
+// How far a solid of one sphere or two reaches in a direction of length 1.
+export const reach = (ends, direction) =>
+  Math.max(...ends.map((end) => dot(end.center, direction) + end.radius));
+
+// Directions all around, evenly.
+export function directions(count) {
+  return Array.from({ length: count }, (_, i) => {
+    const y = 1 - (2 * i + 1) / count;
+    const angle = i * Math.PI * (3 - Math.sqrt(5));
+    const r = Math.sqrt(1 - y * y);
+    return [r * Math.cos(angle), y, r * Math.sin(angle)];
+  });
+}
+
+// Points of the surface of a solid, evenly over its ends and along its cone.
+export function surfacePoints(ends, count) {
+  const points = [];
+  for (const direction of directions(count)) {
+    const at = ends.map((end) => add(end.center, scale(direction, end.radius)));
+    for (const point of at) points.push(point);
+    if (at.length < 2) continue;
+    for (const t of [0.1, 0.3, 0.5, 0.7, 0.9]) points.push(add(scale(at[0], 1 - t), scale(at[1], t)));
+  }
+  return points.filter((p) => signedDistance(ends, p) > -1e-9);
+}
