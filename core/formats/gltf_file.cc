@@ -51,12 +51,13 @@ std::size_t BytesToParse(std::string_view text) {
   return bytes;
 }
 
-absl::StatusOr<json> ParseDescription(std::span<const std::byte> bytes, const char* where) {
+absl::StatusOr<json> ParseDescription(std::span<const std::byte> bytes, const char* where,
+                                      GltfContent content) {
   if (bytes.size() > kMostJsonBytes) {
     const std::size_t size = BytesToParse(AsText(bytes));
     if (size > kMostJsonBytes) return FileTooLarge({}, size, "bytes of JSON", kMostJsonBytes);
   }
-  std::optional<json> parsed = ParseGltfJson(AsText(bytes));
+  std::optional<json> parsed = ParseGltfJson(AsText(bytes), content);
   if (parsed.has_value()) return *std::move(parsed);
   return FileError(ErrorReason::kMalformedFile, {},
                    absl::StrCat("has ", where, " that is no JSON object"));
@@ -111,22 +112,23 @@ std::optional<std::string_view> Base64Of(std::string_view uri) {
 
 }  // namespace
 
-absl::StatusOr<GltfFile> GltfFile::Open(std::span<const std::byte> bytes) {
+absl::StatusOr<GltfFile> GltfFile::Open(std::span<const std::byte> bytes, GltfContent content) {
   GltfFile file;
   const bool is_text = AsText(bytes).substr(0, 4) != "glTF" && LooksLikeGltfText(AsText(bytes));
-  CAPFIT_RETURN_IF_ERROR(is_text ? file.OpenText(bytes) : file.OpenChunks(bytes));
+  CAPFIT_RETURN_IF_ERROR(is_text ? file.OpenText(bytes, content)
+                                 : file.OpenChunks(bytes, content));
   CAPFIT_RETURN_IF_ERROR(CheckVersion(file.json_));
   CAPFIT_RETURN_IF_ERROR(CheckRequiredExtensions(file.json_));
   CAPFIT_RETURN_IF_ERROR(file.UnpackBuffers());
   return file;
 }
 
-absl::Status GltfFile::OpenText(std::span<const std::byte> bytes) {
-  CAPFIT_ASSIGN_OR_RETURN(json_, ParseDescription(bytes, "text"));
+absl::Status GltfFile::OpenText(std::span<const std::byte> bytes, GltfContent content) {
+  CAPFIT_ASSIGN_OR_RETURN(json_, ParseDescription(bytes, "text", content));
   return absl::OkStatus();
 }
 
-absl::Status GltfFile::OpenChunks(std::span<const std::byte> bytes) {
+absl::Status GltfFile::OpenChunks(std::span<const std::byte> bytes, GltfContent content) {
   if (bytes.size() < 20 || WordAt(bytes, 0) != 0x46546C67) {
     return FileError(ErrorReason::kMalformedFile, {},
                      "is no GLB file: it must begin with 'glTF' and a header");
@@ -157,7 +159,7 @@ absl::Status GltfFile::OpenChunks(std::span<const std::byte> bytes) {
     }
     const std::span<const std::byte> chunk = bytes.subspan(offset, size);
     if (type == kJsonChunk && !has_json) {
-      CAPFIT_ASSIGN_OR_RETURN(json_, ParseDescription(chunk, "a JSON chunk"));
+      CAPFIT_ASSIGN_OR_RETURN(json_, ParseDescription(chunk, "a JSON chunk", content));
       has_json = true;
     } else if (type == kBinaryChunk && binary_.empty()) {
       binary_ = chunk;

@@ -14,6 +14,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/formats/file_error.h"
+#include "core/formats/gltf_json.h"
 
 namespace capfit::formats {
 
@@ -26,7 +27,8 @@ class GltfFile {
   // written in it as base64. INVALID_ARGUMENT says what is wrong; an extension that the file calls
   // required and that changes its geometry in a way not read here is refused by name
   // (UNSUPPORTED_FILE). Keeps a view of `bytes`.
-  [[nodiscard]] static absl::StatusOr<GltfFile> Open(std::span<const std::byte> bytes);
+  [[nodiscard]] static absl::StatusOr<GltfFile> Open(
+      std::span<const std::byte> bytes, GltfContent content = GltfContent::kStill);
 
   GltfFile(GltfFile&&) = default;
   GltfFile& operator=(GltfFile&&) = default;
@@ -43,8 +45,8 @@ class GltfFile {
 
  private:
   GltfFile() = default;
-  absl::Status OpenChunks(std::span<const std::byte> bytes);
-  absl::Status OpenText(std::span<const std::byte> bytes);
+  absl::Status OpenChunks(std::span<const std::byte> bytes, GltfContent content);
+  absl::Status OpenText(std::span<const std::byte> bytes, GltfContent content);
   absl::Status UnpackBuffers();
   [[nodiscard]] absl::StatusOr<std::span<const std::byte>> Range(const nlohmann::json& view,
                                                                  const FilePlace& place) const;

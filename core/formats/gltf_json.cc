@@ -28,6 +28,7 @@ bool IsOneOf(std::string_view name, std::string_view a, std::string_view b) {
 // Takes the parser's events and builds what is wanted.
 class WantedValues final : public json::json_sax_t {
  public:
+  explicit WantedValues(GltfContent content) : content_(content) {}
   json Take() { return std::move(root_); }
 
   bool null() override { return Add(nullptr); }
@@ -57,6 +58,7 @@ class WantedValues final : public json::json_sax_t {
   // Of a member of the object that is open.
   [[nodiscard]] bool IsWanted(std::string_view name) const {
     const std::size_t depth = open_.size();
+    if (depth == 1 && content_ == GltfContent::kAnimated && name == "animations") return true;
     if (depth == 1) return std::find(kWanted.begin(), kWanted.end(), name) != kWanted.end();
     if (section_ == "materials") return depth == 3 && name == "name";
     if (section_ == "extensions") {
@@ -108,6 +110,7 @@ class WantedValues final : public json::json_sax_t {
     return &member;
   }
 
+  GltfContent content_;
   json root_;
   std::vector<json*> open_;
   std::string key_;
@@ -118,8 +121,8 @@ class WantedValues final : public json::json_sax_t {
 
 }  // namespace
 
-std::optional<json> ParseGltfJson(std::string_view text) {
-  WantedValues values;
+std::optional<json> ParseGltfJson(std::string_view text, GltfContent content) {
+  WantedValues values(content);
   if (!json::sax_parse(text.begin(), text.end(), &values)) return std::nullopt;
   json root = values.Take();
   if (!root.is_object()) return std::nullopt;

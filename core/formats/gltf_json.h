@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_FORMATS_GLTF_JSON_H_
 
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -14,12 +15,16 @@
 
 namespace capfit::formats {
 
-// The object that the text describes, without images, animations and extras, which may be large, of
-// materials only the names, of the file's own extensions only VRM's table of human bones; nothing
+// What a file is read for.
+enum class GltfContent : std::uint8_t { kStill, kAnimated };
+
+// The object that the text describes, without images and extras, which may be large, without
+// animations unless they are what the file is read for, of materials only the names, of the file's own extensions only VRM's table of human bones; nothing
 // where it is no JSON object. O(text).
 //
 // Not json::parse with a callback: that searches the whole array again for each of its elements.
-[[nodiscard]] std::optional<nlohmann::json> ParseGltfJson(std::string_view text);
+[[nodiscard]] std::optional<nlohmann::json> ParseGltfJson(
+    std::string_view text, GltfContent content = GltfContent::kStill);
 
 // json[key], or null where it is absent or `json` is no object.
 [[nodiscard]] const nlohmann::json& ValueAt(const nlohmann::json& json, const char* key);

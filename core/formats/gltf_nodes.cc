@@ -30,23 +30,6 @@ std::optional<std::vector<double>> NumbersAt(const json& parent, const char* key
   return numbers;
 }
 
-Eigen::Matrix4d ToParent(const json& node) {
-  if (const auto m = NumbersAt(node, "matrix", 16)) {
-    return Eigen::Map<const Eigen::Matrix4d>(m->data());  // both are column by column
-  }
-  Eigen::Affine3d to_parent = Eigen::Affine3d::Identity();
-  if (const auto t = NumbersAt(node, "translation", 3)) {
-    to_parent.translate(Eigen::Vector3d((*t)[0], (*t)[1], (*t)[2]));
-  }
-  if (const auto r = NumbersAt(node, "rotation", 4)) {
-    to_parent.rotate(Eigen::Quaterniond((*r)[3], (*r)[0], (*r)[1], (*r)[2]).normalized());
-  }
-  if (const auto s = NumbersAt(node, "scale", 3)) {
-    to_parent.scale(Eigen::Vector3d((*s)[0], (*s)[1], (*s)[2]));
-  }
-  return to_parent.matrix();
-}
-
 class NodeTree {
  public:
   explicit NodeTree(const json& gltf) : gltf_(gltf), nodes_(ArrayAt(gltf, "nodes")) {}
@@ -102,7 +85,7 @@ class NodeTree {
       if (seen[node]) continue;
       seen[node] = true;
       order.push_back(node);
-      if (place) result_.to_world[node] *= ToParent(nodes_[node]);
+      if (place) result_.to_world[node] *= PlaceOf(nodes_[node]).ToParent();
       for (std::size_t k = children_[node].size(); k-- > 0;) {
         const std::size_t child = children_[node][k];
         if (place) result_.to_world[child] = result_.to_world[node];
@@ -120,6 +103,31 @@ class NodeTree {
 };
 
 }  // namespace
+
+Eigen::Matrix4d GltfNodePlace::ToParent() const {
+  if (matrix) return *matrix;
+  Eigen::Affine3d to_parent = Eigen::Affine3d::Identity();
+  to_parent.translate(translation);
+  to_parent.rotate(rotation);
+  to_parent.scale(scale);
+  return to_parent.matrix();
+}
+
+GltfNodePlace PlaceOf(const json& node) {
+  GltfNodePlace place;
+  if (const auto m = NumbersAt(node, "matrix", 16)) {
+    place.matrix = Eigen::Map<const Eigen::Matrix4d>(m->data());  // both are column by column
+    return place;
+  }
+  if (const auto t = NumbersAt(node, "translation", 3)) {
+    place.translation = {(*t)[0], (*t)[1], (*t)[2]};
+  }
+  if (const auto r = NumbersAt(node, "rotation", 4)) {
+    place.rotation = Eigen::Quaterniond((*r)[3], (*r)[0], (*r)[1], (*r)[2]).normalized();
+  }
+  if (const auto s = NumbersAt(node, "scale", 3)) place.scale = {(*s)[0], (*s)[1], (*s)[2]};
+  return place;
+}
 
 absl::StatusOr<GltfNodes> ReadGltfNodes(const json& gltf) { return NodeTree(gltf).Run(); }
 
