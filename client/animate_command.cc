@@ -4,15 +4,19 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <string>
-#include <vector>
+#include <utility>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "client/carried_frames.h"
 #include "client/exit_code.h"
 #include "client/picture/belongs.h"
 #include "client/picture/centers_file.h"
 #include "client/picture/file_bytes.h"
 #include "client/picture/result_body.h"
+#include "client/skinning_json.h"
 #include "client/weights_output.h"
 #include "core/base/status.h"
 
@@ -23,72 +27,157 @@ struct AnimateArguments {
   std::string body;
   std::string weights;
   std::string frames;
+  std::string joints;
+  std::string clip;
+  double fps = 30.0;
+  bool stretches_radii = false;
   std::string output;
+  std::string radii_output;
   int threads = 0;
 };
 
-using Centers = std::vector<Eigen::Vector3d>;
-
-// That the weights are the body's and, where they were named by their result, the result's.
-absl::Status CheckWeights(const AnimateArguments& arguments,
-                          const skinning::DenseWeights& weights) {
-  CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, ReadBodyFile(arguments.body));
-  CAPFIT_RETURN_IF_ERROR(CheckVertexCount("WEIGHTS", weights.vertex_count, soup));
-  if (IsWeightsHeader(arguments.weights)) return absl::OkStatus();
-  CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(arguments.weights));
-  CAPFIT_ASSIGN_OR_RETURN(const ResultSet result, ParseResultSet(text));
-  CAPFIT_RETURN_IF_ERROR(CheckBelongs(result, soup));
-  if (result.spheres.size() == weights.sphere_count) return absl::OkStatus();
-  return InvalidField(ErrorReason::kContradictsBody, "WEIGHTS",
-                      absl::StrCat("are for ", weights.sphere_count, " spheres, RESULT has ",
-                                   result.spheres.size(), "; fit again with --skinning dense"));
+absl::Status WrongSource(const std::string& form, const std::string& flags) {
+  return InvalidField(ErrorReason::kConflict, "WEIGHTS",
+                      absl::StrCat("are ", form, ", which move with ", flags));
 }
 
-// Whether a whole frame was read; an error for a part of one.
-absl::StatusOr<bool> ReadFrame(std::istream& in, std::size_t frame, std::vector<float>& numbers) {
-  const auto bytes = static_cast<std::streamsize>(numbers.size() * sizeof(float));
-  in.read(reinterpret_cast<char*>(numbers.data()), bytes);
-  if (in.gcount() == bytes) return true;
-  if (in.gcount() == 0 && in.eof()) return false;
-  return InvalidField(ErrorReason::kMalformedFile, absl::StrCat("frames[", frame, "]"),
-                      absl::StrCat("has ", in.gcount(), " bytes, must have ", bytes));
-}
-
-absl::StatusOr<std::vector<Centers>> MoveCenters(const AnimateArguments& arguments,
-                                                 const skinning::DenseWeights& weights) {
-  std::ifstream file;
-  if (arguments.frames != "-") file.open(arguments.frames, std::ios::binary);
-  if (!file) return absl::NotFoundError(absl::StrCat("cannot read ", arguments.frames));
-  std::istream& in = arguments.frames == "-" ? std::cin : file;
-  const ThreadPool pool(arguments.threads);
-  std::vector<float> numbers(3 * weights.vertex_count);
-  Centers vertices(weights.vertex_count);
-  std::vector<Centers> frames;
-  for (;;) {
-    CAPFIT_ASSIGN_OR_RETURN(const bool is_whole, ReadFrame(in, frames.size(), numbers));
-    if (!is_whole) break;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      vertices[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
-      if (!vertices[i].allFinite()) {
-        return InvalidField(ErrorReason::kMalformedFile,
-                            absl::StrCat("frames[", frames.size(), "][", i, "]"), "must be finite");
-      }
-    }
-    frames.push_back(skinning::Apply(weights, vertices, pool));
+// Of bones the joints must move, of others the vertices.
+absl::Status CheckSource(const AnimateArguments& arguments, const AnyWeights& weights) {
+  const bool is_bones = std::holds_alternative<skinning::BoneWeights>(weights);
+  if (is_bones && !arguments.frames.empty()) {
+    return WrongSource("for bones", "--clip or --joints; fit again with --skinning sparse");
   }
-  if (frames.empty()) return InvalidField(ErrorReason::kMalformedFile, "frames", "is empty");
-  return frames;
+  if (!is_bones && arguments.frames.empty()) {
+    return WrongSource("for vertices", "--frames; fit again with --skinning bones");
+  }
+  return absl::OkStatus();
+}
+
+std::size_t SphereCountOf(const AnyWeights& weights) {
+  if (const auto* dense = std::get_if<skinning::DenseWeights>(&weights)) return dense->sphere_count;
+  if (const auto* sparse = std::get_if<skinning::SparseWeights>(&weights)) {
+    return sparse->sphere_count();
+  }
+  return std::get<skinning::BoneWeights>(weights).sphere_count();
+}
+
+absl::Status CheckVertices(const AnyWeights& weights, const formats::PolygonSoup& soup) {
+  if (const auto* dense = std::get_if<skinning::DenseWeights>(&weights)) {
+    return CheckVertexCount("WEIGHTS", dense->vertex_count, soup);
+  }
+  const auto* const sparse = std::get_if<skinning::SparseWeights>(&weights);
+  return sparse == nullptr ? absl::OkStatus()
+                           : CheckVertexCount("WEIGHTS", sparse->vertex_count, soup);
+}
+
+// The weights in the result, else those beside it.
+absl::StatusOr<AnyWeights> WeightsOf(const AnimateArguments& arguments, ResultSkinning& skinning) {
+  if (skinning.bones) return *std::move(skinning.bones);
+  if (skinning.sparse) return *std::move(skinning.sparse);
+  CAPFIT_ASSIGN_OR_RETURN(skinning::DenseWeights dense, ReadWeights(arguments.weights));
+  return dense;
+}
+
+// That the weights are the body's and the result's.
+absl::StatusOr<CarriedSet> ReadCarried(const AnimateArguments& arguments) {
+  CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(arguments.weights));
+  CAPFIT_ASSIGN_OR_RETURN(ResultSkinning skinning, ParseSkinning(text));
+  CAPFIT_ASSIGN_OR_RETURN(const ResultSet result, ParseResultSet(text));
+  CarriedSet set;
+  CAPFIT_ASSIGN_OR_RETURN(set.weights, WeightsOf(arguments, skinning));
+  CAPFIT_RETURN_IF_ERROR(CheckSource(arguments, set.weights));
+  CAPFIT_ASSIGN_OR_RETURN(formats::PolygonSoup soup, ReadBodyFile(arguments.body));
+  CAPFIT_RETURN_IF_ERROR(CheckVertices(set.weights, soup));
+  CAPFIT_RETURN_IF_ERROR(CheckBelongs(result, soup));
+  if (result.spheres.size() != SphereCountOf(set.weights)) {
+    return InvalidField(ErrorReason::kContradictsBody, "WEIGHTS",
+                        absl::StrCat("are for ", SphereCountOf(set.weights),
+                                     " spheres, RESULT has ", result.spheres.size(),
+                                     "; fit again with --skinning"));
+  }
+  for (const geometry::Sphere& sphere : result.spheres) set.radii.push_back(sphere.radius_m);
+  set.vertices = std::move(soup.positions);
+  set.joints = std::move(skinning.joints);
+  set.stretches_radii = arguments.stretches_radii;
+  return set;
+}
+
+// Of dense weights alone, without the result: centres, but no radii.
+absl::StatusOr<CarriedSet> ReadHeaderAlone(const AnimateArguments& arguments) {
+  if (arguments.stretches_radii || !arguments.radii_output.empty()) {
+    return InvalidField(ErrorReason::kConflict, "WEIGHTS",
+                        "has no radii; name RESULT.json instead of its .weights.json");
+  }
+  CarriedSet set;
+  CAPFIT_ASSIGN_OR_RETURN(set.weights, ReadWeights(arguments.weights));
+  CAPFIT_RETURN_IF_ERROR(CheckSource(arguments, set.weights));
+  CAPFIT_ASSIGN_OR_RETURN(formats::PolygonSoup soup, ReadBodyFile(arguments.body));
+  CAPFIT_RETURN_IF_ERROR(CheckVertices(set.weights, soup));
+  set.vertices = std::move(soup.positions);
+  return set;
+}
+
+absl::StatusOr<CarriedFrames> PlayClip(const AnimateArguments& arguments, const CarriedSet& set) {
+  CAPFIT_ASSIGN_OR_RETURN(const std::string bytes, ReadFileBytes(arguments.body));
+  CAPFIT_ASSIGN_OR_RETURN(const formats::GltfClips clips,
+                          formats::GltfClips::Read(std::as_bytes(std::span(bytes))));
+  CAPFIT_ASSIGN_OR_RETURN(const std::size_t clip, clips.Find(arguments.clip));
+  return CarryAlong(set, clips, clip, arguments.fps);
+}
+
+absl::StatusOr<CarriedFrames> Play(const AnimateArguments& arguments, const CarriedSet& set) {
+  if (!arguments.clip.empty()) return PlayClip(arguments, set);
+  const std::string& path = arguments.frames.empty() ? arguments.joints : arguments.frames;
+  std::ifstream file;
+  if (path != "-") file.open(path, std::ios::binary);
+  if (!file) return absl::NotFoundError(absl::StrCat("cannot read ", path));
+  return CarryAlong(set, path == "-" ? std::cin : file, ThreadPool(arguments.threads));
 }
 
 absl::Status RunAnimate(const AnimateArguments& arguments) {
   CAPFIT_RETURN_IF_ERROR(CheckWritable(arguments.output));
-  CAPFIT_ASSIGN_OR_RETURN(const skinning::DenseWeights weights, ReadWeights(arguments.weights));
-  CAPFIT_RETURN_IF_ERROR(CheckWeights(arguments, weights));
-  CAPFIT_ASSIGN_OR_RETURN(const std::vector<Centers> frames, MoveCenters(arguments, weights));
-  CAPFIT_RETURN_IF_ERROR(WriteFileBytes(arguments.output, FormatCenters(frames, arguments.output)));
+  if (!arguments.radii_output.empty()) {
+    CAPFIT_RETURN_IF_ERROR(CheckWritable(arguments.radii_output));
+  }
+  CAPFIT_ASSIGN_OR_RETURN(const CarriedSet set, IsWeightsHeader(arguments.weights)
+                                                    ? ReadHeaderAlone(arguments)
+                                                    : ReadCarried(arguments));
+  CAPFIT_ASSIGN_OR_RETURN(const CarriedFrames frames, Play(arguments, set));
+  CAPFIT_RETURN_IF_ERROR(
+      WriteFileBytes(arguments.output, FormatCenters(frames.centers, arguments.output)));
+  if (!arguments.radii_output.empty()) {
+    CAPFIT_RETURN_IF_ERROR(
+        WriteFileBytes(arguments.radii_output, FormatRadii(frames.radii, arguments.radii_output)));
+  }
   std::fprintf(arguments.output == "-" ? stderr : stdout, "%zu frames of %zu sphere centres\n",
-               frames.size(), weights.sphere_count);
+               frames.centers.size(), SphereCountOf(set.weights));
   return absl::OkStatus();
+}
+
+void AddSourceFlags(CLI::App& command, AnimateArguments& arguments) {
+  CLI::Option* const frames =
+      command
+          .add_option("--frames", arguments.frames,
+                      "Moved vertices, for dense and sparse weights: little-endian float32, frames "
+                      "x vertices x 3")
+          ->type_name("FILE");
+  CLI::Option* const clip =
+      command
+          .add_option("--clip", arguments.clip,
+                      "Animation of BODY (GLB, VRM) by name or index, for bone weights")
+          ->type_name("NAME");
+  CLI::Option* const joints =
+      command
+          .add_option("--joints", arguments.joints,
+                      "Moved joints, for bone weights: little-endian float32, frames x joints x 12 "
+                      "(3 rows of 4 from the joint's frame to the mesh's)")
+          ->type_name("FILE");
+  command.add_option("--fps", arguments.fps, "With --clip: frames a second")
+      ->check(CLI::Range(0.01, 10'000.0))
+      ->capture_default_str()
+      ->needs(clip);
+  frames->excludes(clip)->excludes(joints);
+  clip->excludes(joints);
 }
 
 }  // namespace
@@ -96,20 +185,17 @@ absl::Status RunAnimate(const AnimateArguments& arguments) {
 void AddAnimateCommand(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<AnimateArguments>();
   CLI::App* const command = app.add_subcommand(
-      "animate", "Carry the sphere centres along with the body's moved vertices");
+      "animate", "Carry the sphere centres along with the body's moved vertices or joints");
   command->add_option("BODY", arguments->body, "Mesh file that was fitted")
       ->required()
       ->type_name("FILE");
   command
       ->add_option("WEIGHTS", arguments->weights,
-                   "RESULT.json that was written with --skinning dense, or its .weights.json")
+                   "RESULT.json that was written with --skinning dense, sparse or bones, or the "
+                   ".weights.json beside it")
       ->required()
       ->type_name("FILE");
-  command
-      ->add_option("--frames", arguments->frames,
-                   "Moved vertices: little-endian float32, frames x vertices x 3")
-      ->required()
-      ->type_name("FILE");
+  AddSourceFlags(*command, *arguments);
   command
       ->add_option(
           "-o,--output", arguments->output,
@@ -117,10 +203,22 @@ void AddAnimateCommand(CLI::App& app, int& exit_code) {
           "{\"frames\": [[[x, y, z], ...], ...]} in a file that ends in .json")
       ->required()
       ->type_name("FILE");
+  command->add_flag("--stretch-radii", arguments->stretches_radii,
+                    "Radii follow the body's stretch, within 0.8 and 1.25 of what they are");
+  command
+      ->add_option("--radii", arguments->radii_output,
+                   "Radii of each frame: little-endian float32, frames x spheres, or {\"frames\": "
+                   "[[r, ...], ...]} in a file that ends in .json")
+      ->type_name("FILE");
   command->add_option("--threads", arguments->threads, "Threads; 0: one per core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  command->callback([arguments, &exit_code] { exit_code = Report(RunAnimate(*arguments)); });
+  command->callback([arguments, &exit_code] {
+    if (arguments->frames.empty() && arguments->clip.empty() && arguments->joints.empty()) {
+      throw CLI::RequiredError("--frames, --clip or --joints");
+    }
+    exit_code = Report(RunAnimate(*arguments));
+  });
 }
 
 }  // namespace capfit::client

@@ -77,6 +77,18 @@ std::string FormatCenters(const std::vector<std::vector<Eigen::Vector3d>>& frame
   return is_json ? bytes + "\n]}\n" : bytes;
 }
 
+std::string FormatRadii(const std::vector<std::vector<double>>& frames, const std::string& path) {
+  if (FileEnding(path) == kJsonEnding) return Tree{{"frames", frames}}.dump() + "\n";
+  std::string bytes;
+  for (const std::vector<double>& radii : frames) {
+    for (const double radius : radii) {
+      const auto single = static_cast<float>(radius);
+      bytes.append(reinterpret_cast<const char*>(&single), sizeof single);
+    }
+  }
+  return bytes;
+}
+
 absl::StatusOr<std::string> ReadCenters(const std::string& path) {
   CAPFIT_ASSIGN_OR_RETURN(std::string bytes, ReadFileBytes(path));
   return FileEnding(path) == kJsonEnding ? FloatsOf(bytes) : bytes;

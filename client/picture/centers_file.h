@@ -16,6 +16,10 @@ namespace capfit::client {
 [[nodiscard]] std::string FormatCenters(const std::vector<std::vector<Eigen::Vector3d>>& frames,
                                         const std::string& path);
 
+// The radii of each frame, in the same way: frames x spheres, or {"frames": [[r, ...], ...]}.
+[[nodiscard]] std::string FormatRadii(const std::vector<std::vector<double>>& frames,
+                                      const std::string& path);
+
 // The centres as float32, whichever form the file has. NOT_FOUND where it cannot be read;
 // INVALID_ARGUMENT names what is no list of points ("centers[3][1] must be three finite numbers").
 [[nodiscard]] absl::StatusOr<std::string> ReadCenters(const std::string& path);

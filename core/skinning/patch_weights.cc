@@ -114,7 +114,7 @@ class Viewer {
 
   // False: there are too many.
   bool Cut(const SurfacePatch& patch, float limit) {
-    if (!Matters(patch, limit)) return Put(patch.begin, patch.end, &patch);
+    if (patch.is_of_one && !Matters(patch, limit)) return Put(patch.begin, patch.end, &patch);
     const std::size_t first = seen_.size();
     if (!patch.is_bucket()) {
       for (const std::int32_t part : patch.parts) {
@@ -125,7 +125,7 @@ class Viewer {
         if (!Put(i, i + 1, nullptr)) return false;
       }
     }
-    if (seen_.size() - first <= counts_.group) {
+    if (patch.is_of_one && seen_.size() - first <= counts_.group) {
       for (std::size_t i = first; i < seen_.size(); ++i) {
         seen_[i].group = static_cast<std::uint32_t>(first);
       }

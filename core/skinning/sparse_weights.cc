@@ -19,7 +19,7 @@ constexpr double kLeastShare = 0.02;
 // Keeps a group from tilting steeply to mend what its vertices, nearly in one plane, cannot.
 constexpr double kStiffness = 1e-3;
 // Below this share of the absolute sum, a sum of weights is noise and must not be divided by.
-constexpr double kUsableSum = 1e-9;
+constexpr double kUsableRowSum = 1e-9;
 constexpr std::size_t kVerticesLookedAt = 12;
 
 // Which of the caller's vertices can carry what the mesh's vertices weigh, and where they are.
@@ -170,7 +170,7 @@ void DivideBySum(std::span<Entry> entries) {
     sum += entry.weight;
     sizes += std::abs(entry.weight);
   }
-  const bool is_usable = std::abs(sum) > kUsableSum * sizes;
+  const bool is_usable = std::abs(sum) > kUsableRowSum * sizes;
   for (Entry& entry : entries) {
     entry.weight = is_usable ? entry.weight / sum : std::abs(entry.weight) / sizes;
   }

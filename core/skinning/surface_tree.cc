@@ -133,6 +133,7 @@ class Builder {
     SurfacePatch patch;
     patch.begin = static_cast<std::uint32_t>(begin);
     patch.end = static_cast<std::uint32_t>(end);
+    patch.is_of_one = (keys_[begin] ^ keys_[end - 1]) >> (kKeyBits - kPartBits) == 0;
     if (end - begin > kFewVertices) {
       // A single vertex is no patch: it goes with its neighbours.
       const std::size_t at = std::clamp(SplitOf(keys_, begin, end), begin + 2, end - 2);

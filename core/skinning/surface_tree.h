@@ -27,6 +27,7 @@ struct SurfacePatch {
   std::uint32_t end = 0;
   // The two patches that it consists of; where there are none, it is but a few vertices.
   std::array<std::int32_t, 2> parts = {-1, -1};
+  bool is_of_one = true;  // of one part of the body, as far as it was told
 
   [[nodiscard]] bool is_bucket() const { return parts[0] < 0; }
 };

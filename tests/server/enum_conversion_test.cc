@@ -29,7 +29,7 @@ TEST(EnumConversion, EveryCoreValueComesBack) {
   ExpectRoundTrip<section::Sex>(3);
   ExpectRoundTrip<pipeline::FitMode>(2);
   ExpectRoundTrip<pipeline::Quality>(2);
-  ExpectRoundTrip<pipeline::SkinningMode>(2);
+  ExpectRoundTrip<pipeline::SkinningMode>(4);
 }
 
 TEST(EnumConversion, EveryWireValueIsKnownOrRefusedOnPurpose) {
@@ -46,7 +46,6 @@ TEST(EnumConversion, EveryWireValueIsKnownOrRefusedOnPurpose) {
     EXPECT_TRUE(FromWire(static_cast<v1::Stage>(i))) << i;
   }
   EXPECT_FALSE(FromWire(v1::BODY_PART_UNSPECIFIED));
-  EXPECT_FALSE(FromWire(v1::SKINNING_FORM_SPARSE));
 }
 
 TEST(EnumConversion, UnspecifiedGivesTheDocumentedDefault) {

@@ -226,13 +226,14 @@ INSTANTIATE_TEST_SUITE_P(
                "options.landmarks[0].position"}),
     [](const auto& test) { return test.param.name; });
 
-TEST(OptionsConversion, FormsThatAreNotMadeAreUnimplementedNotIgnored) {
-  for (const v1::SkinningForm form : {v1::SKINNING_FORM_SPARSE, v1::SKINNING_FORM_BONES}) {
+TEST(OptionsConversion, EveryFormOfSkinningIsMade) {
+  for (const v1::SkinningForm form :
+       {v1::SKINNING_FORM_DENSE, v1::SKINNING_FORM_SPARSE, v1::SKINNING_FORM_BONES}) {
     v1::ApproximateBodyHeader header;
     header.mutable_options()->set_skinning(form);
-    const absl::Status status = OptionsFromWire(header).status();
-    EXPECT_EQ(status.code(), absl::StatusCode::kUnimplemented);
-    EXPECT_THAT(std::string(status.message()), testing::HasSubstr("options.skinning"));
+    const auto options = OptionsFromWire(header);
+    ASSERT_TRUE(options.ok()) << options.status();
+    EXPECT_EQ(ToWire(options->skinning), form);
   }
 }
 

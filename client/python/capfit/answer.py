@@ -105,8 +105,61 @@ class Answer:
             "sphere_polygons": [sphere.get("polygon") for sphere in spheres],
             "capsule_parts": [capsule["part"] for capsule in capsules],
         })
+        self._add_joints(primitives)
+
+    def _add_joints(self, primitives: Any) -> None:
+        joints = [{"name": joint.name, "human_bone": joint.human_bone,
+                   "parent": joint.parent if joint.HasField("parent") else None,
+                   "to_mesh": list(joint.to_mesh),
+                   "node": joint.node if joint.HasField("node") else None}
+                  for joint in primitives.joints]
+        if any(len(joint["to_mesh"]) != 12 for joint in joints):
+            raise contract_broken("a joint whose to_mesh has not 12 numbers")
+        if joints:
+            self._document["joints"] = joints
+        if not primitives.spheres or not primitives.spheres[0].HasField("joint"):
+            return
+        self._document.update({
+            "sphere_joints": [sphere.joint for sphere in primitives.spheres],
+            "sphere_joint_drift_m": [sphere.joint_drift_m for sphere in primitives.spheres],
+            "capsule_joints": [capsule.joint for capsule in primitives.capsules],
+        })
+        indices = self._document["sphere_joints"] + self._document["capsule_joints"]
+        if not all(0 <= index < len(joints) for index in indices):
+            raise contract_broken(f"a joint beyond the {len(joints)} that there are")
 
     def _add_skinning(self, block: Any) -> None:
+        form = block.WhichOneof("weights")
+        if form == "dense":
+            self._add_dense(block)
+        elif form is not None:
+            self._add_rows(form, block)
+
+    def _add_rows(self, form: str, block: Any) -> None:
+        message = getattr(block, form)
+        names = {"sparse": ("vertices", block.total_vertex_count),
+                 "bones": ("joints", len(self._document.get("joints", ())))}
+        name, limit = names[form]
+        indices = numpy.array(getattr(message, name), numpy.int64)
+        weights = _float_array(message, "weights")
+        ends = numpy.cumsum(message.row_sizes)
+        per_index = {"sparse": 0, "bones": 3}[form]
+        if (len(ends) != len(self._document.get("spheres", ()))
+                or (min(message.row_sizes, default=0) < 0)
+                or not len(indices) == len(weights) == (ends[-1] if len(ends) else 0)
+                or (len(indices) and not (indices.min() >= 0 and indices.max() < limit))
+                or form == "bones" and len(message.offsets) != per_index * len(indices)):
+            raise contract_broken(f"{form} weights that do not fit together")
+        rows = []
+        for begin, end in zip([0, *ends[:-1]], ends):
+            row = {name: indices[begin:end].tolist(), "weights": weights[begin:end].tolist()}
+            if form == "bones":
+                numbers = numpy.array(message.offsets[3 * begin:3 * end])
+                row["offsets"] = numbers.reshape(-1, 3).tolist()
+            rows.append(row)
+        self._document[f"{form[:-1] if form == 'bones' else form}_weights"] = {"rows": rows}
+
+    def _add_dense(self, block: Any) -> None:
         if self._weights is None:
             shape = (block.total_sphere_count, block.total_vertex_count)
             self._weights = numpy.empty(shape, numpy.float32)

@@ -128,6 +128,34 @@ class FeaturePolygon:
 
 
 @dataclass(frozen=True, eq=False)
+class Joint:
+    """A joint of the skeleton that came with the mesh, where its node stands in the file."""
+
+    name: str
+    parent: Optional[int]  # index of the nearest joint above it
+    human_bone: str  # what the file itself calls it (VRM: "leftLowerArm"), often empty
+    to_mesh: FloatArray  # (3, 4): from the node's own frame to the mesh's
+    node: Optional[int]  # index among the file's nodes
+
+
+@dataclass(frozen=True, eq=False)
+class SparseRow:
+    """The vertices that carry one sphere's centre: weights @ vertices[indices]."""
+
+    vertices: NDArray[numpy.int32]
+    weights: NDArray[numpy.float32]
+
+
+@dataclass(frozen=True, eq=False)
+class BoneRow:
+    """The joints that carry one sphere's centre: the sum of weight * (to_mesh @ (offset, 1))."""
+
+    joints: NDArray[numpy.int32]
+    weights: NDArray[numpy.float32]
+    offsets: FloatArray  # (entries, 3): in the joint's own frame and unit
+
+
+@dataclass(frozen=True, eq=False)
 class Result:
     """What a fit gives; lengths in the mesh's own unit and axes unless the name has a unit.
 
@@ -158,21 +186,55 @@ class Result:
     seconds: float
     weights: Optional[NDArray[numpy.float32]] = None  # (k, n), where skinning="dense"
     vertex_gaps: Optional[NDArray[numpy.float32]] = None  # (n,), where want_vertex_gaps
+    sparse_weights: Optional[List[SparseRow]] = None  # of each sphere, where skinning="sparse"
+    bone_weights: Optional[List[BoneRow]] = None  # of each sphere, where skinning="bones"
+    joints: Tuple[Joint, ...] = ()  # of the mesh's file; empty: it has no skeleton
+    # The joint that carries each best, where a skeleton holds the mesh.
+    sphere_joints: Optional[List[int]] = None
+    sphere_joint_drift_m: Optional[List[float]] = None  # by how much it misleads: v1.Sphere
+    capsule_joints: Optional[List[int]] = None
 
     def apply(self, moved_vertices: ArrayLike) -> FloatArray:
         """The sphere centres (k, 3) for the moved vertices (n, 3); (frames, k, 3) for
-        (frames, n, 3). ValueError: no weights (skinning="dense" brings them), or another shape."""
-        if self.weights is None:
-            raise ValueError('the result has no weights: approximate with skinning="dense"')
+        (frames, n, 3). ValueError: no weights of vertices (skinning="sparse" or "dense" brings
+        them), or another shape."""
+        if self.weights is None and self.sparse_weights is None:
+            raise ValueError('the result has no weights of vertices: approximate with '
+                             'skinning="sparse"')
         vertices = numpy.asarray(moved_vertices, numpy.float64)
-        count = self.weights.shape[1]
+        count = self.body.vertex_count if self.weights is None else self.weights.shape[1]
         if vertices.ndim not in (2, 3) or vertices.shape[-2:] != (count, 3):
             raise ValueError(f"moved_vertices is of shape {vertices.shape}, must be ({count}, 3) "
                              f"or (frames, {count}, 3)")
         # Relative to one vertex: what a row's sum lacks to 1 in single precision is then not
         # multiplied by the distance from the origin.
         origin = vertices[..., :1, :]
+        if self.weights is None:
+            rows = [row.weights.astype(numpy.float64) @ (vertices[..., row.vertices, :] - origin)
+                    for row in self.sparse_weights or []]
+            return origin + numpy.stack(rows, axis=-2)
         centers: FloatArray = origin + self.weights.astype(numpy.float64) @ (vertices - origin)
+        return centers
+
+    def apply_joints(self, to_mesh: ArrayLike) -> FloatArray:
+        """The sphere centres (k, 3) with the joints of the skeleton at `to_mesh` (joints, 3, 4),
+        each from its own frame to the mesh's; (frames, k, 3) for (frames, joints, 3, 4).
+        ValueError: no weights of joints (skinning="bones" brings them), or another shape."""
+        if self.bone_weights is None:
+            raise ValueError('the result has no weights of joints: approximate with '
+                             'skinning="bones"')
+        placings = numpy.asarray(to_mesh, numpy.float64)
+        shape = (len(self.joints), 3, 4)
+        if placings.ndim not in (3, 4) or placings.shape[-3:] != shape:
+            raise ValueError(f"to_mesh is of shape {placings.shape}, must be {shape} or "
+                             f"(frames, *{shape})")
+        rows = []
+        for row in self.bone_weights:
+            of_row = placings[..., row.joints, :, :]
+            placed = numpy.einsum("...jab,jb->...ja", of_row[..., :3], row.offsets)
+            rows.append(numpy.einsum("j,...ja->...a", row.weights.astype(numpy.float64),
+                                     placed + of_row[..., 3]))
+        centers: FloatArray = numpy.stack(rows, axis=-2)
         return centers
 
     def to_json(self, path: Path) -> None:

@@ -7,8 +7,8 @@ from typing import Any, Dict, List, Optional
 import numpy
 
 from capfit.errors import FitWarning
-from capfit.result import (BodyFacts, FeaturePolygon, GapStatistics, Landmark, MeshPart, Metrics,
-                           PartMetrics, Result, Similarity)
+from capfit.result import (BodyFacts, BoneRow, FeaturePolygon, GapStatistics, Joint, Landmark,
+                           MeshPart, Metrics, PartMetrics, Result, Similarity, SparseRow)
 
 FORMAT = "capfit-result"
 FORMAT_VERSION = 1
@@ -43,6 +43,12 @@ def result_of(document: Document) -> Result:
         request_id=document.get("request_id", ""),
         stages=dict(document["stages"]),
         seconds=document["seconds"],
+        sparse_weights=_sparse_of(document.get("sparse_weights")),
+        bone_weights=_bones_of(document.get("bone_weights")),
+        joints=tuple(_joint_of(joint) for joint in document.get("joints", ())),
+        sphere_joints=_optional_list(document.get("sphere_joints")),
+        sphere_joint_drift_m=_optional_list(document.get("sphere_joint_drift_m")),
+        capsule_joints=_optional_list(document.get("capsule_joints")),
     )
 
 
@@ -72,8 +78,9 @@ def document_of(result: Result) -> Document:
     })
     if result.sphere_polygons is not None:
         document["sphere_polygons"] = result.sphere_polygons
+    document["capsule_parts"] = result.capsule_parts
+    document.update(_skinning_document(result))
     document.update({
-        "capsule_parts": result.capsule_parts,
         "landmarks": {name: dataclasses.asdict(one) for name, one in result.landmarks.items()},
         "warnings": [dataclasses.asdict(one) for one in result.warnings],
         "metrics": dataclasses.asdict(result.metrics),
@@ -85,6 +92,48 @@ def document_of(result: Result) -> Document:
             {**vars(one), "outline": one.outline.tolist(), "circles": one.circles.tolist()}
             for one in result.feature_polygons]
     return document
+
+
+def _skinning_document(result: Result) -> Document:
+    document: Document = {}
+    if result.joints:
+        document["joints"] = [{**vars(joint), "to_mesh": joint.to_mesh.ravel().tolist()}
+                              for joint in result.joints]
+    for name in ("sphere_joints", "sphere_joint_drift_m", "capsule_joints"):
+        if getattr(result, name) is not None:
+            document[name] = getattr(result, name)
+    if result.sparse_weights is not None:
+        document["sparse_weights"] = {
+            "vertex_count": result.body.vertex_count,
+            "rows": [{"vertices": row.vertices.tolist(), "weights": row.weights.tolist()}
+                     for row in result.sparse_weights]}
+    if result.bone_weights is not None:
+        document["bone_weights"] = {
+            "rows": [{"joints": row.joints.tolist(), "weights": row.weights.tolist(),
+                      "offsets": row.offsets.tolist()} for row in result.bone_weights]}
+    return document
+
+
+def _sparse_of(members: Optional[Document]) -> Optional[List[SparseRow]]:
+    if members is None:
+        return None
+    return [SparseRow(numpy.array(row["vertices"], numpy.int32),
+                      numpy.array(row["weights"], numpy.float32)) for row in members["rows"]]
+
+
+def _bones_of(members: Optional[Document]) -> Optional[List[BoneRow]]:
+    if members is None:
+        return None
+    return [BoneRow(numpy.array(row["joints"], numpy.int32),
+                    numpy.array(row["weights"], numpy.float32),
+                    numpy.array(row["offsets"], numpy.float64).reshape(-1, 3))
+            for row in members["rows"]]
+
+
+def _joint_of(members: Document) -> Joint:
+    known = _known(Joint, members)
+    known["to_mesh"] = numpy.array(members["to_mesh"], numpy.float64).reshape(3, 4)
+    return Joint(**known)
 
 
 def _known(kind: Any, members: Document) -> Document:

@@ -34,6 +34,10 @@ export interface Sphere {
   mirror: number | null;
   /** The feature polygon that it comes from. null: none, or none were asked for. */
   polygon: number | null;
+  /** The joint that carries it best, an index into joints. null: no skeleton holds the mesh. */
+  joint: number | null;
+  /** How far that one joint misleads the centre when any joint turns by 30 degrees, in metres. */
+  jointDriftM: number | null;
 }
 
 /** The convex hull of two spheres. */
@@ -44,6 +48,36 @@ export interface Capsule {
   second: number;
   /** The part that it belongs to: of two parts that it joins, the later one. */
   part: BodyPart;
+  /** The joint that carries both of its ends best. null: no skeleton holds the mesh. */
+  joint: number | null;
+}
+
+/** A joint of the skeleton that came with the mesh, where its node stands in the file. */
+export interface Joint {
+  /** May be empty. */
+  name: string;
+  /** Index of the nearest joint above it; null: none is. */
+  parent: number | null;
+  /** What the file itself calls it (VRM: "leftLowerArm"); often empty. */
+  humanBone: string;
+  /** From the node's own frame to the mesh's: 3 rows of 4 numbers, row after row. */
+  toMesh: number[];
+  /** Index among the file's nodes; null where no file says. */
+  node: number | null;
+}
+
+/** The vertices that carry a sphere's centre: the sum of weight * vertex. */
+export interface SparseRow {
+  vertices: number[];
+  weights: number[];
+}
+
+/** The joints that carry a sphere's centre: the sum of weight * toMesh * offset. */
+export interface BoneRow {
+  joints: number[];
+  weights: number[];
+  /** In the joint's own frame and unit. */
+  offsets: Vector[];
 }
 
 /** A landmark of the body. */
@@ -148,6 +182,12 @@ export interface ResultMembers {
   metrics: Metrics;
   /** Where option skinning is "dense": for each sphere the weight of every vertex. */
   weights: Float32Array[] | undefined;
+  /** Where option skinning is "sparse": one row for each sphere. */
+  sparseWeights: SparseRow[] | undefined;
+  /** Where option skinning is "bones": one row for each sphere. */
+  boneWeights: BoneRow[] | undefined;
+  /** The skeleton that came with the mesh; empty: none did. */
+  joints: Joint[];
   /** Where option wantVertexGaps is set: for each of the caller's vertices, in the caller's unit;
    *  > 0 outside the primitives, NaN for what is not fitted. */
   vertexGaps: Float32Array | undefined;
@@ -164,6 +204,9 @@ export class Result implements ResultMembers {
   readonly warnings!: Warning[];
   readonly metrics!: Metrics;
   readonly weights: Float32Array[] | undefined;
+  readonly sparseWeights: SparseRow[] | undefined;
+  readonly boneWeights: BoneRow[] | undefined;
+  readonly joints!: Joint[];
   readonly vertexGaps: Float32Array | undefined;
   readonly featurePolygons: FeaturePolygon[] | undefined;
   readonly summary!: Summary;
@@ -172,8 +215,8 @@ export class Result implements ResultMembers {
     Object.assign(this, members);
   }
 
-  /** As result.json has it, format version 1: what the command line's tools read. Without weights
-   *  and vertex gaps, which are files of their own. */
+  /** As result.json has it, format version 1: what the command line's tools read. Without dense
+   *  weights and vertex gaps, which are files of their own. */
   toJson(): ResultJson {
     return resultJson(this);
   }

@@ -8,10 +8,13 @@ import type { PrimitiveSet__Output } from "./generated/capfit/v1/PrimitiveSet";
 import type { SkinningChunk__Output } from "./generated/capfit/v1/SkinningChunk";
 import type { Summary__Output } from "./generated/capfit/v1/Summary";
 import type { VertexGapsChunk__Output } from "./generated/capfit/v1/VertexGapsChunk";
-import { type FeaturePolygon, type Landmark, Result } from "./result";
+import {
+  type BoneRow, type FeaturePolygon, type Landmark, Result, type SparseRow,
+} from "./result";
 import type { Warning } from "./errors";
 import {
-  capsuleOf, filled, landmarkOf, metricsOf, polygonOf, sphereOf, summaryOf,
+  boneRowsOf, capsuleOf, filled, jointOf, landmarkOf, metricsOf, polygonOf, sparseRowsOf, sphereOf,
+  summaryOf,
 } from "./result_conversion";
 import { type Stage, stages } from "./words";
 
@@ -51,6 +54,8 @@ export class ResultCollector {
   private primitives: PrimitiveSet__Output | undefined;
   private weights: Pieces | undefined;
   private columnCount = 0;
+  private sparseWeights: SparseRow[] | undefined;
+  private boneWeights: BoneRow[] | undefined;
   private gaps: Pieces | undefined;
   private summary: Summary__Output | undefined;
 
@@ -90,6 +95,9 @@ export class ResultCollector {
       warnings: this.warnings,
       metrics: metricsOf(filled(summary.metrics, "summary.metrics")),
       weights: this.weightRows(primitives.spheres.length),
+      sparseWeights: this.ofEachSphere(this.sparseWeights, primitives.spheres.length),
+      boneWeights: this.ofEachSphere(this.boneWeights, primitives.spheres.length),
+      joints: primitives.joints.map(jointOf),
       vertexGaps: this.gaps?.whole(),
       featurePolygons: this.wantsPolygons ? this.polygons : undefined,
       summary: summaryOf(summary),
@@ -97,6 +105,14 @@ export class ResultCollector {
   }
 
   private addWeights(chunk: SkinningChunk__Output): void {
+    if (chunk.sparse) {
+      this.sparseWeights = sparseRowsOf(chunk.sparse, chunk.totalVertexCount);
+      return;
+    }
+    if (chunk.bones) {
+      this.boneWeights = boneRowsOf(chunk.bones, this.primitives?.joints.length ?? 0);
+      return;
+    }
     const dense = filled(chunk.dense, "skinning.dense");
     this.columnCount = chunk.totalVertexCount;
     this.weights ??= new Pieces(
@@ -107,6 +123,11 @@ export class ResultCollector {
   private addGaps(chunk: VertexGapsChunk__Output): void {
     this.gaps ??= new Pieces(new Float32Array(chunk.totalVertexCount), "vertex gaps");
     this.gaps.add(chunk.firstVertex, chunk.gaps);
+  }
+
+  private ofEachSphere<Row>(rows: Row[] | undefined, sphereCount: number): Row[] | undefined {
+    if (rows === undefined || rows.length === sphereCount) return rows;
+    throw brokenContract(`${rows.length} rows of weights for ${sphereCount} spheres`);
   }
 
   private weightRows(sphereCount: number): Float32Array[] | undefined {

@@ -3,22 +3,25 @@ import { brokenContract } from "./errors";
 import type { BodyFacts__Output } from "./generated/capfit/v1/BodyFacts";
 import type { BodyPart__Output } from "./generated/capfit/v1/BodyPart";
 import type { BodyPartGroup__Output } from "./generated/capfit/v1/BodyPartGroup";
+import type { BoneWeights__Output } from "./generated/capfit/v1/BoneWeights";
 import type { Capsule__Output } from "./generated/capfit/v1/Capsule";
 import type { EffectiveBudget__Output } from "./generated/capfit/v1/EffectiveBudget";
 import type { EffectiveOptions__Output } from "./generated/capfit/v1/EffectiveOptions";
 import type { FeaturePolygon__Output } from "./generated/capfit/v1/FeaturePolygon";
 import type { GetServerInfoResponse__Output } from "./generated/capfit/v1/GetServerInfoResponse";
+import type { Joint__Output } from "./generated/capfit/v1/Joint";
 import type { Landmark__Output } from "./generated/capfit/v1/Landmark";
 import type { Metrics__Output } from "./generated/capfit/v1/Metrics";
 import type { PartMetrics__Output } from "./generated/capfit/v1/PartMetrics";
+import type { SparseWeights__Output } from "./generated/capfit/v1/SparseWeights";
 import type { Sphere__Output } from "./generated/capfit/v1/Sphere";
 import type { StageTime__Output } from "./generated/capfit/v1/StageTime";
 import type { Summary__Output } from "./generated/capfit/v1/Summary";
 import type { Vector3__Output } from "./generated/capfit/v1/Vector3";
 import type { Vector } from "./options";
 import type {
-  BodyFacts, Capsule, EffectiveBudget, EffectiveOptions, FeaturePolygon, Landmark, Metrics,
-  PartMetrics, ServerInfo, Sphere, Summary,
+  BodyFacts, BoneRow, Capsule, EffectiveBudget, EffectiveOptions, FeaturePolygon, Joint, Landmark,
+  Metrics, PartMetrics, ServerInfo, SparseRow, Sphere, Summary,
 } from "./result";
 import {
   type BodyPart, type BodyPartGroup, bodyPartGroups, bodyParts, capsuleProfiles, fitModes,
@@ -49,12 +52,61 @@ export function sphereOf(sphere: Sphere__Output): Sphere {
     name: sphere.name,
     mirror: sphere.mirror ?? null,
     polygon: sphere.polygon ?? null,
+    joint: sphere.joint ?? null,
+    jointDriftM: sphere.jointDriftM ?? null,
   };
 }
 
 export function capsuleOf(capsule: Capsule__Output): Capsule {
   const { firstSphere: first, secondSphere: second, part } = capsule;
-  return { first, second, part: partOf(part) };
+  return { first, second, part: partOf(part), joint: capsule.joint ?? null };
+}
+
+export function jointOf(joint: Joint__Output): Joint {
+  return {
+    name: joint.name,
+    parent: joint.parent ?? null,
+    humanBone: joint.humanBone,
+    toMesh: joint.toMesh,
+    node: joint.node ?? null,
+  };
+}
+
+// Where each row of a matrix begins and ends.
+function rowsOf(sizes: readonly number[], count: number): [number, number][] {
+  let end = 0;
+  const rows = sizes.map((size): [number, number] => [end, (end += size)]);
+  if (end !== count || sizes.some((size) => size < 0)) {
+    throw brokenContract(`rows of ${end} weights, of which there are ${count}`);
+  }
+  return rows;
+}
+
+export function sparseRowsOf(sparse: SparseWeights__Output, vertexCount: number): SparseRow[] {
+  const { rowSizes, vertices, weights } = sparse;
+  if (vertices.length !== weights.length || vertices.some((at) => at < 0 || at >= vertexCount)) {
+    throw brokenContract("sparse weights that do not fit together");
+  }
+  return rowsOf(rowSizes, weights.length).map(([begin, end]) => ({
+    vertices: vertices.slice(begin, end),
+    weights: weights.slice(begin, end),
+  }));
+}
+
+export function boneRowsOf(bones: BoneWeights__Output, jointCount: number): BoneRow[] {
+  const { rowSizes, joints, weights, offsets } = bones;
+  if (joints.length !== weights.length || offsets.length !== 3 * weights.length
+    || joints.some((at) => at < 0 || at >= jointCount)) {
+    throw brokenContract("bone weights that do not fit together");
+  }
+  return rowsOf(rowSizes, weights.length).map(([begin, end]) => ({
+    joints: joints.slice(begin, end),
+    weights: weights.slice(begin, end),
+    offsets: joints.slice(begin, end).map((_, i): Vector => {
+      const at = 3 * (begin + i);
+      return [offsets[at]!, offsets[at + 1]!, offsets[at + 2]!];
+    }),
+  }));
 }
 
 export function landmarkOf(landmark: Landmark__Output): Landmark {

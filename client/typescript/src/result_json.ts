@@ -27,6 +27,12 @@ export interface ResultJson {
   sphere_mirrors: (number | null)[];
   sphere_polygons?: (number | null)[];
   capsule_parts: BodyPart[];
+  joints?: { [name: string]: Json }[];
+  sphere_joints?: (number | null)[];
+  sphere_joint_drift_m?: (number | null)[];
+  capsule_joints?: (number | null)[];
+  sparse_weights?: { vertex_count: number; rows: { [name: string]: Json }[] };
+  bone_weights?: { rows: { [name: string]: Json }[] };
   landmarks: { [name: string]: Json };
   warnings: { code: string; message: string; count: number }[];
   metrics: { [name: string]: Json };
@@ -55,6 +61,7 @@ export function resultJson(result: ResultMembers): ResultJson {
     sphere_mirrors: spheres.map(({ mirror }) => mirror),
     ...polygonsOf(spheres, featurePolygons),
     capsule_parts: capsules.map(({ part }) => part),
+    ...skinningOf(result),
     landmarks: Object.fromEntries(
       Object.entries(result.landmarks).map(([name, landmark]) => [name, snakeCased(landmark)]),
     ),
@@ -63,6 +70,26 @@ export function resultJson(result: ResultMembers): ResultJson {
     stages: { ...summary.stages } as Record<string, number>,
     seconds: summary.seconds,
     ...(featurePolygons && { feature_polygons: featurePolygons.map(polygonJson) }),
+  };
+}
+
+// What there is of joints and of the weights that have no files of their own.
+function skinningOf(result: ResultMembers): Partial<ResultJson> {
+  const { spheres, capsules, joints, sparseWeights, boneWeights, summary } = result;
+  const isHung = spheres.length > 0 && spheres[0]!.joint !== null;
+  return {
+    ...(joints.length > 0 && { joints: joints.map(snakeCased) }),
+    ...(isHung && {
+      sphere_joints: spheres.map(({ joint }) => joint),
+      sphere_joint_drift_m: spheres.map(({ jointDriftM }) => jointDriftM),
+      capsule_joints: capsules.map(({ joint }) => joint),
+    }),
+    ...(sparseWeights && {
+      sparse_weights: {
+        vertex_count: summary.body.vertexCount, rows: sparseWeights.map(snakeCased),
+      },
+    }),
+    ...(boneWeights && { bone_weights: { rows: boneWeights.map(snakeCased) } }),
   };
 }
 

@@ -52,10 +52,11 @@ test("a mesh that is no body", async () => {
   assert.equal(error.reason, "NOT_A_BODY");
 });
 
-test("what the server does not make is told", async () => {
+test("bones of a mesh without any are refused", async () => {
   const error = await errorOf(client.approximate({ file }, { skinning: "bones" }));
-  assert.equal(error.code, "UNIMPLEMENTED");
-  assert.equal(error.reason, "NOT_IMPLEMENTED");
+  assert.equal(error.code, "INVALID_ARGUMENT");
+  assert.equal(error.reason, "CONFLICT");
+  assert.equal(error.field, "options.skinning");
 });
 
 // What proto-loader would drop, cut off or replace by the default.
