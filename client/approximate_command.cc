@@ -1,5 +1,6 @@
 #include "client/approximate_command.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "client/body_client.h"
 #include "client/exit_code.h"
 #include "client/export_command.h"
+#include "client/motion_input.h"
 #include "client/picture/file_bytes.h"
 #include "client/picture/gaps_file.h"
 #include "client/progress_line.h"
@@ -35,16 +37,23 @@ struct ApproximateArguments {
   std::string request_id;
   bool progress = false;
   bool quiet = false;
+  std::string cover_motion;  // empty: none
+  double fps = 30.0;
   FitFlags fit;
 };
 
 absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
                                             formats::MeshFormat format,
-                                            const pipeline::FitOptions& options,
+                                            const pipeline::FitOptions& asked,
                                             const ApproximateArguments& arguments,
                                             ProgressLine& progress) {
-  CAPFIT_RETURN_IF_ERROR(pipeline::ValidateOptions(options));
+  CAPFIT_RETURN_IF_ERROR(pipeline::ValidateOptions(asked));
   CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, formats::ReadMesh(bytes, format));
+  pipeline::FitOptions options = asked;
+  if (!arguments.cover_motion.empty()) {
+    CAPFIT_ASSIGN_OR_RETURN(options.motion,
+                            ReadMotion(arguments.cover_motion, arguments.fps, bytes, soup));
+  }
   CAPFIT_ASSIGN_OR_RETURN(pipeline::FitResult result,
                           pipeline::Fit(soup, options, ThreadPool(arguments.threads), progress));
   const std::string source =
@@ -114,6 +123,15 @@ absl::Status WriteOutputs(const pipeline::FitResult& result,
   return WriteVertexGaps(result.vertex_gaps, result.body_from_caller.scale, arguments.output);
 }
 
+void PrintMotion(const motion::MotionReport& report, std::FILE* out) {
+  std::fprintf(
+      out,
+      "%d frames enclosed; before, up to %d vertices were outside, by %.1f mm at most; the "
+      "set has %.1f %% more volume for it\n",
+      report.frame_count, report.most_points_out_before,
+      1e3 * std::max(0.0, report.max_out_before_m), 100.0 * (report.volume_ratio - 1.0));
+}
+
 absl::Status RunApproximate(const ApproximateArguments& arguments) {
   CAPFIT_RETURN_IF_ERROR(CheckOutputs(arguments));
   const absl::StatusOr<pipeline::FitResult> result = FitBody(arguments);
@@ -124,6 +142,7 @@ absl::Status RunApproximate(const ApproximateArguments& arguments) {
   PrintWarnings(result->warnings);
   CAPFIT_RETURN_IF_ERROR(WriteOutputs(*result, arguments));
   if (arguments.quiet) return absl::OkStatus();
+  if (result->motion) PrintMotion(*result->motion, arguments.output == "-" ? stderr : stdout);
   std::fputs(ResultTable(*result).c_str(), arguments.output == "-" ? stderr : stdout);
   return absl::OkStatus();
 }
@@ -137,6 +156,16 @@ void AddPlaceFlags(CLI::App& command, ApproximateArguments& arguments) {
       command.add_option("--threads", arguments.threads, "With --local: threads; 0: one per core")
           ->check(CLI::Range(0, 256))
           ->capture_default_str();
+  CLI::Option* const motion = command.add_option(
+      "--cover-motion", arguments.cover_motion,
+      "With --local: enclose these poses too: moved vertices (little-endian float32, frames x "
+      "vertices x 3), or the name or index of a clip of a GLB");
+  motion->type_name("FILE|CLIP")->needs(local)->group("What to fit");
+  command.add_option("--fps", arguments.fps, "With a clip: frames a second")
+      ->check(CLI::Range(0.1, 240.0))
+      ->needs(motion)
+      ->capture_default_str()
+      ->group("What to fit");
   CLI::Option* const timeout = AddTimeoutFlag(command, arguments.timeout_seconds,
                                               "Seconds that the whole call to the server may take");
   CLI::Option* const request_id =

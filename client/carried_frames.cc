@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -19,7 +18,6 @@ using formats::Placing;
 static_assert(std::endian::native == std::endian::little, "frames are little-endian float32");
 
 constexpr std::size_t kMostFrames = 100'000;
-constexpr std::size_t kMostNamesTold = 20;
 // Behind the clip's end by less than this share of a frame is at its end.
 constexpr double kFrameShare = 1e-6;
 
@@ -124,9 +122,9 @@ absl::StatusOr<CarriedFrames> CarryAlong(const CarriedSet& set, std::istream& in
       vertices[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      joints[j] = Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(
-                      numbers.data() + 12 * j)
-                      .cast<double>();
+      joints[j] =
+          Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(numbers.data() + 12 * j)
+              .cast<double>();
     }
     carrier.IsBones() ? carrier.MoveJoints(joints) : carrier.MoveVertices(vertices);
   }
@@ -137,14 +135,14 @@ absl::StatusOr<CarriedFrames> CarryAlong(const CarriedSet& set, const formats::G
   const double frames = std::floor(clips.clips()[clip].seconds * fps + kFrameShare) + 1.0;
   if (!(frames <= static_cast<double>(kMostFrames))) {
     return InvalidField(ErrorReason::kTooLarge, "--fps",
-                        absl::StrCat("makes ", frames, " frames of ",
-                                     clips.clips()[clip].seconds, " s, must make at most ",
-                                     kMostFrames));
+                        absl::StrCat("makes ", frames, " frames of ", clips.clips()[clip].seconds,
+                                     " s, must make at most ", kMostFrames));
   }
   const ThreadPool pool(1);
   Carrier carrier(set, pool);
   for (std::size_t frame = 0; frame < static_cast<std::size_t>(frames); ++frame) {
-    const std::vector<Placing> joints = clips.JointsAt(clip, static_cast<double>(frame) / fps, set.joints);
+    const std::vector<Placing> joints =
+        clips.JointsAt(clip, static_cast<double>(frame) / fps, set.joints);
     carrier.MoveJoints(joints);
   }
   return std::move(carrier).Take();

@@ -7,6 +7,8 @@
 #include "core/base/version.h"
 #include "core/circle/error_curve.h"
 #include "core/coverage/cover_body.h"
+#include "core/motion/cover_motion.h"
+#include "core/pipeline/bind_spheres.h"
 #include "core/pipeline/effective_options.h"
 #include "core/pipeline/engines.h"
 #include "core/pipeline/plan.h"
@@ -27,10 +29,6 @@ absl::Status CheckCancelled(const FitObserver& observer) {
 }
 
 // Whether joints hold vertices of the mesh.
-bool HasRig(const formats::PolygonSoup& soup) {
-  return !soup.joints.empty() && soup.influences.size() == soup.positions.size();
-}
-
 absl::Status NoRig() {
   return InvalidField(ErrorReason::kConflict, "options.skinning",
                       "is for bones, but the mesh has no skeleton that holds its vertices; ask for "
@@ -62,9 +60,13 @@ class BodyFit {
 
   absl::Status Run(const formats::PolygonSoup& soup) {
     if (asked_.skinning == SkinningMode::kBones && !HasRig(soup)) return NoRig();
+    if (options_.motion != nullptr) {
+      CAPFIT_RETURN_IF_ERROR(CheckMotion(*options_.motion, soup.positions.size()));
+    }
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
     CAPFIT_RETURN_IF_ERROR(BuildWithinLimits());
     CAPFIT_RETURN_IF_ERROR(Cover());
+    if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverPoses());
     CAPFIT_RETURN_IF_ERROR(Measure());
     CAPFIT_RETURN_IF_ERROR(Bind(soup));
     return absl::OkStatus();
@@ -228,6 +230,49 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
+  // All frames of the motion, with the centres where sparse weights carry them.
+  absl::Status CoverPoses() {
+    const std::vector<std::vector<Eigen::Vector3f>>& frames = options_.motion->frames;
+    const std::vector<std::uint32_t> sources = SourcesOfTarget();
+    motion::MotionFrames points(frames.size());
+    pool_.ForEach(frames.size(), [&](std::size_t f) {
+      for (const std::uint32_t source : sources) {
+        points[f].push_back(body_->body_from_caller.Apply(frames[f][source].cast<double>()));
+      }
+    });
+    const auto carry = [&](const capsule::PrimitiveSet& at_rest) {
+      const skinning::SparseWeights weights = BindSparse(*body_, CentersOf(at_rest), pool_, clock_);
+      std::vector<std::vector<Eigen::Vector3d>> centers(frames.size());
+      pool_.ForEach(frames.size(), [&](std::size_t f) {
+        std::vector<Eigen::Vector3d> vertices;
+        vertices.reserve(frames[f].size());
+        for (const Eigen::Vector3f& v : frames[f]) vertices.push_back(v.cast<double>());
+        centers[f] = skinning::Apply(weights, vertices);
+        for (Eigen::Vector3d& center : centers[f]) center = body_->body_from_caller.Apply(center);
+      });
+      return centers;
+    };
+    coverage::CoverOptions cover_options;
+    cover_options.tolerance_m = options_.tolerance_m;
+    result_.motion =
+        motion::CoverMotion(target_, points, carry, cover_options, pool_, clock_, set_);
+    max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
+    return CheckCancelled(clock_);
+  }
+
+  // For each point of the target a vertex of the caller's that lies there.
+  std::vector<std::uint32_t> SourcesOfTarget() const {
+    const body::EnclosedSurface surface = body_->enclosed();
+    std::vector<std::uint32_t> source(surface.vertices_m.size(), 0);
+    for (std::size_t s = surface.vertex_of_source.size(); s-- > 0;) {
+      const std::int32_t vertex = surface.vertex_of_source[s];
+      if (vertex >= 0) source[static_cast<std::size_t>(vertex)] = static_cast<std::uint32_t>(s);
+    }
+    std::vector<std::uint32_t> sources;
+    for (const std::uint32_t vertex : target_.vertices) sources.push_back(source[vertex]);
+    return sources;
+  }
+
   // `has_shape`: as refined sets do, but for those whose spheres have just been made uniform.
   coverage::CoverReport Enclose(bool has_shape, capsule::PrimitiveSet& set) const {
     coverage::CoverOptions cover_options;
@@ -266,22 +311,13 @@ class BodyFit {
     if (options_.skinning == SkinningMode::kNone && !has_rig) return absl::OkStatus();
     clock_.Begin(Stage::kSkinning);
     // In the body frame, near the origin: the coordinates do not depend on the frame, digits do.
-    std::vector<Eigen::Vector3d> centers_m;
-    for (const geometry::Sphere& sphere : set_.spheres) centers_m.push_back(sphere.center_m);
-    std::optional<skinning::Carriers> carriers;
-    if (const std::optional<body::ShellSurface>& shells = body_->shells) {
-      carriers = {shells->vertices_m, shells->nearest_of_mesh, shells->vertex_of_source};
-    }
+    const std::vector<Eigen::Vector3d> centers_m = CentersOf(set_);
     if (options_.skinning == SkinningMode::kDense) {
-      result_.weights = skinning::MeanValueWeights(body_->mesh, centers_m, pool_, clock_, carriers);
+      result_.weights =
+          skinning::MeanValueWeights(body_->mesh, centers_m, pool_, clock_, CarriersOf(*body_));
     }
     if (options_.skinning == SkinningMode::kSparse || has_rig) {
-      std::vector<std::uint8_t> parts;
-      for (const body::Segment segment : body_->vertex_segments) {
-        parts.push_back(static_cast<std::uint8_t>(segment));
-      }
-      BindFew(soup, skinning::SparseMeanValueWeights(body_->mesh, centers_m, pool_, clock_, parts,
-                                                     carriers));
+      BindFew(soup, BindSparse(*body_, centers_m, pool_, clock_));
     }
     return CheckCancelled(clock_);
   }
@@ -293,11 +329,8 @@ class BodyFit {
   }
 
   void HangOnJoints(const formats::PolygonSoup& soup, const skinning::SparseWeights& sparse) {
-    std::vector<Eigen::Vector3d> centers;
-    for (const geometry::Sphere& sphere : result_.primitives.spheres) {
-      centers.push_back(sphere.center_m);
-    }
-    std::optional<skinning::BoneWeights> bones = skinning::BonesOfSparse(sparse, centers, soup);
+    std::optional<skinning::BoneWeights> bones =
+        skinning::BonesOfSparse(sparse, CentersOf(result_.primitives), soup);
     if (!bones) return;
     skinning::OneJoint one =
         skinning::ChooseJoints(*bones, soup.joints, result_.primitives.capsules);

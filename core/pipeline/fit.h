@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@
 #include "core/export/export.h"
 #include "core/formats/polygon_soup.h"
 #include "core/metrics/measure.h"
+#include "core/motion/cover_motion.h"
+#include "core/pipeline/motion_frames.h"
 #include "core/refine/layouts/kept_layout.h"
 #include "core/section/feature_polygon.h"
 #include "core/skinning/bone_weights.h"
@@ -86,6 +89,9 @@ struct FitOptions {
   // the same capsules. `quality` says nothing then: the search for a topology is left out. Engines
   // with capsules of one radius, whose capsules share no spheres, cannot have one.
   std::optional<refine::KeptLayout> layout = {};
+  // Poses that are to be enclosed as well, with the centres carried by sparse weights; see
+  // core/motion. With kEnclose only, and not for engines whose capsules are no tangent hulls.
+  std::shared_ptr<const Motion> motion = nullptr;
   double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, kMaxToleranceM]
   SkinningMode skinning = SkinningMode::kNone;
   body::PartSelection parts;
@@ -174,7 +180,8 @@ struct FitResult {
   // up).
   FitOptions effective_options;
   BodyFacts body;
-  std::string version;  // of the program that fitted, e.g. "0.1.0"
+  std::optional<motion::MotionReport> motion;  // where poses were given
+  std::string version;                         // of the program that fitted, e.g. "0.1.0"
   std::array<double, kStageCount> stage_seconds{};
   double seconds = 0.0;  // of the whole fit, reading the file not included
 };

@@ -133,6 +133,18 @@ absl::Status CheckTolerance(const FitOptions& options) {
   return absl::OkStatus();
 }
 
+absl::Status CheckMotionFits(const FitOptions& options) {
+  if (options.motion == nullptr) return absl::OkStatus();
+  if (options.fit != FitMode::kEnclose) {
+    return InvalidField(ErrorReason::kConflict, "motion",
+                        "is for fit enclose; the best fit encloses nothing");
+  }
+  if (ProfileOf(options) == capsule::CapsuleProfile::kTangentHull) return absl::OkStatus();
+  return InvalidField(ErrorReason::kConflict, "motion",
+                      absl::StrCat("cannot be enclosed for ", options.engine,
+                                   ", whose capsules are no tangent hulls"));
+}
+
 absl::Status CheckLandmarks(const FitOptions& options) {
   for (const auto& [id, position] : options.landmarks) {
     if (position.allFinite()) continue;
@@ -159,6 +171,7 @@ absl::Status ValidateOptions(const FitOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckParts(options.parts));
   CAPFIT_RETURN_IF_ERROR(CheckLandmarks(options));
   CAPFIT_RETURN_IF_ERROR(CheckExports(options.exports));
+  CAPFIT_RETURN_IF_ERROR(CheckMotionFits(options));
   CAPFIT_RETURN_IF_ERROR(CheckPartNames("options.include_parts", options.character.include));
   CAPFIT_RETURN_IF_ERROR(CheckPartNames("options.exclude_parts", options.character.exclude));
   if (options.grows_only && options.quality != Quality::kPaper) {

@@ -16,6 +16,7 @@ CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts) {
     new_index[v] = static_cast<std::uint32_t>(target.points_m.size());
     target.points_m.push_back(surface.vertices_m[v]);
     target.point_parts.push_back(part);
+    target.vertices.push_back(static_cast<std::uint32_t>(v));
   }
   for (const mesh::Triangle& t : surface.triangles) {
     const mesh::Triangle kept = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
