@@ -2,10 +2,10 @@
 //
 //   export_samples BODY FORMAT OUTDIR [MAX_PRIMITIVES]
 //
-// FORMAT: names of Formats() with commas between, or "all" that take the body. BODY "-" is no file but
-// the made-up set of edge_set.h. Writes OUTDIR/expected.json (see
-// sample_set.h), the files of each format, and OUTDIR/warnings.json: {FORMAT: [{code, message}]}.
-// Exit code 2: bad use or unreadable body.
+// FORMAT: names of Formats() with commas between, or "all" that take the body. BODY "-" is no file
+// but the made-up set of edge_set.h. Writes OUTDIR/expected.json (see sample_set.h), the files of
+// each format, and OUTDIR/warnings.json: {FORMAT: [{code, message}]}. Exit code 2: bad use or
+// unreadable body.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -104,9 +104,12 @@ absl::StatusOr<Exported> WriteUniformUsd(const ColliderSet& set, const std::stri
 
 const std::vector<SampleFormat>& Formats() {
   static const auto& formats = *new std::vector<SampleFormat>{
-      {"gltf", WriteGltfSample},   {"gltf_preview", WriteGltfPreview},
-      {"vrm", WriteVrmSample},     {"usd", WriteUsdSample},
-      {"hulls", WriteHullsSample}, {"usd_uniform", WriteUniformUsd},
+      {"gltf", WriteGltfSample},
+      {"gltf_preview", WriteGltfPreview},
+      {"vrm", WriteVrmSample},
+      {"usd", WriteUsdSample},
+      {"hulls", WriteHullsSample},
+      {"usd_uniform", WriteUniformUsd},
       {"union", WriteUnionSample},
       {"unity", WriteAlone<capfit::exports::WriteUnity>},
       {"unreal", WriteAlone<capfit::exports::WriteUnreal>},
@@ -114,7 +117,8 @@ const std::vector<SampleFormat>& Formats() {
       {"jolt", WriteAlone<capfit::exports::WriteJolt>},
       {"bullet", WriteAlone<capfit::exports::WriteBullet>},
       {"rapier", WriteAlone<capfit::exports::WriteRapier>},
-      {"mujoco", WriteMujocoSample}, {"mujoco_meshes", WriteMujocoMeshes},
+      {"mujoco", WriteMujocoSample},
+      {"mujoco_meshes", WriteMujocoMeshes},
       {"urdf", WriteUrdfSample},
       {"tables", WriteAlone<capfit::exports::WriteTables>},
   };
