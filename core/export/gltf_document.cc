@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 
@@ -113,6 +114,19 @@ absl::StatusOr<GltfDocument> GltfDocument::Open(std::span<const std::byte> bytes
   return document;
 }
 
+// An index beyond the nodes refers to nothing, until there are more of them.
+absl::Status GltfDocument::CheckNodes(const json& indices, const char* owner) const {
+  const std::size_t count = nodes_.parent.size();
+  for (const json& index : indices) {
+    if (index.is_number_unsigned() && index.get<std::uint64_t>() < count) continue;
+    const std::string place = absl::StrCat("an entry of ", owner);
+    if (!index.is_number_integer()) return NotA("index", absl::StrCat("a node in ", place));
+    return formats::FileOutOfRange(formats::AtElement(place), "a node", index.dump(),
+                                   formats::IndexRange(count));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status GltfDocument::CheckLists() const {
   if (!json_.is_object()) return NotA("JSON object", "the description");
   for (const char* key : {"nodes", "scenes", "meshes", "materials", "accessors", "bufferViews",
@@ -126,6 +140,7 @@ absl::Status GltfDocument::CheckLists() const {
     for (const json& entry : formats::ArrayAt(json_, list)) {
       if (!entry.is_object()) return NotA("object", absl::StrCat("an entry of ", list));
       if (entry.contains(member) && !entry[member].is_array()) return NotA("list", member);
+      CAPFIT_RETURN_IF_ERROR(CheckNodes(formats::ArrayAt(entry, member), list));
     }
   }
   for (const json& buffer : formats::ArrayAt(json_, "buffers")) {

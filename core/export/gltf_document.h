@@ -26,8 +26,8 @@ class GltfDocument {
 
   // GLB, VRM or .gltf with its buffers inside, checked as formats::ReadGlb does. Besides refused
   // (INVALID_ARGUMENT, field "mesh.file"): members that are added to and are no lists or objects,
-  // and JSON nested deeper than 200. A .gltf's first buffer becomes the binary chunk. The document
-  // keeps no view of `bytes`.
+  // children that are no nodes, and JSON nested deeper than 200. A .gltf's first buffer becomes the
+  // binary chunk. The document keeps no view of `bytes`.
   [[nodiscard]] static absl::StatusOr<GltfDocument> Open(std::span<const std::byte> bytes);
 
   [[nodiscard]] nlohmann::json& root() { return json_; }
@@ -60,6 +60,7 @@ class GltfDocument {
 
  private:
   absl::Status CheckLists() const;
+  absl::Status CheckNodes(const nlohmann::json& indices, const char* owner) const;
   void TakeBuffer();
   std::size_t OwnBuffer();
 

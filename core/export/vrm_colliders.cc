@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +25,13 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kLeastOvershootM = 0.001;
+constexpr double kLargestOvershootM = 0.1;
+// An avatar has some hundred springs with some five hundred joints; each is held against each
+// collider, and has a list of its own at worst.
+constexpr std::size_t kMostSprings = 1024;
+constexpr std::size_t kMostSpringPoints = 5000;
+
 constexpr const char* kSpringBone = "VRMC_springBone";
 
 // The object or list at `key`, made where there is none or something else.
@@ -45,16 +52,20 @@ json NumbersIn(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 struct VrmCollider {
   std::string name;
   std::size_t node = 0;
-  std::vector<UniformPiece> pieces;  // in the scene
+  std::vector<UniformPiece> pieces;             // in the scene
+  std::vector<geometry::TaperedCapsule> hulls;  // the same
+
+  void Add(const UniformPiece& piece) {
+    pieces.push_back(piece);
+    hulls.push_back(geometry::TaperedCapsule({piece.a, piece.radius_m}, {piece.b, piece.radius_m}));
+  }
 };
 
 bool Touches(const std::vector<SpringPoint>& points, const VrmCollider& collider) {
   return std::any_of(points.begin(), points.end(), [&](const SpringPoint& point) {
-    return std::any_of(
-        collider.pieces.begin(), collider.pieces.end(), [&](const UniformPiece& piece) {
-          const geometry::TaperedCapsule hull({piece.a, piece.radius_m}, {piece.b, piece.radius_m});
-          return hull.SignedDistance(point.position) < point.radius;
-        });
+    return std::any_of(collider.hulls.begin(), collider.hulls.end(), [&](const auto& hull) {
+      return hull.SignedDistance(point.position) < point.radius;
+    });
   });
 }
 
@@ -88,7 +99,7 @@ class VrmWriter {
     Exported exported;
     exported.warnings = std::move(joints).TakeWarnings();
     AddExtras(set_, document_.root(), exported.warnings);
-    is_first ? WriteFirst() : WriteSecond();
+    CAPFIT_RETURN_IF_ERROR(is_first ? WriteFirst() : WriteSecond());
     AddWarnings(is_first, exported.warnings);
     CAPFIT_ASSIGN_OR_RETURN(std::string bytes, document_.Bytes());
     exported.files.push_back({FileStem(set_) + "_colliders.vrm", std::move(bytes)});
@@ -100,15 +111,14 @@ class VrmWriter {
   void AddShapes(const Solid& solid, bool is_first, JointNodes& joints) {
     const std::size_t node = joints.UnscaledNodeOf(solid.joint);
     if (is_first) {
-      VrmCollider& collider = colliders_.emplace_back();
-      collider = {solid.name, node, {}};
+      VrmCollider& collider = colliders_.emplace_back(VrmCollider{solid.name, node, {}, {}});
       for (const geometry::Sphere& sphere : SphereChain(solid.hull, overshoot_)) {
-        collider.pieces.push_back({sphere.center_m, sphere.center_m, sphere.radius_m});
+        collider.Add({sphere.center_m, sphere.center_m, sphere.radius_m});
       }
       return;
     }
     for (const UniformPiece& piece : UniformPieces(solid.hull, overshoot_)) {
-      colliders_.push_back({solid.name, node, {piece}});
+      colliders_.emplace_back(VrmCollider{solid.name, node, {}, {}}).Add(piece);
     }
   }
 
@@ -117,20 +127,25 @@ class VrmWriter {
     return document_.ToWorld(collider.node).inverse() * point;
   }
 
-  void WriteSecond() {
+  absl::Status WriteSecond() {
     json& extension = document_.Extension(document_.root(), kSpringBone);
     if (!extension.contains("specVersion")) extension["specVersion"] = "1.0";
     json& colliders = ListIn(extension, "colliders");
     first_ = colliders.size();
     for (const VrmCollider& collider : colliders_) colliders.push_back(ColliderOf(collider));
     std::vector<std::size_t> all(colliders_.size());
-    for (std::size_t c = 0; c < all.size(); ++c) all[c] = c;
+    std::iota(all.begin(), all.end(), std::size_t{0});
     (void)GroupOf(all, extension);
-    if (!options_.joins_springs || !formats::ValueAt(extension, "springs").is_array()) return;
-    for (json& spring : extension["springs"]) {
-      if (spring.is_object())
-        Join(FreeOf(SpringPoints(document_, spring), colliders_), spring, extension);
+    if (!options_.joins_springs || !formats::ValueAt(extension, "springs").is_array()) {
+      return absl::OkStatus();
     }
+    for (json& spring : extension["springs"]) {
+      if (!spring.is_object()) continue;
+      CAPFIT_ASSIGN_OR_RETURN(const std::vector<std::size_t> free,
+                              FreeColliders(SpringPoints(document_, spring)));
+      if (!free.empty()) ListIn(spring, "colliderGroups").push_back(GroupOf(free, extension));
+    }
+    return absl::OkStatus();
   }
 
   json ColliderOf(const VrmCollider& collider) const {
@@ -156,25 +171,20 @@ class VrmWriter {
     return found->second;
   }
 
-  void Join(const std::vector<std::size_t>& free, json& spring, json& extension) {
-    CountSpring(free);
-    if (free.empty()) return;
-    ListIn(spring, "colliderGroups").push_back(GroupOf(free, extension));
-  }
-
-  void WriteFirst() {
+  absl::Status WriteFirst() {
     json& animation = ObjectIn(document_.root()["extensions"]["VRM"], "secondaryAnimation");
     json& groups = ListIn(animation, "colliderGroups");
     first_ = groups.size();
     for (const VrmCollider& collider : colliders_) groups.push_back(GroupOf(collider));
     json& springs = ListIn(animation, "boneGroups");
-    if (!options_.joins_springs) return;
+    if (!options_.joins_springs) return absl::OkStatus();
     for (json& spring : springs) {
       if (!spring.is_object()) continue;
-      const std::vector<std::size_t> free = FreeOf(BoneGroupPoints(document_, spring), colliders_);
-      CountSpring(free);
+      CAPFIT_ASSIGN_OR_RETURN(const std::vector<std::size_t> free,
+                              FreeColliders(BoneGroupPoints(document_, spring)));
       for (const std::size_t c : free) ListIn(spring, "colliderGroups").push_back(first_ + c);
     }
+    return absl::OkStatus();
   }
 
   json GroupOf(const VrmCollider& collider) const {
@@ -187,9 +197,19 @@ class VrmWriter {
     return {{"node", collider.node}, {"colliders", std::move(spheres)}};
   }
 
-  void CountSpring(const std::vector<std::size_t>& free) {
+  // Of the next spring: which colliders it may be joined to.
+  absl::StatusOr<std::vector<std::size_t>> FreeColliders(const std::vector<SpringPoint>& points) {
     ++springs_;
+    points_ += points.size();
+    if (springs_ > kMostSprings) {
+      return formats::FileTooLarge({}, springs_, "springs", kMostSprings);
+    }
+    if (points_ > kMostSpringPoints) {
+      return formats::FileTooLarge({}, points_, "joints that springs move", kMostSpringPoints);
+    }
+    std::vector<std::size_t> free = FreeOf(points, colliders_);
     if (free.size() < colliders_.size()) ++springs_inside_;
+    return free;
   }
 
   void AddWarnings(bool is_first, std::vector<Warning>& warnings) const {
@@ -218,7 +238,8 @@ class VrmWriter {
   std::vector<VrmCollider> colliders_;
   std::size_t first_ = 0;  // index of the first of ours in the file's list
   std::map<std::vector<std::size_t>, std::size_t> groups_;
-  std::int64_t springs_ = 0;
+  std::size_t springs_ = 0;
+  std::size_t points_ = 0;  // of all springs
   std::int64_t springs_inside_ = 0;
 };
 
@@ -227,8 +248,10 @@ class VrmWriter {
 absl::StatusOr<Exported> WriteVrm(const ColliderSet& set, std::span<const std::byte> original,
                                   const VrmOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckColliderSet(set));
-  if (!(options.max_overshoot_m >= kMinOvershootM && options.max_overshoot_m <= kMaxOvershootM)) {
-    return OutOfRange("max_overshoot_m", options.max_overshoot_m, kMinOvershootM, kMaxOvershootM);
+  if (!(options.max_overshoot_m >= kLeastOvershootM &&
+        options.max_overshoot_m <= kLargestOvershootM)) {
+    return OutOfRange("max_overshoot_m", options.max_overshoot_m, kLeastOvershootM,
+                      kLargestOvershootM);
   }
   CAPFIT_ASSIGN_OR_RETURN(GltfDocument document, GltfDocument::Open(original));
   return VrmWriter(set, std::move(document), options).Run();

@@ -11,7 +11,7 @@
 namespace capfit::exports {
 
 struct VrmOptions {
-  // How far the colliders may stand out of the capsules they replace. Range: [0.0002, 0.5]. Half of
+  // How far the colliders may stand out of the capsules they replace. Range: [0.001, 0.1]. Half of
   // it takes about 1.4 times as many spheres (VRM 0) or twice as many capsules (VRM 1.0).
   double max_overshoot_m = 0.005;
   // Springs that the file has collide with what was added, see below.
@@ -38,7 +38,8 @@ struct VrmOptions {
 //
 // Warnings: CAPSULES_REPLACED (how many pieces, and how much larger), SPRINGS_INSIDE (how many
 // springs are kept away from colliders they lie in), and those of WriteGltf.
-// Errors: INVALID_ARGUMENT for a file that is no VRM, options out of range, and as WriteGltf.
+// Errors: INVALID_ARGUMENT for a file that is no VRM, options out of range, more than 1024 springs
+// or 5000 joints that they move, and as WriteGltf.
 [[nodiscard]] absl::StatusOr<Exported> WriteVrm(const ColliderSet& set,
                                                 std::span<const std::byte> original,
                                                 const VrmOptions& options = {});

@@ -120,6 +120,18 @@ TEST(VrmColliders, RefuseWhatIsNoVrmAndOptionsOutOfRange) {
             "max_overshoot_m");
 }
 
+TEST(VrmColliders, RefuseMoreSpringsThanAnyAvatarHas) {
+  json vrm = FirstVrm();
+  json& groups = vrm["extensions"]["VRM"]["secondaryAnimation"]["boneGroups"];
+  groups = json(1024, json{{"bones", {8}}});
+  const ColliderSet set = SetOn(GlbOf(vrm), {1});
+  EXPECT_TRUE(WriteVrm(set, BytesOf(GlbOf(vrm))).ok());
+  groups.push_back(json::object());
+  EXPECT_EQ(ReasonOf(WriteVrm(set, BytesOf(GlbOf(vrm))).status()), ErrorReason::kTooLarge);
+  groups = json(1000, json{{"bones", {0}}});  // the whole tree, a thousand times
+  EXPECT_EQ(ReasonOf(WriteVrm(set, BytesOf(GlbOf(vrm))).status()), ErrorReason::kTooLarge);
+}
+
 TEST(VrmColliders, TakeASpringBoneOfTheWrongKindAsNone) {
   json vrm = SecondVrm();
   vrm["extensions"]["VRMC_springBone"] = 3;
