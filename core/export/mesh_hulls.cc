@@ -61,7 +61,8 @@ absl::StatusOr<Exported> FilesOf(const ColliderSet& set, std::vector<NamedMesh> 
     of_file = {"that of the mesh, in its unit", to_mesh.rotation, to_mesh.scale};
   }
   const std::string stem = FileStem(set) + "_" + what;
-  const Statement statement = StatementOf(set, what, of_file, "closed meshes, faces counter-clockwise from outside");
+  const Statement statement =
+      StatementOf(set, what, of_file, "closed meshes, faces counter-clockwise from outside");
   exported.files.push_back({stem + ".obj", StatementLines(statement, "# ", "") + ObjOf(meshes)});
   exported.files.push_back({stem + ".glb", std::move(glb)});
   return exported;
