@@ -13,9 +13,12 @@ namespace {
 
 std::string ProfileWord(capsule::CapsuleProfile profile) {
   switch (profile) {
-    case capsule::CapsuleProfile::kTangentHull: return "tangent_hull";
-    case capsule::CapsuleProfile::kLerpedRadius: return "lerped_radius";
-    case capsule::CapsuleProfile::kUniformRadius: return "uniform_radius";
+    case capsule::CapsuleProfile::kTangentHull:
+      return "tangent_hull";
+    case capsule::CapsuleProfile::kLerpedRadius:
+      return "lerped_radius";
+    case capsule::CapsuleProfile::kUniformRadius:
+      return "uniform_radius";
   }
   return {};
 }
@@ -71,12 +74,23 @@ std::string XmlText(const std::string& text) {
   std::string xml;
   for (const char c : ValidUtf8(text)) {
     switch (c) {
-      case '&': xml += "&amp;"; break;
-      case '<': xml += "&lt;"; break;
-      case '>': xml += "&gt;"; break;
-      case '"': xml += "&quot;"; break;
-      case '\'': xml += "&apos;"; break;
-      default: xml += IsControl(c) ? '_' : c;
+      case '&':
+        xml += "&amp;";
+        break;
+      case '<':
+        xml += "&lt;";
+        break;
+      case '>':
+        xml += "&gt;";
+        break;
+      case '"':
+        xml += "&quot;";
+        break;
+      case '\'':
+        xml += "&apos;";
+        break;
+      default:
+        xml += IsControl(c) ? '_' : c;
     }
   }
   return xml;

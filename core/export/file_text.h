@@ -27,8 +27,8 @@ using Statement = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::string StatementLines(const Statement& statement, const std::string& before,
                                          const std::string& after);
 
-// The shortest decimal that reads back to the same bits: "0.1", "1e-05"; for a float with a point or
-// an exponent in any case: "1.0".
+// The shortest decimal that reads back to the same bits: "0.1", "1e-05"; for a float with a point
+// or an exponent in any case: "1.0".
 [[nodiscard]] std::string NumberText(double number);
 [[nodiscard]] std::string FloatText(float number);
 // Three numbers with spaces between.

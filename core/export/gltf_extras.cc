@@ -7,6 +7,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/body/anatomy.h"
+#include "core/export/file_text.h"
+#include "core/export/frame.h"
 
 namespace capfit::exports {
 namespace {
@@ -15,18 +17,6 @@ using nlohmann::json;
 
 // Of a body's height, which nobody knows to better than a hundredth.
 constexpr double kUnitTolerance = 0.01;
-
-std::string ProfileName(capsule::CapsuleProfile profile) {
-  switch (profile) {
-    case capsule::CapsuleProfile::kTangentHull:
-      return "tangent_hull";
-    case capsule::CapsuleProfile::kLerpedRadius:
-      return "lerped_radius";
-    case capsule::CapsuleProfile::kUniformRadius:
-      return "uniform_radius";
-  }
-  return {};
-}
 
 json SphereExtras(const ColliderSet& set, std::size_t index) {
   const geometry::Sphere& sphere = set.primitives.spheres[index];
@@ -41,12 +31,16 @@ json SphereExtras(const ColliderSet& set, std::size_t index) {
 json ExtrasOf(const ColliderSet& set) {
   json spheres = json::array();
   for (std::size_t i = 0; i < set.sphere_count(); ++i) spheres.push_back(SphereExtras(set, i));
-  return {{"version", set.version},
-          {"source", set.source},
-          {"profile", ProfileName(set.profile)},
-          {"metres_per_unit", set.body_from_mesh.scale},
-          {"spheres", std::move(spheres)},
-          {"capsules", set.primitives.capsules}};
+  const Frame scene{"the scene's, right-handed, +Y up", Eigen::Matrix3d::Identity(),
+                    1.0 / set.body_from_mesh.scale};
+  json extras = {{"metres_per_unit", set.body_from_mesh.scale},
+                 {"spheres", std::move(spheres)},
+                 {"capsules", set.primitives.capsules}};
+  for (const auto& [key, value] : StatementOf(
+           set, "gltf", scene, "capsules along their node's +Y, the first sphere at the bottom")) {
+    extras[key] = value;
+  }
+  return extras;
 }
 
 json ExtrasOf(const Solid& solid) {

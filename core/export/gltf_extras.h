@@ -10,7 +10,7 @@
 
 namespace capfit::exports {
 
-// For the root's extras: "version", "source", "profile", "metres_per_unit", "spheres" (each with
+// For the root's extras: StatementOf the set, "metres_per_unit", "spheres" (each with
 // "name", "part", "center" and "radius", in the set's frame and unit) and "capsules" (pairs of
 // indices into them).
 [[nodiscard]] nlohmann::json ExtrasOf(const ColliderSet& set);

@@ -24,8 +24,7 @@ Eigen::Isometry3d JointFrame(const ColliderSet& upright, std::int32_t index) {
   return frame;
 }
 
-Eigen::Isometry3d JointFrameIn(const Frame& frame, const ColliderSet& upright,
-                               std::int32_t index) {
+Eigen::Isometry3d JointFrameIn(const Frame& frame, const ColliderSet& upright, std::int32_t index) {
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
   turn.linear() = frame.from_upright;
   return turn * JointFrame(upright, index);

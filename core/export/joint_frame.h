@@ -10,9 +10,9 @@
 
 namespace capfit::exports {
 
-// From the frame of the joint at `index` of an upright set (Upright) to the upright frame: where the
-// joint stands, with the rotation nearest to its matrix (scale, shear and mirroring left out). The
-// identity for -1.
+// From the frame of the joint at `index` of an upright set (Upright) to the upright frame: where
+// the joint stands, with the rotation nearest to its matrix (scale, shear and mirroring left out).
+// The identity for -1.
 [[nodiscard]] Eigen::Isometry3d JointFrame(const ColliderSet& upright, std::int32_t index);
 
 // The same in another right-handed frame, metres: from a joint's frame with the same axes as before

@@ -37,7 +37,8 @@ std::string JsonText(const OrderedJson& json) {
 }
 
 std::string ValidUtf8(const std::string& text) {
-  const std::string quoted = OrderedJson(text).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  const std::string quoted =
+      OrderedJson(text).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   return OrderedJson::parse(quoted).get<std::string>();
 }
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/base/status.h"
+#include "core/export/file_text.h"
 #include "core/export/frame.h"
 #include "core/export/gltf_extras.h"
 #include "core/export/gltf_preview.h"
@@ -52,17 +52,18 @@ absl::StatusOr<Exported> FilesOf(const ColliderSet& set, std::vector<NamedMesh> 
                                  MeshFrame frame, const std::string& what) {
   Exported exported;
   CAPFIT_ASSIGN_OR_RETURN(std::string glb, GlbOf(meshes));
-  std::string frame_words(YUpFrame().name);
+  Frame of_file = YUpFrame();
   if (frame == MeshFrame::kOfMesh) {
     const geometry::Similarity to_mesh = UprightFromMesh(set).Inverse();
     for (NamedMesh& mesh : meshes) {
       for (Eigen::Vector3d& vertex : mesh.vertices) vertex = to_mesh.Apply(vertex);
     }
-    frame_words = absl::StrCat("that of the mesh, 1 unit = ", set.body_from_mesh.scale, " m");
+    of_file = {"that of the mesh, in its unit", to_mesh.rotation, to_mesh.scale};
   }
   const std::string stem = FileStem(set) + "_" + what;
-  exported.files.push_back({stem + ".obj", ObjOf(meshes, {"capfit " + set.version + ": " + what,
-                                                          "frame: " + frame_words})});
+  const Statement statement =
+      StatementOf(set, what, of_file, "closed meshes, faces counter-clockwise from outside");
+  exported.files.push_back({stem + ".obj", StatementLines(statement, "# ", "") + ObjOf(meshes)});
   exported.files.push_back({stem + ".glb", std::move(glb)});
   return exported;
 }

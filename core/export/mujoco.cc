@@ -14,7 +14,8 @@
 namespace capfit::exports {
 namespace {
 
-constexpr char kMujocoAxis[] = "capsules by fromto: the centres of their two ends, in the body's frame";
+constexpr char kMujocoAxis[] =
+    "capsules by fromto: the centres of their two ends, in the body's frame";
 constexpr int kMeshSegments = 24;  // 1.7 % of the radius too large, 300 vertices
 
 std::string QuaternionText(const Eigen::Isometry3d& frame) {
@@ -55,8 +56,7 @@ class MujocoWriter {
   }
 
   void Add(const Solid& solid, std::string& geoms) {
-    const bool is_tapered =
-        !solid.IsBall() && solid.hull.a().radius_m != solid.hull.b().radius_m;
+    const bool is_tapered = !solid.IsBall() && solid.hull.a().radius_m != solid.hull.b().radius_m;
     if (is_tapered) ++tapered_count_;
     if (is_tapered && options_.as_meshes) return AddMesh(solid, geoms);
     const Eigen::Isometry3d to_joint = JointFrame(upright_, solid.joint).inverse();
@@ -100,10 +100,11 @@ class MujocoWriter {
     const std::string start =
         absl::StrCat("MuJoCo has no tapered capsule: ", tapered_count_, " became ");
     if (!options_.as_meshes) {
-      return {{"CAPSULES_REPLACED",
-               absl::StrCat(start, piece_count_, " capsules of one radius that enclose them, up to ",
-                            options_.max_overshoot_m, " m too large"),
-               tapered_count_}};
+      return {
+          {"CAPSULES_REPLACED",
+           absl::StrCat(start, piece_count_, " capsules of one radius that enclose them, up to ",
+                        options_.max_overshoot_m, " m too large"),
+           tapered_count_}};
     }
     double radius_m = 0.0;
     for (const Solid& solid : solids) {

@@ -18,12 +18,12 @@ struct MujocoOptions {
 
 // mujoco_colliders.xml in ZUpFrame(), metres. Each joint that carries something is a mocap body of
 // the world, of the joint's name, standing where the joint stood (without a rig: one body,
-// "capfit"), so that data.mocap_pos and mocap_quat move it; geoms lie in its frame. A capsule becomes
-// one or more geoms "NAME" (NAME_2, ...) of type capsule by `fromto`, whose union encloses it;
-// what is a ball becomes a sphere. The body's own frame has the axes that the joint has.
+// "capfit"), so that data.mocap_pos and mocap_quat move it; geoms lie in its frame. A capsule
+// becomes one or more geoms "NAME" (NAME_2, ...) of type capsule by `fromto`, whose union encloses
+// it; what is a ball becomes a sphere. The body's own frame has the axes that the joint has.
 //
-// Errors: INVALID_ARGUMENT for an overshoot out of range. Warnings: CAPSULES_REPLACED (how many capsules
-// became what, and by how much it is too large).
+// Errors: INVALID_ARGUMENT for an overshoot out of range. Warnings: CAPSULES_REPLACED (how many
+// capsules became what, and by how much it is too large).
 [[nodiscard]] absl::StatusOr<Exported> WriteMujoco(const ColliderSet& set,
                                                    const MujocoOptions& options = {});
 

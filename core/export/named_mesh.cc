@@ -16,9 +16,8 @@ std::string Word(std::string text) {
 
 }  // namespace
 
-std::string ObjOf(std::span<const NamedMesh> meshes, const std::vector<std::string>& statement) {
+std::string ObjOf(std::span<const NamedMesh> meshes) {
   std::string text;
-  for (const std::string& line : statement) absl::StrAppendFormat(&text, "# %s\n", line);
   std::size_t base = 1;
   for (const NamedMesh& mesh : meshes) {
     const std::string name = Word(mesh.name);

@@ -19,10 +19,9 @@ struct NamedMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise from outside
 };
 
-// An OBJ of them all, each an object and a group. `statement`: lines that become comments. Blanks
-// and control characters in names become '_'.
-[[nodiscard]] std::string ObjOf(std::span<const NamedMesh> meshes,
-                                const std::vector<std::string>& statement);
+// An OBJ of them all, each an object and a group. Blanks and control characters in names become
+// '_'.
+[[nodiscard]] std::string ObjOf(std::span<const NamedMesh> meshes);
 
 // A GLB of them all, each a node and a mesh of floats, without normals: readers shade it flat.
 [[nodiscard]] absl::StatusOr<std::string> GlbOf(std::span<const NamedMesh> meshes);

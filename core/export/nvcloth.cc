@@ -27,8 +27,8 @@ std::string SphereLines(const ColliderSet& upright) {
   for (std::size_t i = 0; i < upright.sphere_count(); ++i) {
     const geometry::Sphere& sphere = upright.primitives.spheres[i];
     lines += " ";
-    for (const double number : {sphere.center_m.x(), sphere.center_m.y(), sphere.center_m.z(),
-                                sphere.radius_m}) {
+    for (const double number :
+         {sphere.center_m.x(), sphere.center_m.y(), sphere.center_m.z(), sphere.radius_m}) {
       absl::StrAppend(&lines, " ", FloatText(static_cast<float>(number)), "f,");
     }
     absl::StrAppend(&lines, " /* ", i, " ", CommentText(upright.sphere_names[i]),
@@ -51,19 +51,19 @@ std::string CapsuleLines(const ColliderSet& upright) {
 
 std::string Document(const ColliderSet& upright) {
   std::string text = "#ifndef CAPFIT_NVCLOTH_COLLIDERS_H_\n#define CAPFIT_NVCLOTH_COLLIDERS_H_\n";
-  absl::StrAppend(&text, "/*\n",
-                  StatementLines(StatementOf(upright, "capfit-nvcloth", YUpFrame(), kNvClothAxis), "  ", ""),
-                  "*/\n#include <stdint.h>\n\nenum {\n  CAPFIT_SPHERE_COUNT = ",
-                  upright.sphere_count(), ",\n  CAPFIT_CAPSULE_COUNT = ", upright.capsule_count(),
-                  "\n};\n");
+  absl::StrAppend(
+      &text, "/*\n",
+      StatementLines(StatementOf(upright, "capfit-nvcloth", YUpFrame(), kNvClothAxis), "  ", ""),
+      "*/\n#include <stdint.h>\n\nenum {\n  CAPFIT_SPHERE_COUNT = ", upright.sphere_count(),
+      ",\n  CAPFIT_CAPSULE_COUNT = ", upright.capsule_count(), "\n};\n");
   absl::StrAppend(&text, "\n/* x, y, z, radius of each sphere, in metres. */\n",
-                  "static const float capfit_spheres[", 4 * std::max<std::size_t>(
-                      1, upright.sphere_count()), "] = {\n",
+                  "static const float capfit_spheres[",
+                  4 * std::max<std::size_t>(1, upright.sphere_count()), "] = {\n",
                   upright.sphere_count() == 0 ? "  0.0f\n" : SphereLines(upright), "};\n");
-  absl::StrAppend(&text, "\n/* The two spheres of each capsule. */\n",
-                  "static const uint32_t capfit_capsules[", 2 * std::max<std::size_t>(
-                      1, upright.capsule_count()), "] = {\n",
-                  upright.capsule_count() == 0 ? "  0u\n" : CapsuleLines(upright), "};\n\n#endif\n");
+  absl::StrAppend(
+      &text, "\n/* The two spheres of each capsule. */\n", "static const uint32_t capfit_capsules[",
+      2 * std::max<std::size_t>(1, upright.capsule_count()), "] = {\n",
+      upright.capsule_count() == 0 ? "  0u\n" : CapsuleLines(upright), "};\n\n#endif\n");
   return text;
 }
 

@@ -85,9 +85,7 @@ double Deviation(const Solid& solid) {
   return (LatheDeviation(kHullSegments) + 2.0 * kFloatRounding) * LargerRadius(solid);
 }
 
-bool IsUniform(const Solid& solid) {
-  return solid.hull.a().radius_m == solid.hull.b().radius_m;
-}
+bool IsUniform(const Solid& solid) { return solid.hull.a().radius_m == solid.hull.b().radius_m; }
 
 Json HullShape(const Solid& solid) {
   Json points = Json::array();

@@ -7,18 +7,19 @@
 
 namespace capfit::exports {
 
-// Frame of all three: YUpFrame(), metres, right-handed. The root holds what every file says of itself
-// (file_text.h), "joints" (name, parent, position, rotation: those that the rig has, where they stood
-// when the body was fitted) and "shapes": each capsule, then each sphere that no capsule uses. Of
-// each shape:
+// Frame of all three: YUpFrame(), metres, right-handed. The root holds what every file says of
+// itself (file_text.h), "joints" (name, parent, position, rotation: those that the rig has, where
+// they stood when the body was fitted) and "shapes": each capsule, then each sphere that no capsule
+// uses. Of each shape:
 //
 //   name, spheres            its own name and those of its spheres, bottom first (one for a sphere)
 //   joint                    index into "joints"; -1 without a rig
-//   position, rotation       of its frame: the middle of the two centres; the quaternion (x, y, z, w)
+//   position, rotation       of its frame: the middle of the two centres; the quaternion (x, y, z,
+//   w)
 //                            takes +Y to the direction from bottom to top
-//   joint_position,          the same in the joint's frame (turned and moved, never scaled); without
-//   joint_rotation           a rig the same numbers again
-//   shape                    the engine's name of it, with its arguments:
+//   joint_position,          the same in the joint's frame (turned and moved, never scaled);
+//   without joint_rotation           a rig the same numbers again shape                    the
+//   engine's name of it, with its arguments:
 //
 // Jolt (jolt_colliders.json):
 //   TaperedCapsule           half_height, top_radius, bottom_radius
@@ -28,12 +29,13 @@ namespace capfit::exports {
 //   btSphereShape            radius
 // Rapier (rapier_colliders.json), which has no tapered capsule:
 //   capsule                  half_height, radius: where both radii are the same
-//   convexHull               points, three numbers each, in the shape's frame; deviation: how far the
+//   convexHull               points, three numbers each, in the shape's frame; deviation: how far
+//   the
 //                            hull may lie outside of the true shape, nothing of which it leaves out
 //   ball                     radius
 //
-// Warnings: CAPSULES_REPLACED (Rapier: how many, and the largest deviation); INNER_SPHERES (capsules that are
-// a sphere, in all three).
+// Warnings: CAPSULES_REPLACED (Rapier: how many, and the largest deviation); INNER_SPHERES
+// (capsules that are a sphere, in all three).
 [[nodiscard]] Exported WriteJolt(const ColliderSet& set);
 [[nodiscard]] Exported WriteBullet(const ColliderSet& set);
 [[nodiscard]] Exported WriteRapier(const ColliderSet& set);

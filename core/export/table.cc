@@ -33,8 +33,8 @@ std::string Head(const ColliderSet& set, const std::string& format) {
 std::string SphereTable(const ColliderSet& upright) {
   const std::vector<std::size_t> lone = LoneSpheres(upright);
   const std::vector<std::string> joints = JointNames(upright);
-  std::string table = Head(upright, "capfit-spheres") +
-                      "index,name,part,joint,x_m,y_m,z_m,radius_m,is_lone\n";
+  std::string table =
+      Head(upright, "capfit-spheres") + "index,name,part,joint,x_m,y_m,z_m,radius_m,is_lone\n";
   for (std::size_t i = 0; i < upright.sphere_count(); ++i) {
     const geometry::Sphere& sphere = upright.primitives.spheres[i];
     table += Line({absl::StrCat(i), CsvText(upright.sphere_names[i]),
@@ -56,12 +56,11 @@ std::string CapsuleTable(const ColliderSet& upright) {
   for (std::size_t k = 0; k < upright.capsule_count(); ++k) {
     const capsule::CapsuleEnds& ends = upright.primitives.capsules[k];
     const geometry::TaperedCapsule hull = upright.primitives.Capsule(k);
-    table += Line({absl::StrCat(k), CsvText(names[k]),
-                   NameOf(capsule::PartOfCapsule(upright.primitives, k)),
-                   JointName(joints, upright.capsule_joints, k), absl::StrCat(ends[0]),
-                   absl::StrCat(ends[1]), NumberText(hull.length_m()),
-                   NumberText(hull.a().radius_m), NumberText(hull.b().radius_m),
-                   hull.IsSphere() ? "1" : "0"});
+    table += Line(
+        {absl::StrCat(k), CsvText(names[k]), NameOf(capsule::PartOfCapsule(upright.primitives, k)),
+         JointName(joints, upright.capsule_joints, k), absl::StrCat(ends[0]), absl::StrCat(ends[1]),
+         NumberText(hull.length_m()), NumberText(hull.a().radius_m), NumberText(hull.b().radius_m),
+         hull.IsSphere() ? "1" : "0"});
   }
   return table;
 }

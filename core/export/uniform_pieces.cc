@@ -72,10 +72,10 @@ std::vector<UniformPiece> ConeCylinders(const geometry::TaperedCapsule& hull,
   for (int k = 0; k < count; ++k) {
     const double t0 = static_cast<double>(k) / count;
     const double t1 = static_cast<double>(k + 1) / count;
-    cylinders.push_back({hull.a().center_m + Lerp(low_m, high_m, t0) * hull.axis(),
-                         hull.a().center_m + Lerp(low_m, high_m, t1) * hull.axis(),
-                         std::max(Lerp(low_radius_m, high_radius_m, t0),
-                                  Lerp(low_radius_m, high_radius_m, t1))});
+    cylinders.push_back(
+        {hull.a().center_m + Lerp(low_m, high_m, t0) * hull.axis(),
+         hull.a().center_m + Lerp(low_m, high_m, t1) * hull.axis(),
+         std::max(Lerp(low_radius_m, high_radius_m, t0), Lerp(low_radius_m, high_radius_m, t1))});
   }
   return cylinders;
 }

@@ -1,4 +1,5 @@
-// Capsules of one radius, cylinders and balls in place of a tapered capsule, with nothing of it out.
+// Capsules of one radius, cylinders and balls in place of a tapered capsule, with nothing of it
+// out.
 #ifndef CAPFIT_CORE_EXPORT_UNIFORM_PIECES_H_
 #define CAPFIT_CORE_EXPORT_UNIFORM_PIECES_H_
 

@@ -74,7 +74,8 @@ class UnityWriter {
 
   UnityJson BoneDirection(std::int32_t joint, const Eigen::Vector3d& upright) const {
     if (joint < 0) return Point(upright);
-    return Point((bone_from_model_[static_cast<std::size_t>(joint)].linear() * upright).normalized());
+    return Point(
+        (bone_from_model_[static_cast<std::size_t>(joint)].linear() * upright).normalized());
   }
 
   UnityJson Bones() const {
@@ -118,8 +119,8 @@ class UnityWriter {
     const geometry::Sphere& start = solid.hull.a();
     const geometry::Sphere& end = solid.hull.b();
     const Eigen::Vector3d up = -solid.hull.axis();
-    const Eigen::Vector3d middle = 0.5 * (start.center_m + end.center_m) +
-                                   0.5 * (start.radius_m - end.radius_m) * up;
+    const Eigen::Vector3d middle =
+        0.5 * (start.center_m + end.center_m) + 0.5 * (start.radius_m - end.radius_m) * up;
     return {{"name", solid.name},
             {"bone", solid.joint},
             {"position", Point(middle)},
@@ -150,9 +151,9 @@ void WarnOfClothLimit(const std::string& what, std::size_t count, std::vector<Wa
 }  // namespace
 
 Exported WriteUnity(const ColliderSet& set) {
-  const std::string script =
-      absl::StrCat("// Colliders of a body on the bones of its character.\n//\n",
-                   StatementLines(StatementOf(set, "capfit-unity", UnityFrame(), kUnityAxis), "//   ", ""));
+  const std::string script = absl::StrCat(
+      "// Colliders of a body on the bones of its character.\n//\n",
+      StatementLines(StatementOf(set, "capfit-unity", UnityFrame(), kUnityAxis), "//   ", ""));
   Exported exported;
   exported.files = {{"unity_colliders.json", JsonText(UnityWriter(set).Run())},
                     {"CapfitColliders.cs", script + std::string(UnityScript())}};

@@ -18,7 +18,8 @@ namespace {
 constexpr char kCylinderAxis[] = "cylinders along their own +Z, centred";
 constexpr char kRoot[] = "capfit";
 
-// Turns about the fixed x, y and z axes, in this order, as URDF has them: Rz(yaw) Ry(pitch) Rx(roll).
+// Turns about the fixed x, y and z axes, in this order, as URDF has them: Rz(yaw) Ry(pitch)
+// Rx(roll).
 Eigen::Vector3d RollPitchYaw(const Eigen::Matrix3d& turn) {
   const double across = std::hypot(turn(0, 0), turn(1, 0));
   const double pitch = std::atan2(-turn(2, 0), across);
@@ -49,7 +50,8 @@ class UrdfWriter {
     names.insert(names.begin(), kRoot);
     names = UniqueNames(std::move(names), "joint");
     for (const auto& [joint, collisions] : collisions_) {
-      if (joint >= 0) absl::StrAppend(&xml, Link(names[static_cast<std::size_t>(joint) + 1], joint));
+      if (joint >= 0)
+        absl::StrAppend(&xml, Link(names[static_cast<std::size_t>(joint) + 1], joint));
     }
     return {{{"colliders.urdf", xml + "</robot>\n"}}, Warnings()};
   }
@@ -68,8 +70,7 @@ class UrdfWriter {
     AddSphere(solid, solid.spheres[0]);
     if (!solid.capsule.has_value()) return;
     AddSphere(solid, solid.spheres[1]);
-    const std::vector<UniformPiece> cylinders =
-        ConeCylinders(solid.hull, options_.max_overshoot_m);
+    const std::vector<UniformPiece> cylinders = ConeCylinders(solid.hull, options_.max_overshoot_m);
     for (std::size_t k = 0; k < cylinders.size(); ++k) {
       AddCylinder(solid, absl::StrCat(solid.name, "_", k + 1), cylinders[k]);
     }

@@ -15,12 +15,12 @@ struct UrdfOptions {
 
 // colliders.urdf in ZUpFrame(), metres. A link "capfit", and below it by a floating joint one link
 // for each joint that carries something, named like it, where the joint stood (without a rig all is
-// in "capfit"). URDF knows no capsule: a collision for each sphere ("NAME"), held once by the link of
-// each capsule that it ends, and cylinders along their +Z ("CAPSULE_1", ...) for the cone between:
-// together they enclose the capsules.
+// in "capfit"). URDF knows no capsule: a collision for each sphere ("NAME"), held once by the link
+// of each capsule that it ends, and cylinders along their +Z ("CAPSULE_1", ...) for the cone
+// between: together they enclose the capsules.
 //
-// Errors: INVALID_ARGUMENT for an overshoot out of range. Warnings: CAPSULES_REPLACED (how many capsules
-// became how many, and by how much they are too large).
+// Errors: INVALID_ARGUMENT for an overshoot out of range. Warnings: CAPSULES_REPLACED (how many
+// capsules became how many, and by how much they are too large).
 [[nodiscard]] absl::StatusOr<Exported> WriteUrdf(const ColliderSet& set,
                                                  const UrdfOptions& options = {});
 

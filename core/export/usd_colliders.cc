@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/export/file_text.h"
 #include "core/export/frame.h"
 #include "core/export/gltf_extras.h"
 #include "core/export/joint_frame.h"
@@ -51,8 +52,12 @@ class UsdWriter {
         of_joint[solid.joint].push_back(std::move(collider));
       }
     }
+    std::vector<std::string> names;
+    for (const auto& [joint, colliders] : of_joint) names.push_back(UsdIdentifier(NameOf(joint)));
+    names = UniqueNames(std::move(names), "joint");
     WriteHeader();
-    for (const auto& [joint, colliders] : of_joint) WriteJoint(joint, colliders);
+    std::size_t index = 0;
+    for (const auto& [joint, colliders] : of_joint) WriteJoint(names[index++], joint, colliders);
     text_ += "}\n";
     Exported exported;
     exported.files.push_back({FileStem(set_) + "_colliders.usda", std::move(text_)});
@@ -70,11 +75,10 @@ class UsdWriter {
     Line(0, "#usda 1.0");
     Line(0, "(");
     Line(1, "customLayerData = {");
-    Line(2, "string capfit = " + UsdString(set_.version));
-    Line(2, "string frame = " + UsdString(std::string(YUpFrame().name)));
-    Line(2, std::string("string profile = ") +
-                (options_.is_tapered ? "\"tangent_hull\"" : "\"uniform_radius\""));
-    Line(2, "string source = " + UsdString(set_.source));
+    for (const auto& [key, value] : StatementOf(
+             set_, "usd", YUpFrame(), "capsules along +Y, the first sphere at the bottom")) {
+      Line(2, "string " + key + " = " + UsdString(value));
+    }
     Line(1, "}");
     Line(1, "defaultPrim = \"Colliders\"");
     Line(1, "metersPerUnit = 1");
@@ -85,17 +89,23 @@ class UsdWriter {
     Line(0, "{");
   }
 
-  void WriteJoint(std::int32_t joint, const std::vector<UsdCollider>& colliders) {
-    const std::string name = joint < 0 ? "body" : set_.joints[static_cast<std::size_t>(joint)].name;
+  [[nodiscard]] std::string NameOf(std::int32_t joint) const {
+    return joint < 0 ? "body" : set_.joints[static_cast<std::size_t>(joint)].name;
+  }
+
+  void WriteJoint(const std::string& prim, std::int32_t joint,
+                  const std::vector<UsdCollider>& colliders) {
     const Eigen::Isometry3d frame = JointFrame(set_, joint);
-    Line(1, "def Xform \"" + joint_names_.Add(name.empty() ? "joint" : name) + "\"");
+    Line(1, "def Xform \"" + prim + "\"");
     Line(1, "{");
-    if (joint >= 0) Line(2, "custom string capfit:joint = " + UsdString(name));
+    if (joint >= 0) Line(2, "custom string capfit:joint = " + UsdString(NameOf(joint)));
     WritePlace(frame);
-    UsdNames names;
-    for (const UsdCollider& collider : colliders) {
+    std::vector<std::string> names;
+    for (const UsdCollider& collider : colliders) names.push_back(UsdIdentifier(collider.name));
+    names = UniqueNames(std::move(names), "collider");
+    for (std::size_t k = 0; k < colliders.size(); ++k) {
       text_ += "\n";
-      WriteCollider(collider, names.Add(collider.name), frame.inverse());
+      WriteCollider(colliders[k], names[k], frame.inverse());
     }
     Line(1, "}");
   }
@@ -132,7 +142,7 @@ class UsdWriter {
   void WriteBall(const UsdCollider& collider) {
     const double radius_m = std::max(collider.hull.a().radius_m, collider.hull.b().radius_m);
     WriteExtent(radius_m, -radius_m, radius_m);
-    Line(3, "double radius = " + UsdNumber(radius_m));
+    Line(3, "double radius = " + NumberText(radius_m));
   }
 
   void WriteCapsule(const UsdCollider& collider) {
@@ -141,10 +151,10 @@ class UsdWriter {
     const double half_m = 0.5 * collider.hull.length_m();
     Line(3, "uniform token axis = \"Y\"");
     WriteExtent(std::max(low_m, high_m), -half_m - low_m, half_m + high_m);
-    Line(3, "double height = " + UsdNumber(collider.hull.length_m()));
-    if (!options_.is_tapered) return Line(3, "double radius = " + UsdNumber(low_m));
-    Line(3, "double radiusBottom = " + UsdNumber(low_m));
-    Line(3, "double radiusTop = " + UsdNumber(high_m));
+    Line(3, "double height = " + NumberText(collider.hull.length_m()));
+    if (!options_.is_tapered) return Line(3, "double radius = " + NumberText(low_m));
+    Line(3, "double radiusBottom = " + NumberText(low_m));
+    Line(3, "double radiusTop = " + NumberText(high_m));
   }
 
   void WriteExtent(double across_m, double low_m, double high_m) {
@@ -165,7 +175,6 @@ class UsdWriter {
   const ColliderSet& set_;
   UsdOptions options_;
   std::vector<Solid> solids_;
-  UsdNames joint_names_;
   std::string text_;
 };
 
@@ -173,9 +182,7 @@ class UsdWriter {
 
 absl::StatusOr<Exported> WriteUsd(const ColliderSet& set, const UsdOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckColliderSet(set));
-  if (!(options.max_overshoot_m >= kMinOvershootM && options.max_overshoot_m <= kMaxOvershootM)) {
-    return OutOfRange("max_overshoot_m", options.max_overshoot_m, kMinOvershootM, kMaxOvershootM);
-  }
+  CAPFIT_RETURN_IF_ERROR(CheckOvershoot(options.max_overshoot_m));
   const ColliderSet upright = Upright(set);
   return UsdWriter(upright, options).Run();
 }

@@ -26,7 +26,7 @@ struct UsdOptions {
 //
 // Prims are named after spheres and capsules, joints after joints, with '_' for what identifiers
 // cannot hold; `string capfit:name` says the name as it was. `int[] capfit:spheres` are a
-// collider's spheres by index; customLayerData has capfit's version, the source and the profile.
+// collider's spheres by index; customLayerData has StatementOf the set.
 //
 // Warnings: CAPSULES_REPLACED without tapered ones. Errors: INVALID_ARGUMENT for a set that is not
 // sound or an option out of range.

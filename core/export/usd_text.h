@@ -3,29 +3,21 @@
 #define CAPFIT_CORE_EXPORT_USD_TEXT_H_
 
 #include <Eigen/Geometry>
-#include <set>
 #include <string>
 
 namespace capfit::exports {
 
-// The shortest decimal that reads back to the same double.
-[[nodiscard]] std::string UsdNumber(double number);
 // "(1, 2, 3)"
 [[nodiscard]] std::string UsdVector(const Eigen::Vector3d& vector);
 // "(w, x, y, z)"
 [[nodiscard]] std::string UsdQuaternion(const Eigen::Quaterniond& q);
-// In quotes, with what would end the string escaped; control characters as spaces.
+// In quotes, with what would end the string escaped; control characters as spaces, bytes that are
+// no UTF-8 as U+FFFD.
 [[nodiscard]] std::string UsdString(const std::string& text);
 
-// Identifiers of which no two are the same: letters, digits and '_', no digit in front; "_2", "_3"
-// ... behind those that are there already.
-class UsdNames {
- public:
-  [[nodiscard]] std::string Add(const std::string& name);
-
- private:
-  std::set<std::string> taken_;
-};
+// An identifier: letters, digits and '_', which stands for all else, no digit in front. Several
+// names may give one: see UniqueNames.
+[[nodiscard]] std::string UsdIdentifier(const std::string& name);
 
 }  // namespace capfit::exports
 

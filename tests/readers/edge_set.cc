@@ -24,17 +24,17 @@ formats::NamedJoint Joint(const char* name, const Vec3& position, std::int32_t p
 exports::ColliderSet EdgeSet() {
   exports::ColliderSet set;
   set.primitives.spheres = {
-      {Vec3(0, 0, 100), 12.0},   {Vec3(0, 0, 130), 15.0},  {Vec3(30, 0, 130), 5.0},
-      {Vec3(-30, 0, 130), 5.0},  {Vec3(10, 0, 60), 7.0},   {Vec3(10, 0, 20), 7.0},
-      {Vec3(-10, 0, 60), 9.0},   {Vec3(-10, 20, 60), 3.0}, {Vec3(-10, 22.5, 61), 0.5},
-      {Vec3(-10, 0, 63), 4.0},   {Vec3(0, 0, 165), 11.0},  {Vec3(12, -3, 61), 0.75},
+      {Vec3(0, 0, 100), 12.0},  {Vec3(0, 0, 130), 15.0},  {Vec3(30, 0, 130), 5.0},
+      {Vec3(-30, 0, 130), 5.0}, {Vec3(10, 0, 60), 7.0},   {Vec3(10, 0, 20), 7.0},
+      {Vec3(-10, 0, 60), 9.0},  {Vec3(-10, 20, 60), 3.0}, {Vec3(-10, 22.5, 61), 0.5},
+      {Vec3(-10, 0, 63), 4.0},  {Vec3(0, 0, 165), 11.0},  {Vec3(12, -3, 61), 0.75},
   };
   set.primitives.origins.resize(set.primitives.spheres.size());
-  set.primitives.capsules = {{0, 1}, {1, 2}, {1, 3}, {4, 5}, {0, 4}, {6, 7},
-                             {7, 8}, {6, 9}, {0, 6}, {4, 11}};
-  set.sphere_names = {"waist_1",       "chest_1",     "left_arm_1",    "right_arm_1",
-                      "left_thigh_1",  "left_calf_1", "right_thigh_1", "right_calf_1",
-                      "right_calf_2",  "right_inner", "head_1",        kHostileName};
+  set.primitives.capsules = {{0, 1}, {1, 2}, {1, 3}, {4, 5}, {0, 4},
+                             {6, 7}, {7, 8}, {6, 9}, {0, 6}, {4, 11}};
+  set.sphere_names = {"waist_1",      "chest_1",     "left_arm_1",    "right_arm_1",
+                      "left_thigh_1", "left_calf_1", "right_thigh_1", "right_calf_1",
+                      "right_calf_2", "right_inner", "head_1",        kHostileName};
   // Z up in centimetres, facing -Y.
   set.body_from_mesh.rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   set.body_from_mesh.scale = 0.01;

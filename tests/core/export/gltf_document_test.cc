@@ -33,7 +33,8 @@ TEST(GltfDocument, NewBytesFollowThoseThatAreThere) {
   EXPECT_EQ(ViewOf(document, document.AddView("abc", 34962)), "abc");
   EXPECT_EQ(ViewOf(document, document.AddView("defgh", 34963)), "defgh");
   EXPECT_EQ(document.root()["bufferViews"][1]["byteOffset"].get<int>() % 4, 0);
-  const auto chunks = formats::SplitGltf(BytesOf(*document.Bytes()));
+  const std::string bytes = document.Bytes().value();
+  const auto chunks = formats::SplitGltf(BytesOf(bytes));
   EXPECT_EQ(std::memcmp(chunks->binary.data(), "12345", 5), 0);
 }
 

@@ -1,5 +1,5 @@
-// Builds the shapes of bullet_colliders.json in Bullet (double precision) and compares its distances
-// with the result's own, outside, where Bullet's are exact.
+// Builds the shapes of bullet_colliders.json in Bullet (double precision) and compares its
+// distances with the result's own, outside, where Bullet's are exact.
 //
 //   check_bullet FOLDER
 #include <BulletCollision/CollisionShapes/btMultiSphereShape.h>

@@ -1,5 +1,6 @@
-// Reads colliders.urdf with urdfdom and compares it with the result: nothing dropped (urdfdom leaves out
-// what it does not know and goes on), spheres where they are, and cylinders that enclose the cones.
+// Reads colliders.urdf with urdfdom and compares it with the result: nothing dropped (urdfdom
+// leaves out what it does not know and goes on), spheres where they are, and cylinders that enclose
+// the cones.
 //
 //   check_urdf FOLDER
 #include <urdf_model/model.h>
@@ -68,8 +69,9 @@ void Add(const urdf::Collision& collision, const Eigen::Isometry3d& link, Found&
     found.spheres.insert({collision.name, {center, sphere->radius}});
   }
   if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(collision.geometry.get())) {
-    found.cylinders.insert({collision.name, {center, Upright(place.linear().col(2)),
-                                             cylinder->radius, 0.5 * cylinder->length}});
+    found.cylinders.insert(
+        {collision.name,
+         {center, Upright(place.linear().col(2)), cylinder->radius, 0.5 * cylinder->length}});
   }
 }
 
@@ -93,7 +95,8 @@ std::string InXml(std::string name) {
 }
 
 bool IsPieceOf(const std::string& name, const std::string& capsule) {
-  return name.size() > capsule.size() + 1 && name.compare(0, capsule.size() + 1, capsule + "_") == 0 &&
+  return name.size() > capsule.size() + 1 &&
+         name.compare(0, capsule.size() + 1, capsule + "_") == 0 &&
          std::all_of(name.begin() + static_cast<std::ptrdiff_t>(capsule.size()) + 1, name.end(),
                      [](unsigned char c) { return std::isdigit(c) != 0; });
 }

@@ -37,7 +37,8 @@ std::vector<ExpectedSolid> ExpectedSolids(const std::string& folder) {
   for (const json& capsule : root.at("capsules")) {
     const std::size_t a = capsule.at("spheres").at(0).get<std::size_t>();
     const std::size_t b = capsule.at("spheres").at(1).get<std::size_t>();
-    solids.push_back({capsule.at("name").get<std::string>(), {name(a), name(b)},
+    solids.push_back({capsule.at("name").get<std::string>(),
+                      {name(a), name(b)},
                       {SphereOf(root, spheres.at(a)), SphereOf(root, spheres.at(b))}});
   }
   for (std::size_t i = 0; i < spheres.size(); ++i) {
