@@ -1,7 +1,9 @@
 #include "core/export/file_text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -59,8 +61,9 @@ std::string StatementLines(const Statement& statement, const std::string& before
 // (Adding 0 makes +0 of -0.)
 std::string NumberText(double number) { return Shortest(number + 0.0); }
 
-std::string FloatText(float number) {
-  std::string text = Shortest(number + 0.0F);
+std::string FloatText(double number) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  std::string text = Shortest(static_cast<float>(std::clamp(number, -kLargest, kLargest)) + 0.0F);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }

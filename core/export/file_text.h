@@ -30,7 +30,7 @@ using Statement = std::vector<std::pair<std::string, std::string>>;
 // The shortest decimal that reads back to the same bits: "0.1", "1e-05"; for a float with a point
 // or an exponent in any case: "1.0".
 [[nodiscard]] std::string NumberText(double number);
-[[nodiscard]] std::string FloatText(float number);
+[[nodiscard]] std::string FloatText(double number);
 // Three numbers with spaces between.
 [[nodiscard]] std::string NumbersText(const Eigen::Vector3d& numbers);
 

@@ -29,7 +29,7 @@ std::string SphereLines(const ColliderSet& upright) {
     lines += " ";
     for (const double number :
          {sphere.center_m.x(), sphere.center_m.y(), sphere.center_m.z(), sphere.radius_m}) {
-      absl::StrAppend(&lines, " ", FloatText(static_cast<float>(number)), "f,");
+      absl::StrAppend(&lines, " ", FloatText(number), "f,");
     }
     absl::StrAppend(&lines, " /* ", i, " ", CommentText(upright.sphere_names[i]),
                     Carrier(upright, upright.sphere_joints, i), " */\n");

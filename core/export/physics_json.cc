@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include "absl/strings/str_cat.h"
 #include "core/export/ball_warnings.h"
@@ -87,13 +88,18 @@ double Deviation(const Solid& solid) {
 
 bool IsUniform(const Solid& solid) { return solid.hull.a().radius_m == solid.hull.b().radius_m; }
 
+double NearestFloat(double number) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<double>(static_cast<float>(std::clamp(number, -kLargest, kLargest)));
+}
+
 Json HullShape(const Solid& solid) {
   Json points = Json::array();
   for (const Eigen::Vector3d& vertex :
        Lathe(solid, kHullSegments, LatheKind::kEnclosing).vertices) {
     for (int axis = 0; axis < 3; ++axis) {
       const double outer = vertex[axis] * (1.0 + kFloatRounding);
-      points.push_back(static_cast<double>(static_cast<float>(outer)));
+      points.push_back(NearestFloat(outer));
     }
   }
   return {{"shape", "convexHull"}, {"deviation", Deviation(solid)}, {"points", points}};

@@ -51,9 +51,10 @@ target_link_libraries(capfit_whole_core INTERFACE
 install(TARGETS capfit_whole_core EXPORT capfitCore COMPONENT library)
 install(EXPORT capfitCore FILE capfitCoreTargets.cmake NAMESPACE capfit::
   DESTINATION "${package_dir}" COMPONENT library)
-# (The headers of core/formats about glTF name libraries that are no part of the interface.)
+# (Headers about glTF and JSON name libraries that are no part of the interface.)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/core" DESTINATION "${header_dir}" COMPONENT library
-  FILES_MATCHING PATTERN "*.h" PATTERN "gl[bt]*_*.h" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN "gl[bt]*_*.h" EXCLUDE
+  PATTERN "json_text.h" EXCLUDE)
 set(CAPFIT_INSTALLED_COMPONENTS core)
 
 # --- capfit::client, the programs and the contract
