@@ -178,8 +178,11 @@ class MotionCoverer {
     const geometry::CapsuleDistance at = shape.Locate(point);
     const double missing = at.distance_m - allowed_;
     if (!(missing > 1e-12)) return false;
-    if (at.axis_parameter < 1.0) Grow(ends.ends[0], missing);
-    if (at.axis_parameter > 0.0 && ends.ends[1] != ends.ends[0]) Grow(ends.ends[1], missing);
+    // The least growth of both that makes the ball between them grow by what is missing.
+    const double t = ends.ends[0] == ends.ends[1] ? 0.0 : at.axis_parameter;
+    const double share = missing / (t * t + (1.0 - t) * (1.0 - t));
+    if (t < 1.0) Grow(ends.ends[0], (1.0 - t) * share);
+    if (t > 0.0) Grow(ends.ends[1], t * share);
     return true;
   }
 
