@@ -15,8 +15,8 @@ namespace {
 
 // A patch whose radius is more than this share of its distance is summed up by its parts.
 constexpr float kFarShare = 0.15F;
-// Triangles of vertices nearer than so many times the root of the vertex's area are summed exactly.
-constexpr float kNearRoots = 4.0F;
+// Triangles of vertices nearer than so many of their longest edges are summed exactly.
+constexpr float kNearEdges = 2.5F;
 // Keeps what stands for a vertex finite where the centre touches it, as a share of its area.
 constexpr float kSoftShare = 0.05F;
 // What a patch's coarseness may matter, as a share of the mesh's diagonal: 1 mm on a body. (The
@@ -146,7 +146,8 @@ class Viewer {
   void AddPatch(const SurfacePatch& patch) {
     const Eigen::Array4f to = To(patch);
     const float square = SquareOf(to);
-    if (patch.square_radius <= kFarShare * kFarShare * square) {
+    if (patch.square_radius <= kFarShare * kFarShare * square &&
+        kNearEdges * kNearEdges * patch.square_reach <= square) {
       sums_ += Dot(patch.area_vector, to) / (square * square) * to;
     } else if (!patch.is_bucket()) {
       for (const std::int32_t part : patch.parts) AddPatch(tree_.patch(part));
@@ -160,7 +161,7 @@ class Viewer {
     Eigen::Array4f to;
     to << (tree_.mesh().vertices()[vertex] - center_).cast<float>(), 0.0F;
     const float square = Dot(to, to);
-    if (square < kNearRoots * kNearRoots * share[3]) near_.push_back(vertex);
+    if (square < kNearEdges * kNearEdges * tree_.SquareReachOf(vertex)) near_.push_back(vertex);
     const float soft = square + kSoftShare * share[3];
     const float weight = Dot(share, to) / (soft * soft);
     to[3] = 1.0F;
