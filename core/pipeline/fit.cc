@@ -1,5 +1,6 @@
 #include "core/pipeline/fit.h"
 
+#include <span>
 #include <string>
 #include <utility>
 
@@ -324,13 +325,15 @@ class BodyFit {
 
   // What follows from the weights of few vertices, which are quick.
   void BindFew(const formats::PolygonSoup& soup, skinning::SparseWeights sparse) {
-    if (HasRig(soup)) HangOnJoints(soup, sparse);
+    const std::vector<Eigen::Vector3d> centers = CentersOf(result_.primitives);
+    skinning::MakeExact(soup.positions, centers, sparse);
+    if (HasRig(soup)) HangOnJoints(soup, centers, sparse);
     if (options_.skinning == SkinningMode::kSparse) result_.sparse_weights = std::move(sparse);
   }
 
-  void HangOnJoints(const formats::PolygonSoup& soup, const skinning::SparseWeights& sparse) {
-    std::optional<skinning::BoneWeights> bones =
-        skinning::BonesOfSparse(sparse, CentersOf(result_.primitives), soup);
+  void HangOnJoints(const formats::PolygonSoup& soup, std::span<const Eigen::Vector3d> centers,
+                    const skinning::SparseWeights& sparse) {
+    std::optional<skinning::BoneWeights> bones = skinning::BonesOfSparse(sparse, centers, soup);
     if (!bones) return;
     skinning::OneJoint one =
         skinning::ChooseJoints(*bones, soup.joints, result_.primitives.capsules);

@@ -15,13 +15,18 @@ namespace {
 
 // A patch whose radius is more than this share of its distance is summed up by its parts.
 constexpr float kFarShare = 0.15F;
-// Triangles of vertices nearer than so many times the root of the vertex's area are summed exactly.
-constexpr float kNearRoots = 4.0F;
+// Triangles of vertices nearer than so many of their longest edges are summed exactly.
+constexpr float kNearEdges = 2.5F;
 // Keeps what stands for a vertex finite where the centre touches it, as a share of its area.
 constexpr float kSoftShare = 0.05F;
 // What a patch's coarseness may matter, as a share of the mesh's diagonal: 1 mm on a body. (The
 // errors of patches have all directions, and most of each is mended.)
-constexpr float kLimitShare = 6e-4F;
+constexpr float kLimitShare = 9e-4F;
+// A part of the body that weighs more than this share gets so many patches, for which the limit is
+// lowered at most so far: four weights can be mended to have their sum and moment right.
+constexpr float kNegligibleShare = 5e-4F;
+constexpr std::size_t kLeastOfPart = 5;
+constexpr float kMostLowered = 1.0F / 64.0F;
 // What is seen edge-on counts like this share of its area.
 constexpr float kEdgeOnShare = 0.3F;
 // By so much the limit is changed when there are too many or too few patches, and how often.
@@ -66,12 +71,13 @@ class Viewer {
   void Divide() {
     float sizes = 0.0F;
     AddSizes(tree_.root(), sizes);
+    sizes_ = sizes;
     float limit = kLimitShare * static_cast<float>(tree_.mesh().diagonal()) * sizes;
     bool is_raised = false;
     for (int change = 0; change < kMostChanges; ++change) {
       seen_.clear();
       patches_.clear();
-      if (!Cut(tree_.root(), limit)) {
+      if (!CutParts(tree_.root(), limit)) {
         limit *= kLimitFactor;
         is_raised = true;
       } else if (seen_.size() < counts_.least && !is_raised) {
@@ -112,7 +118,25 @@ class Viewer {
     return seen * std::sqrt(patch.square_radius) > limit * square * square;
   }
 
+  // Down to parts of the body, each of which gets patches enough to have its weights mended.
   // False: there are too many.
+  bool CutParts(const SurfacePatch& patch, float limit) {
+    if (!patch.is_of_one && !patch.is_bucket()) {
+      return CutParts(tree_.patch(patch.parts[0]), limit) &&
+             CutParts(tree_.patch(patch.parts[1]), limit);
+    }
+    const std::size_t first = seen_.size();
+    float size = 0.0F;
+    AddSizes(patch, size);
+    const float least = size > kNegligibleShare * sizes_ ? limit * kMostLowered : limit;
+    for (float lowered = limit;; lowered *= 0.5F) {
+      if (!Cut(patch, lowered)) return false;
+      if (seen_.size() - first >= kLeastOfPart || lowered <= least) return true;
+      seen_.resize(first);
+      patches_.resize(first);
+    }
+  }
+
   bool Cut(const SurfacePatch& patch, float limit) {
     if (patch.is_of_one && !Matters(patch, limit)) return Put(patch.begin, patch.end, &patch);
     const std::size_t first = seen_.size();
@@ -146,7 +170,8 @@ class Viewer {
   void AddPatch(const SurfacePatch& patch) {
     const Eigen::Array4f to = To(patch);
     const float square = SquareOf(to);
-    if (patch.square_radius <= kFarShare * kFarShare * square) {
+    if (patch.square_radius <= kFarShare * kFarShare * square &&
+        kNearEdges * kNearEdges * patch.square_reach <= square) {
       sums_ += Dot(patch.area_vector, to) / (square * square) * to;
     } else if (!patch.is_bucket()) {
       for (const std::int32_t part : patch.parts) AddPatch(tree_.patch(part));
@@ -160,7 +185,7 @@ class Viewer {
     Eigen::Array4f to;
     to << (tree_.mesh().vertices()[vertex] - center_).cast<float>(), 0.0F;
     const float square = Dot(to, to);
-    if (square < kNearRoots * kNearRoots * share[3]) near_.push_back(vertex);
+    if (square < kNearEdges * kNearEdges * tree_.SquareReachOf(vertex)) near_.push_back(vertex);
     const float soft = square + kSoftShare * share[3];
     const float weight = Dot(share, to) / (soft * soft);
     to[3] = 1.0F;
@@ -261,6 +286,7 @@ class Viewer {
   std::array<mesh::Triangle, kLanes> triangles_;
   std::array<std::array<Eigen::Vector3d, 3>, kLanes> corners_;
   std::size_t triangle_count_ = 0;
+  float sizes_ = 0.0F;  // roughly the sum of the weights' sizes
   std::optional<SurfaceHit> hit_;  // the first triangle or vertex that the centre touches
 };
 

@@ -222,6 +222,21 @@ SparseWeights SparseMeanValueWeights(const mesh::BodyMesh& mesh,
   return result;
 }
 
+void MakeExact(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3d> centers,
+               SparseWeights& weights) {
+  for (std::size_t s = 0; s < weights.sphere_count(); ++s) {
+    std::vector<Eigen::Vector3d> offsets;
+    std::vector<double> row;
+    for (std::size_t i = weights.RowBegin(s); i < weights.row_ends[s]; ++i) {
+      offsets.emplace_back(vertices[weights.vertices[i]] - centers[s]);
+      row.push_back(weights.weights[i]);
+    }
+    const std::vector<float> exact = RoundPrecisely(offsets, row);
+    std::copy(exact.begin(), exact.end(),
+              weights.weights.begin() + static_cast<std::ptrdiff_t>(weights.RowBegin(s)));
+  }
+}
+
 std::vector<Eigen::Vector3d> Apply(const SparseWeights& weights,
                                    std::span<const Eigen::Vector3d> vertices) {
   assert(vertices.size() == weights.vertex_count);

@@ -55,6 +55,11 @@ inline constexpr std::size_t kLeastSparseWeights = 32;
                                                    std::span<const std::uint8_t> parts = {},
                                                    const std::optional<Carriers>& carriers = {});
 
+// Mends what another frame has rounded: the rows reproduce `centers` from `vertices`, the caller's,
+// to 1e-9 of their unit again. Changes weights by some 1e-8.
+void MakeExact(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3d> centers,
+               SparseWeights& weights);
+
 // As for dense weights: `vertices` are the caller's, weights.vertex_count of them, in any frame and
 // unit. About 0.2 us a centre.
 [[nodiscard]] std::vector<Eigen::Vector3d> Apply(const SparseWeights& weights,

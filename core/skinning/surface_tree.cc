@@ -153,6 +153,7 @@ class Builder {
       const Eigen::Array4f& share = tree_.ShareOf(tree_.order()[i]);
       moment += share[3] * At(i);
       patch.area_vector += share;
+      patch.square_reach = std::max(patch.square_reach, tree_.SquareReachOf(tree_.order()[i]));
     }
     patch.area = patch.area_vector[3];
     patch.area_vector[3] = 0.0F;
@@ -174,6 +175,7 @@ class Builder {
     const SurfacePatch& b = patches_[static_cast<std::size_t>(patch.parts[1])];
     patch.area_vector = a.area_vector + b.area_vector;
     patch.area = a.area + b.area;
+    patch.square_reach = std::max(a.square_reach, b.square_reach);
     const float share = patch.area > 0.0F ? b.area / patch.area : 0.5F;
     patch.middle = a.middle + share * (b.middle - a.middle);
     patch.square_radius = (1.0F - share) * a.square_radius + share * b.square_radius +
@@ -191,11 +193,17 @@ SurfaceTree::SurfaceTree(const mesh::BodyMesh& mesh, std::span<const std::uint8_
     : mesh_(mesh),
       origin_(0.5 * (mesh.box_min() + mesh.box_max())),
       shares_(SharesOf(mesh)),
+      square_reaches_(mesh.vertices().size()),
       half_edges_(mesh.vertices().size()),
       places_(mesh.vertices().size()) {
   mesh::HalfEdge h = 0;
   for (const mesh::Triangle& t : mesh.triangles()) {
-    for (const std::uint32_t v : t) half_edges_[v] = h++;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d edge = mesh.vertices()[t[(k + 1) % 3]] - mesh.vertices()[t[k]];
+      square_reaches_[t[k]] =
+          std::max(square_reaches_[t[k]], static_cast<float>(edge.squaredNorm()));
+      half_edges_[t[k]] = h++;
+    }
   }
   std::vector<std::uint64_t> keys = KeysOf(mesh, shares_, parts);
   Sort(keys);

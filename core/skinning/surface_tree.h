@@ -23,6 +23,7 @@ struct SurfacePatch {
   Eigen::Array4f area_vector = Eigen::Array4f::Zero();
   float area = 0.0F;
   float square_radius = 0.0F;  // area-weighted mean square distance of its vertices from the middle
+  float square_reach = 0.0F;   // square of the longest edge that starts at one of its vertices
   std::uint32_t begin = 0;     // its vertices: order()[begin] ... order()[end - 1], at least two
   std::uint32_t end = 0;
   // The two patches that it consists of; where there are none, it is but a few vertices.
@@ -54,6 +55,8 @@ class SurfaceTree {
   [[nodiscard]] const Eigen::Array4f& ShareOf(std::uint32_t vertex) const {
     return shares_[vertex];
   }
+  // The square of the longest edge that starts at it.
+  [[nodiscard]] float SquareReachOf(std::uint32_t vertex) const { return square_reaches_[vertex]; }
   // A half-edge that starts at the vertex.
   [[nodiscard]] mesh::HalfEdge HalfEdgeFrom(std::uint32_t vertex) const {
     return half_edges_[vertex];
@@ -63,6 +66,7 @@ class SurfaceTree {
   const mesh::BodyMesh& mesh_;
   Eigen::Vector3d origin_;
   std::vector<Eigen::Array4f> shares_;      // by vertex
+  std::vector<float> square_reaches_;       // by vertex
   std::vector<mesh::HalfEdge> half_edges_;  // by vertex
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> places_;  // by vertex

@@ -3,9 +3,9 @@ export { CapfitError, type ErrorReason, type StatusCode, type Warning } from "./
 export type { ArrayMesh, FileMesh, Frame, Mesh, PolygonFaces } from "./mesh";
 export type { FitOptions, Vector } from "./options";
 export {
-  type BodyFacts, type Capsule, type EffectiveBudget, type EffectiveOptions, type Engine,
-  type FeaturePolygon, type GapStatistics, type Landmark, type Metrics, type PartMetrics, Result,
-  type ServerInfo, type ServerLimits, type Similarity, type Sphere, type Summary,
+  type BodyFacts, type BoneRow, type Capsule, type EffectiveBudget, type EffectiveOptions, type Engine,
+  type FeaturePolygon, type GapStatistics, type Joint, type Landmark, type Metrics, type PartMetrics, Result,
+  type ServerInfo, type ServerLimits, type Similarity, type SparseRow, type Sphere, type Summary,
 } from "./result";
 export type { Progress, ProgressFunction } from "./result_collector";
 export type { ResultJson } from "./result_json";

@@ -1,6 +1,8 @@
 """The package against a real server."""
 import importlib.metadata
+import pathlib
 import pickle
+import tempfile
 import threading
 
 import numpy
@@ -121,10 +123,30 @@ class FitTest(ServerTest):
         with self.assertRaisesRegex(ValueError, r"of shape \(5, 3\), must be \(\d+, 3\)"):
             result.apply(self.vertices[:5])
 
+    def test_sparse_weights_carry_the_centres_and_survive_the_file(self):
+        result = self.client.approximate(self.body, skinning="sparse")
+        self.assertIsNone(result.weights)
+        centers = result.spheres[:, :3]
+        numpy.testing.assert_allclose(result.apply(self.vertices), centers, rtol=0, atol=1e-8)
+        frames = numpy.stack([self.vertices, 2 * self.vertices + 1000])
+        numpy.testing.assert_allclose(result.apply(frames)[1], 2 * centers + 1000, atol=1e-6)
+        self.assertLessEqual(max(len(row.vertices) for row in result.sparse_weights), 128)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "result.json"
+            result.to_json(path)
+            numpy.testing.assert_array_equal(capfit.Result.load(path).apply(frames),
+                                             result.apply(frames))
+
+    def test_bones_of_a_body_without_any_are_refused(self):
+        error = self.failing(self.body, skinning="bones")
+        self.assertEqual((error.reason, error.field), ("CONFLICT", "options.skinning"))
+
     def test_centres_without_weights_say_what_to_ask_for(self):
         result = self.client.approximate(self.body)
-        with self.assertRaisesRegex(ValueError, 'skinning="dense"'):
+        with self.assertRaisesRegex(ValueError, 'skinning="sparse"'):
             result.apply(self.vertices)
+        with self.assertRaisesRegex(ValueError, 'skinning="bones"'):
+            result.apply_joints(numpy.zeros((0, 3, 4)))
 
     def test_feature_polygons_lie_in_a_plane_with_their_circles(self):
         result = self.client.approximate(self.body, want_feature_polygons=True)

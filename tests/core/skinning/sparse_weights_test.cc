@@ -58,7 +58,7 @@ void ExpectSoundRows(const SparseWeights& weights, const std::vector<Vector3d>& 
     Vector3d center = Vector3d::Zero();
     for (std::size_t i = begin; i < end; ++i) {
       ASSERT_LT(weights.vertices[i], vertices.size());
-      if (i > begin) ASSERT_GT(weights.vertices[i], weights.vertices[i - 1]);
+      ASSERT_TRUE(i == begin || weights.vertices[i] > weights.vertices[i - 1]);
       sum += weights.weights[i];
       center += static_cast<double>(weights.weights[i]) * vertices[weights.vertices[i]];
     }

@@ -83,6 +83,24 @@ test("arrays give the spheres of the file", async () => {
   });
 });
 
+test("sparse weights carry the centres and stand in the file", async () => {
+  const result = await client.approximate({ file }, { skinning: "sparse" });
+  const rows = result.sparseWeights!;
+  assert.equal(rows.length, result.spheres.length);
+  result.spheres.forEach(({ center, joint }: Sphere, index) => {
+    assert.equal(joint, null);
+    const sum: Vector = [0, 0, 0];
+    const { vertices: indices, weights } = rows[index]!;
+    assert.ok(indices.length <= 128);
+    indices.forEach((vertex, i) => {
+      for (let axis = 0; axis < 3; axis++) sum[axis]! += weights[i]! * vertices[3 * vertex + axis]!;
+    });
+    assert.ok(distance(sum, center) < 1e-5, `sphere ${index} is carried to ${sum}`);
+  });
+  assert.equal(result.toJson().sparse_weights!.rows.length, rows.length);
+  assert.equal(result.toJson().joints, undefined);
+});
+
 test("weights carry the centres", async () => {
   const { spheres, weights } = await client.approximate({ file }, { skinning: "dense" });
   assert.equal(weights!.length, spheres.length);
