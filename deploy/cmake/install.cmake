@@ -25,7 +25,7 @@ capfit_find_eigen_alignment(eigen_alignment)
 
 # --- capfit::core: all rooms in one object (why: one_object.sh)
 set(rooms base geometry formats mesh solid mannequin body character section circle capsule tighten
-          refine coverage metrics skinning pipeline)
+          refine coverage motion metrics skinning export pipeline)
 set(room_files)
 foreach(room IN LISTS rooms)
   list(APPEND room_files "$<TARGET_FILE:capfit_${room}>")

@@ -9,7 +9,8 @@ import documents
 
 TOP_LEVEL = ("proto/", "server/", "client/", "core/", "deploy/", "tests/", "docs/", ".ci/")
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
-COMMANDS = ("approximate", "inspect", "render", "evaluate", "animate", "mannequin", "info")
+COMMANDS = ("approximate", "inspect", "render", "evaluate", "animate", "export",
+            "mannequin", "info")
 # A range of a table: flags and fields by what the contract calls them, and what one of it is there.
 RANGES = {
     "max_primitives": ("max_primitives", 1), "max_spheres": ("max_spheres", 1),
