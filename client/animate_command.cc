@@ -121,8 +121,9 @@ absl::StatusOr<CarriedFrames> PlayClip(const AnimateArguments& arguments, const 
   CAPFIT_ASSIGN_OR_RETURN(const std::string bytes, ReadFileBytes(arguments.body));
   CAPFIT_ASSIGN_OR_RETURN(const formats::GltfClips clips,
                           formats::GltfClips::Read(std::as_bytes(std::span(bytes))));
-  CAPFIT_ASSIGN_OR_RETURN(const std::size_t clip, clips.Find(arguments.clip));
-  return CarryAlong(set, clips, clip, arguments.fps);
+  const absl::StatusOr<std::size_t> clip = clips.Find(arguments.clip);
+  if (!clip.ok()) return WithField(clip.status(), "--clip");
+  return CarryAlong(set, clips, *clip, arguments.fps);
 }
 
 absl::StatusOr<CarriedFrames> Play(const AnimateArguments& arguments, const CarriedSet& set) {

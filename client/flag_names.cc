@@ -27,7 +27,6 @@ constexpr std::array kFlagNames = {
     FlagName{"options.engine", "--engine"},
     FlagName{"exports", "--export"},
     FlagName{"layout", "--layout"},
-    FlagName{"clip", "--clip"},
     FlagName{"options.include_parts", "--include"},
     FlagName{"options.exclude_parts", "--exclude"},
     FlagName{"options.include_hair", "--hair"},

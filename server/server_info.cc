@@ -53,7 +53,7 @@ const std::vector<Feature>& Features() {
       {"option.tolerance_m", [](FitOptions& o) { o.tolerance_m = 0.001; }},
       {"option.feature_polygons", [](FitOptions& o) { o.want_polygons = true; }},
       {"option.vertex_gaps", [](FitOptions& o) { o.want_vertex_gaps = true; }},
-      {"layout", [](FitOptions& o) { o.layout = refine::StandardLayouts().front(); }},
+      {"call.layout", [](FitOptions& o) { o.layout = refine::StandardLayouts().front(); }},
       {"export",
        [](FitOptions& o) {
          o.exports = {{"gltf", {}}};

@@ -17,7 +17,7 @@ std::vector<pipeline::ExportWish> ExportsFromWire(
     wish.format = request.format();
     wish.options.has_preview = request.preview();
     wish.options.is_plain = request.plain();
-    if (request.max_overshoot_m() != 0.0) {
+    if (request.has_max_overshoot_m()) {
       wish.options.max_overshoot_m = request.max_overshoot_m();
     }
   }

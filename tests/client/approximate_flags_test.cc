@@ -69,7 +69,8 @@ TEST(ApproximateFlags, WrongWordsAndTwoBudgetsAreRefused) {
   for (const char* const words :
        {"--fit loose", "--parts wings", "--unit furlong", "--max-primitives many",
         "--max-primitives 9 --polygon-error 0.1", "--max-primitives 9 --max-spheres 9",
-        "--polygon-error 0.1 --max-capsules 9", "--skinning sparse"}) {
+        "--polygon-error 0.1 --max-capsules 9", "--skinning bent",
+        "--layout standard-32 --max-primitives 64", "--export fbx"}) {
     EXPECT_FALSE(Parse(words)) << words;
   }
 }

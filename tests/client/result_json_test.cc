@@ -20,6 +20,10 @@ using nlohmann::json;
 pipeline::FitResult WholeResult() {
   pipeline::FitResult result = server::HandMadeResult();
   result.sphere_names = {"chest_1", "left_upper_arm_1", "right_upper_arm_1"};
+  result.sphere_places = {
+      refine::BodyPlace{refine::BoneId::kChest, refine::Side::kLeft, {0.5, 0.0, -0.25}, 1.5},
+      std::nullopt,
+      refine::BodyPlace{refine::BoneId::kUpperArm, refine::Side::kRight, {0.0, 0.0, 0.0}, 1.0}};
   result.effective_options.max_primitives = 64;
   result.effective_options.unit = body::Unit::kCentimetre;
   result.effective_options.up = body::UpAxis::kZ;
@@ -54,6 +58,10 @@ TEST(ResultJson, HasTheShapeThatIsKeptForGood) {
             json::parse(R"(["chest_1", "left_upper_arm_1", "right_upper_arm_1"])"));
   EXPECT_EQ(root["sphere_parts"], json::parse(R"(["torso", "left_arm", "right_arm"])"));
   EXPECT_EQ(root["sphere_mirrors"], json::parse("[0, 2, 1]"));
+  EXPECT_EQ(root["sphere_places"][0],
+            json::parse(R"({"bone": "chest", "is_right": false, "along": 0.5, "aside": 0.0,
+                            "ahead": -0.25, "radius": 1.5})"));
+  EXPECT_TRUE(root["sphere_places"][1].is_null());
   EXPECT_EQ(root["sphere_polygons"], json::parse("[4, 7, null]"));
   EXPECT_EQ(root["capsule_parts"], json::parse(R"(["left_arm", "right_arm"])"));
   EXPECT_EQ(root["landmarks"]["left_wrist"],
@@ -70,29 +78,15 @@ TEST(ResultJson, HasTheShapeThatIsKeptForGood) {
 
 TEST(ResultJson, MembersKeepTheirOrder) {
   const auto root = nlohmann::ordered_json::parse(FormatResult(WholeResult(), "job 7"));
-  EXPECT_EQ(NamesOf(root), (std::vector<std::string>{"format",
-                                                     "format_version",
-                                                     "version",
-                                                     "unit",
-                                                     "metres_per_unit",
-                                                     "up_axis",
-                                                     "request_id",
-                                                     "body_from_caller",
-                                                     "body",
-                                                     "options",
-                                                     "spheres",
-                                                     "capsules",
-                                                     "sphere_names",
-                                                     "sphere_parts",
-                                                     "sphere_mirrors",
-                                                     "sphere_polygons",
-                                                     "capsule_parts",
-                                                     "landmarks",
-                                                     "warnings",
-                                                     "metrics",
-                                                     "stages",
-                                                     "seconds",
-                                                     "feature_polygons"}));
+  EXPECT_EQ(NamesOf(root),
+            (std::vector<std::string>{"format",        "format_version",   "version",
+                                      "unit",          "metres_per_unit",  "up_axis",
+                                      "request_id",    "body_from_caller", "body",
+                                      "options",       "spheres",          "capsules",
+                                      "sphere_names",  "sphere_parts",     "sphere_mirrors",
+                                      "sphere_places", "sphere_polygons",  "capsule_parts",
+                                      "landmarks",     "warnings",         "metrics",
+                                      "stages",        "seconds",          "feature_polygons"}));
   EXPECT_EQ(root["request_id"], "job 7");
 }
 
@@ -179,6 +173,10 @@ TEST(ResultJson, IsReadByTheCommandsThatTakeResults) {
   EXPECT_EQ(set->capsules.size(), 2U);
   EXPECT_EQ(set->sphere_parts[1], "left_arm");
   EXPECT_EQ(set->sphere_names[2], "right_upper_arm_1");
+  EXPECT_EQ(set->sphere_mirrors, (std::vector<int>{0, 2, 1}));
+  EXPECT_EQ(set->sphere_places[0]->place.ahead, -0.25);
+  EXPECT_FALSE(set->sphere_places[1].has_value());
+  EXPECT_EQ(set->sphere_places[2]->side, refine::Side::kRight);
   EXPECT_EQ(set->metrics.at("volume_error"), 0.5);
   EXPECT_EQ(set->landmarks.at("left_wrist"), Eigen::Vector3d(0.5, 1.0, 0.2));
   EXPECT_EQ(set->metres_per_unit, 0.01);

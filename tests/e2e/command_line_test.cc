@@ -355,7 +355,7 @@ std::string Completed(const std::string& words) {
 
 TEST_F(CommandLine, BashCompletesCommandsFlagsWordsAndFiles) {
   EXPECT_EQ(Completed("capfit ap"), "approximate ");
-  EXPECT_EQ(Completed("capfit e"), "evaluate ");
+  EXPECT_EQ(Completed("capfit e"), "evaluate export ");
   EXPECT_EQ(Completed("capfit approximate --max-p"), "--max-primitives ");
   EXPECT_EQ(Completed("capfit approximate b.obj --quality ''"), "paper tight ");
   EXPECT_EQ(Completed("capfit approximate --parts le"), "legs ");

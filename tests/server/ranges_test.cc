@@ -118,6 +118,17 @@ std::vector<Row> Rows(const std::function<absl::Status(const Request&)>& call,
        }),
        {15, 64, 1000},
        {-1, 0, 14, 1001}},
+      {"ExportRequest.max_overshoot_m",
+       "[0.0002, 0.5]",
+       "exports[0].max_overshoot_m",
+       [call](double value) {
+         Request request = Tetrahedron();
+         request.add_exports()->set_format("csv");
+         request.mutable_exports(0)->set_max_overshoot_m(value);
+         return call(request);
+       },
+       {0.0002, 0.005, 0.5},
+       {-1, 0, 0.0001, 0.6, std::numeric_limits<double>::quiet_NaN()}},
       {"SphereAndCapsuleLimit.max_spheres",
        "[10, 500]",
        "options.budget.spheres_and_capsules.max_spheres",

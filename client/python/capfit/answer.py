@@ -17,7 +17,8 @@ ProgressFunction = Callable[[str, float], object]
 
 # In the order of an answer: whether they may come more than once.
 _PARTS = {"progress": True, "warning": True, "landmarks": False, "feature_polygon": True,
-          "primitives": False, "skinning": True, "vertex_gaps": True, "summary": False}
+          "primitives": False, "skinning": True, "vertex_gaps": True,
+          "export_chunk": True, "summary": False}
 _ORDER = list(_PARTS)
 
 
@@ -44,6 +45,7 @@ class Answer:
         self._weight_count = 0
         self._gaps: Optional[NDArray[numpy.float32]] = None
         self._gap_count = 0
+        self._exports: Dict[str, bytearray] = {}
 
     def add(self, response: Any) -> None:
         """Takes the next message."""
@@ -68,7 +70,9 @@ class Answer:
             result = result_of(self._document)
         except KeyError as error:
             raise contract_broken(f"it ends without {error}") from None
-        return dataclasses.replace(result, weights=self._weights, vertex_gaps=self._gaps)
+        exports = {name: bytes(data) for name, data in self._exports.items()}
+        return dataclasses.replace(result, weights=self._weights, vertex_gaps=self._gaps,
+                                   exports=exports)
 
     def _add_progress(self, progress: Any) -> None:
         stage = word_of(result_pb2.Stage.DESCRIPTOR, progress.stage)
@@ -102,6 +106,7 @@ class Answer:
             "sphere_names": [sphere["name"] for sphere in spheres],
             "sphere_parts": [sphere["part"] for sphere in spheres],
             "sphere_mirrors": [sphere.get("mirror") for sphere in spheres],
+            "sphere_places": [sphere.get("place") for sphere in spheres],
             "sphere_polygons": [sphere.get("polygon") for sphere in spheres],
             "capsule_parts": [capsule["part"] for capsule in capsules],
         })
@@ -174,6 +179,12 @@ class Answer:
         numbers = _float_array(dense, "weights")
         self._weights[rows, columns] = numbers.reshape(block.sphere_count, dense.vertex_count)
         self._weight_count += len(numbers)
+
+    def _add_export_chunk(self, chunk: Any) -> None:
+        data = self._exports.setdefault(chunk.name, bytearray())
+        if len(data) != chunk.first_byte or len(data) + len(chunk.data) > chunk.total_bytes:
+            raise contract_broken(f"bytes of {chunk.name} are not where the ones before end")
+        data += chunk.data
 
     def _add_vertex_gaps(self, chunk: Any) -> None:
         if self._gaps is None:

@@ -5,13 +5,14 @@ import functools
 import inspect
 import re
 import time
-from typing import Any, Callable, Iterable, Optional, TypeVar, cast
+from typing import Any, Callable, Iterable, Optional, TypeVar, Union, cast
 
 import grpc
 from numpy.typing import ArrayLike
 
 from capfit.answer import Answer, ProgressFunction
 from capfit.errors import CapfitError, error_of
+from capfit.layout import layout_of
 from capfit.options import Landmarks, Words, fit_options
 from capfit.result import Result
 from capfit.server_info import ServerInfo, info_of
@@ -99,6 +100,8 @@ class Client:
         exclude_parts: Iterable[str] = (),
         include_hair: bool = False,
         include_skirt: bool = False,
+        layout: Union[str, Result, None] = None,
+        exports: Words = (),
         request_id: str = "",
         timeout: float = 300.0,
         on_progress: Optional[ProgressFunction] = None,
@@ -128,6 +131,10 @@ class Client:
         include_parts, exclude_parts    names of meshes or materials of the file that are the
                             body's, or not; "*" and "?" stand for other characters
         include_hair, include_skirt    whether they are enclosed too
+        layout              in place of a budget: the name of a standard layout ("standard-32"), or
+                            a former Result, whose spheres, names and capsules are kept
+        exports             formats of files for engines ("gltf", "unity", ...), which come as
+                            Result.exports; server_info().export_formats lists them
         request_id          name of the job in the server's logs
         timeout             seconds for the whole call, upload and queueing included
         on_progress         called with the stage's name and the fraction done, on this thread
@@ -154,6 +161,10 @@ class Client:
             include_skirt=include_skirt)
         header = service_pb2.ApproximateBodyHeader(mesh=mesh, options=options,
                                                    request_id=request_id)
+        if layout is not None:
+            header.layout.CopyFrom(layout_of(layout))
+        for name in exports.replace(",", " ").split() if isinstance(exports, str) else exports:
+            header.exports.add(format=name)
         first = service_pb2.ApproximateBodyRequest(header=header)
 
         def attempt(seconds: float) -> Result:

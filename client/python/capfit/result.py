@@ -168,6 +168,7 @@ class Result:
     sphere_names: List[str]  # "left_forearm_2", ...: unique
     sphere_parts: List[str]  # "torso", "left_arm", ...
     sphere_mirrors: List[Optional[int]]  # the sphere on the other side; None: not symmetric
+    sphere_places: List[Optional[Dict[str, Any]]]  # v1.BodyPlace: what makes this set a layout
     sphere_polygons: Optional[List[Optional[int]]]  # index of feature_polygons; None: not asked for
     capsule_parts: List[str]
     landmarks: Dict[str, Landmark]
@@ -188,6 +189,7 @@ class Result:
     vertex_gaps: Optional[NDArray[numpy.float32]] = None  # (n,), where want_vertex_gaps
     sparse_weights: Optional[List[SparseRow]] = None  # of each sphere, where skinning="sparse"
     bone_weights: Optional[List[BoneRow]] = None  # of each sphere, where skinning="bones"
+    exports: Dict[str, bytes] = field(default_factory=dict)  # files by name, where asked for
     joints: Tuple[Joint, ...] = ()  # of the mesh's file; empty: it has no skeleton
     # The joint that carries each best, where a skeleton holds the mesh.
     sphere_joints: Optional[List[int]] = None

@@ -26,6 +26,7 @@ def result_of(document: Document) -> Result:
         sphere_names=list(document["sphere_names"]),
         sphere_parts=list(document["sphere_parts"]),
         sphere_mirrors=list(document["sphere_mirrors"]),
+        sphere_places=list(document["sphere_places"]),
         sphere_polygons=_optional_list(document.get("sphere_polygons")),
         capsule_parts=list(document["capsule_parts"]),
         landmarks={name: Landmark(**_known(Landmark, {**one, "position": tuple(one["position"])}))
@@ -75,6 +76,7 @@ def document_of(result: Result) -> Document:
         "sphere_names": result.sphere_names,
         "sphere_parts": result.sphere_parts,
         "sphere_mirrors": result.sphere_mirrors,
+        "sphere_places": result.sphere_places,
     })
     if result.sphere_polygons is not None:
         document["sphere_polygons"] = result.sphere_polygons

@@ -34,6 +34,24 @@ class Engine:
 
 
 @dataclass(frozen=True)
+class StandardLayout:
+    """A layout that `Client.approximate(layout=name)` keeps."""
+
+    name: str
+    sphere_count: int
+    capsule_count: int
+
+
+@dataclass(frozen=True)
+class ExportFormat:
+    """Files for an engine. `needs_original`: the body must come as a file of that format."""
+
+    name: str
+    summary: str
+    needs_original: bool
+
+
+@dataclass(frozen=True)
 class ServerInfo:
     """`formats`: "obj", ...; `features`: the words that v1.GetServerInfoResponse explains."""
 
@@ -42,6 +60,8 @@ class ServerInfo:
     formats: List[str]
     engines: List[Engine]
     features: List[str]
+    layouts: List[StandardLayout]
+    export_formats: List[ExportFormat]
 
 
 def info_of(response: Any) -> ServerInfo:
@@ -49,4 +69,6 @@ def info_of(response: Any) -> ServerInfo:
     members = message_document(response)
     members["limits"] = ServerLimits(**members["limits"])
     members["engines"] = [Engine(**engine) for engine in members["engines"]]
+    members["layouts"] = [StandardLayout(**layout) for layout in members["layouts"]]
+    members["export_formats"] = [ExportFormat(**one) for one in members["export_formats"]]
     return ServerInfo(**members)

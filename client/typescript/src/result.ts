@@ -16,10 +16,26 @@ import type { Warning } from "./errors";
 import type { Vector } from "./options";
 import { type ResultJson, resultJson } from "./result_json";
 import type {
-  BodyPart, BodyPartGroup, CapsuleProfile, FitMode, LandmarkMethod, LengthUnit, MeshFileFormat,
+  BodyPart, BodyPartGroup, Bone, CapsuleProfile, FitMode, LandmarkMethod, LengthUnit, MeshFileFormat,
   MeshPartKind,
   Quality, Sex, SkinningForm, Stage, UpAxis,
 } from "./words";
+
+/** A place and a size in the measures of a bone between two landmarks: holds for any body. */
+export interface BodyPlace {
+  /** "upper_arm", ...: the stretch between two landmarks that it hangs on. */
+  bone: Bone;
+  /** Whether the bone is the one on the body's right. */
+  isRight: boolean;
+  /** In bone lengths from its first end; beyond the ends in bone radii. */
+  along: number;
+  /** Across the bone, in bone radii. */
+  aside: number;
+  /** Across the bone, in bone radii. */
+  ahead: number;
+  /** The sphere's radius, in bone radii. */
+  radius: number;
+}
 
 /** A ball, in the caller's unit and axes. */
 export interface Sphere {
@@ -32,6 +48,8 @@ export interface Sphere {
   /** The sphere on the other side of the body; its own index on the mid-plane. null: the body is
    *  not symmetric. */
   mirror: number | null;
+  /** Where on the body it is, in measures that hold for any body. null: the body lacks the landmarks. */
+  place: BodyPlace | null;
   /** The feature polygon that it comes from. null: none, or none were asked for. */
   polygon: number | null;
   /** The joint that carries it best, an index into joints. null: no skeleton holds the mesh. */
@@ -241,4 +259,8 @@ export interface ServerInfo {
   engines: Engine[];
   /** What it can do, in the words of the contract, e.g. "quality.tight". */
   features: string[];
+  /** Layouts that it can keep. */
+  layouts: { name: string; sphereCount: number; capsuleCount: number }[];
+  /** Files for engines that it can make; needsOriginal: the body must come as such a file. */
+  exportFormats: { name: string; summary: string; needsOriginal: boolean }[];
 }

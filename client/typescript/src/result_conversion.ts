@@ -1,6 +1,7 @@
 // Messages of the answer as members of a result: enums become words, vectors [x, y, z].
 import { brokenContract } from "./errors";
 import type { BodyFacts__Output } from "./generated/capfit/v1/BodyFacts";
+import type { BodyPlace__Output } from "./generated/capfit/v1/BodyPlace";
 import type { BodyPart__Output } from "./generated/capfit/v1/BodyPart";
 import type { BodyPartGroup__Output } from "./generated/capfit/v1/BodyPartGroup";
 import type { BoneWeights__Output } from "./generated/capfit/v1/BoneWeights";
@@ -20,11 +21,11 @@ import type { Summary__Output } from "./generated/capfit/v1/Summary";
 import type { Vector3__Output } from "./generated/capfit/v1/Vector3";
 import type { Vector } from "./options";
 import type {
-  BodyFacts, BoneRow, Capsule, EffectiveBudget, EffectiveOptions, FeaturePolygon, Joint, Landmark,
+  BodyFacts, BodyPlace, BoneRow, Capsule, EffectiveBudget, EffectiveOptions, FeaturePolygon, Joint, Landmark,
   Metrics, PartMetrics, ServerInfo, SparseRow, Sphere, Summary,
 } from "./result";
 import {
-  type BodyPart, type BodyPartGroup, bodyPartGroups, bodyParts, capsuleProfiles, fitModes,
+  type BodyPart, type BodyPartGroup, bodyPartGroups, bodyParts, bones, capsuleProfiles, fitModes,
   landmarkMethods, lengthUnits, meshFileFormats, meshPartKinds, qualities, sexes, skinningForms,
   stages, upAxes,
 } from "./words";
@@ -44,6 +45,10 @@ function partOf(part: BodyPart__Output): BodyPart {
   return filled(bodyParts.fromWire(part), "a part");
 }
 
+function placeOf(place: BodyPlace__Output | null): BodyPlace | null {
+  return place && { ...place, bone: filled(bones.fromWire(place.bone), "a bone") };
+}
+
 export function sphereOf(sphere: Sphere__Output): Sphere {
   return {
     center: vectorOf(sphere.center),
@@ -51,6 +56,7 @@ export function sphereOf(sphere: Sphere__Output): Sphere {
     part: partOf(sphere.part),
     name: sphere.name,
     mirror: sphere.mirror ?? null,
+    place: placeOf(sphere.place),
     polygon: sphere.polygon ?? null,
     joint: sphere.joint ?? null,
     jointDriftM: sphere.jointDriftM ?? null,
@@ -202,5 +208,7 @@ export function serverInfoOf(info: GetServerInfoResponse__Output): ServerInfo {
       profile: capsuleProfiles.fromWire(engine.profile),
     })),
     features: info.features,
+    layouts: info.layouts,
+    exportFormats: info.exportFormats,
   };
 }

@@ -25,6 +25,7 @@ export interface ResultJson {
   sphere_names: string[];
   sphere_parts: BodyPart[];
   sphere_mirrors: (number | null)[];
+  sphere_places: ({ [name: string]: Json } | null)[];
   sphere_polygons?: (number | null)[];
   capsule_parts: BodyPart[];
   joints?: { [name: string]: Json }[];
@@ -59,6 +60,7 @@ export function resultJson(result: ResultMembers): ResultJson {
     sphere_names: spheres.map(({ name }) => name),
     sphere_parts: spheres.map(({ part }) => part),
     sphere_mirrors: spheres.map(({ mirror }) => mirror),
+    sphere_places: spheres.map(({ place }) => place && snakeCased(place)),
     ...polygonsOf(spheres, featurePolygons),
     capsule_parts: capsules.map(({ part }) => part),
     ...skinningOf(result),

@@ -3,6 +3,7 @@
 import { invalidField } from "./errors";
 import { BodyPart as BodyPartName } from "./generated/capfit/v1/BodyPart";
 import { BodyPartGroup as BodyPartGroupName } from "./generated/capfit/v1/BodyPartGroup";
+import { Bone as BoneName } from "./generated/capfit/v1/Bone";
 import { CapsuleProfile as CapsuleProfileName } from "./generated/capfit/v1/CapsuleProfile";
 import { FitMode as FitModeName } from "./generated/capfit/v1/FitMode";
 import { LandmarkMethod as LandmarkMethodName } from "./generated/capfit/v1/LandmarkMethod";
@@ -64,6 +65,7 @@ function vocabulary<Name extends string, Prefix extends string>(
 
 export const bodyParts = vocabulary(BodyPartName, "BODY_PART");
 export const bodyPartGroups = vocabulary(BodyPartGroupName, "BODY_PART_GROUP");
+export const bones = vocabulary(BoneName, "BONE");
 export const capsuleProfiles = vocabulary(CapsuleProfileName, "CAPSULE_PROFILE");
 export const fitModes = vocabulary(FitModeName, "FIT_MODE");
 export const landmarkMethods = vocabulary(LandmarkMethodName, "LANDMARK_METHOD");
@@ -78,6 +80,8 @@ export const upAxes = vocabulary(UpAxisName, "UP_AXIS");
 
 /** A part of the body, left and right apart. */
 export type BodyPart = (typeof bodyParts.words)[number];
+/** The stretches between landmarks that spheres hang on. */
+export type Bone = (typeof bones.words)[number];
 /** Parts that can be switched on together. */
 export type BodyPartGroup = (typeof bodyPartGroups.words)[number];
 /** What an engine makes of a capsule between two spheres. */
