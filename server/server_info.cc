@@ -54,7 +54,7 @@ const std::vector<Feature>& Features() {
       {"option.feature_polygons", [](FitOptions& o) { o.want_polygons = true; }},
       {"option.vertex_gaps", [](FitOptions& o) { o.want_vertex_gaps = true; }},
       {"call.layout", [](FitOptions& o) { o.layout = refine::StandardLayouts().front(); }},
-      {"export",
+      {"call.exports",
        [](FitOptions& o) {
          o.exports = {{"gltf", {}}};
        }},
