@@ -105,17 +105,20 @@ class Viewer {
       return;
     }
     const float soft = square + patch.square_radius;
-    sizes += std::abs(Dot(patch.area_vector, to)) / (soft * soft);
+    sizes += Seen(patch, to, soft) / (soft * soft);
   }
 
-  // Weight times how far its vertices may be from where they are taken for. (What is seen edge-on
-  // or from both sides has no weight, but may hold parts that have.)
+  // How much of the patch is seen. (What is seen edge-on or from both sides has no weight, but may
+  // hold parts that have.)
+  static float Seen(const SurfacePatch& patch, const Eigen::Array4f& to, float square) {
+    return kEdgeOnShare * patch.area * std::sqrt(square) + std::abs(Dot(patch.area_vector, to));
+  }
+
+  // Weight times how far its vertices may be from where they are taken for.
   [[nodiscard]] bool Matters(const SurfacePatch& patch, float limit) const {
     const Eigen::Array4f to = To(patch);
     const float square = SquareOf(to) + patch.square_radius;
-    const float seen =
-        kEdgeOnShare * patch.area * std::sqrt(square) + std::abs(Dot(patch.area_vector, to));
-    return seen * std::sqrt(patch.square_radius) > limit * square * square;
+    return Seen(patch, to, square) * std::sqrt(patch.square_radius) > limit * square * square;
   }
 
   // Down to parts of the body, each of which gets patches enough to have its weights mended.
@@ -131,10 +134,14 @@ class Viewer {
     const float least = size > kNegligibleShare * sizes_ ? limit * kMostLowered : limit;
     for (float lowered = limit;; lowered *= 0.5F) {
       if (!Cut(patch, lowered)) return false;
-      if (seen_.size() - first >= kLeastOfPart || lowered <= least) return true;
+      if (seen_.size() - first >= kLeastOfPart || lowered <= least) break;
       seen_.resize(first);
       patches_.resize(first);
     }
+    for (std::size_t i = first; i < seen_.size(); ++i) {
+      seen_[i].part = static_cast<std::uint32_t>(first);
+    }
+    return true;
   }
 
   bool Cut(const SurfacePatch& patch, float limit) {
@@ -172,12 +179,24 @@ class Viewer {
     const float square = SquareOf(to);
     if (patch.square_radius <= kFarShare * kFarShare * square &&
         kNearEdges * kNearEdges * patch.square_reach <= square) {
-      sums_ += Dot(patch.area_vector, to) / (square * square) * to;
+      sums_ += FarWeight(patch, Dot(patch.area_vector, to), square) * to;
     } else if (!patch.is_bucket()) {
       for (const std::int32_t part : patch.parts) AddPatch(tree_.patch(part));
     } else {
       for (std::uint32_t i = patch.begin; i < patch.end; ++i) AddVertex(tree_.order()[i]);
     }
+  }
+
+  // Of a small patch a long way off, `straight` its area vector along the way: to the second order
+  // in its radius over the distance, for a patch that is round and bent alike in all directions.
+  // The integrals of n . d / d^4 over a disc and over a cap.
+  static float FarWeight(const SurfacePatch& patch, float straight, float square) {
+    const float cosine_square =
+        std::min(1.0F, straight * straight / (patch.area * patch.area * square));
+    const float of_disc =
+        straight * (1.0F + patch.square_radius / square * (4.0F - 6.0F * cosine_square));
+    const float of_bulge = patch.bulge * (2.0F * cosine_square - 1.0F);
+    return (of_disc + of_bulge) / (square * square);
   }
 
   void AddVertex(std::uint32_t vertex) {

@@ -18,6 +18,7 @@ namespace {
 constexpr double kLeastShare = 0.02;
 // Keeps a group from tilting steeply to mend what its vertices, nearly in one plane, cannot.
 constexpr double kStiffness = 1e-3;
+constexpr double kPartStiffness = 1e-6;
 // Below this share of the absolute sum, a sum of weights is noise and must not be divided by.
 constexpr double kUsableRowSum = 1e-9;
 constexpr std::size_t kVerticesLookedAt = 12;
@@ -64,37 +65,63 @@ Eigen::Vector4d Moments(const Eigen::Vector3d& offset) {
   return {1.0, offset.x(), offset.y(), offset.z()};
 }
 
-// Changes the weights w_i of `entries` by (|w_i| + least) (a + b . q_i) so that they sum to
-// `weight` and their moment is `moment`; with stiffness, only nearly.
-void Mend(std::span<Entry> entries, double weight, const Eigen::Vector3d& moment,
-          double least_share, double stiffness) {
+// How much each weight may be changed, in relation to the others.
+std::vector<double> GroupShares(std::span<const Entry> entries) {
   double sizes = 0.0;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Entry& entry : entries) sizes += std::abs(entry.weight);
+  const double least = kLeastShare * sizes / static_cast<double>(entries.size());
+  std::vector<double> shares;
+  shares.reserve(entries.size());
+  for (const Entry& entry : entries) shares.push_back(std::abs(entry.weight) + least);
+  return shares;
+}
+
+// The same for a whole part of the body, or row: less where it is farther than the weights' mean distance, else long
+// levers would do all of it, and a little weight on a far part of the body moves the centre much.
+std::vector<double> RowShares(std::span<const Entry> entries) {
+  double sizes = 0.0;
+  double distances = 0.0;
   for (const Entry& entry : entries) {
     sizes += std::abs(entry.weight);
-    middle += entry.offset;
+    distances += std::abs(entry.weight) * entry.offset.norm();
   }
+  const double square = distances > 0.0 ? std::pow(sizes / distances, 2) : 0.0;
+  std::vector<double> shares;
+  shares.reserve(entries.size());
+  for (const Entry& entry : entries) {
+    shares.push_back(std::abs(entry.weight) / (1.0 + square * entry.offset.squaredNorm()));
+  }
+  return shares;
+}
+
+// Changes the weights of `entries` by share_i (a + b . q_i) so that they sum to `weight` and their
+// moment is `moment`; with stiffness, only nearly.
+void Mend(std::span<Entry> entries, const std::vector<double>& shares, double weight,
+          const Eigen::Vector3d& moment, double stiffness) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Entry& entry : entries) middle += entry.offset;
   middle /= static_cast<double>(entries.size());
   double extent = 0.0;
-  for (const Entry& entry : entries) extent = std::max(extent, (entry.offset - middle).squaredNorm());
-  if (!(sizes > 0.0)) return;
+  for (const Entry& entry : entries) {
+    extent = std::max(extent, (entry.offset - middle).squaredNorm());
+  }
   const double inverse = extent > 0.0 ? 1.0 / std::sqrt(extent) : 0.0;
-  const double least = least_share * sizes / static_cast<double>(entries.size());
   Eigen::Matrix4d supply = Eigen::Matrix4d::Zero();
   Eigen::Vector4d missing = Moments(inverse * (moment - weight * middle));
   missing[0] = weight;
-  for (const Entry& entry : entries) {
-    const Eigen::Vector4d m = Moments(inverse * (entry.offset - middle));
-    supply += (std::abs(entry.weight) + least) * m * m.transpose();
-    missing -= entry.weight * m;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Eigen::Vector4d m = Moments(inverse * (entries[i].offset - middle));
+    supply += shares[i] * m * m.transpose();
+    missing -= entries[i].weight * m;
   }
+  if (!(supply(0, 0) > 0.0)) return;
   supply.diagonal().array() += stiffness * supply(0, 0);
   const Eigen::Vector4d change =
       stiffness > 0.0 ? Eigen::Vector4d(supply.ldlt().solve(missing))
                       : Eigen::Vector4d(supply.completeOrthogonalDecomposition().solve(missing));
-  for (Entry& entry : entries) {
-    const Eigen::Vector4d m = Moments(inverse * (entry.offset - middle));
-    entry.weight += (std::abs(entry.weight) + least) * change.dot(m);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Eigen::Vector4d m = Moments(inverse * (entries[i].offset - middle));
+    entries[i].weight += shares[i] * change.dot(m);
   }
 }
 
@@ -120,29 +147,50 @@ std::optional<std::uint32_t> CarryingVertex(const SeenPatch& seen, const Eigen::
   return std::nullopt;
 }
 
-// The entries of one centre, in the order of patches.
+// Patches that are mended together: their sum and moment.
+struct Target {
+  double weight = 0.0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  std::size_t first = 0;  // of their entries
+
+  void Add(const SeenPatch& seen) {
+    weight += seen.weight;
+    moment += seen.moment;
+  }
+};
+
+// The entries of one centre, in the order of patches. Groups first, then parts of the body: of a
+// group with few patches the moment cannot be mended.
 std::vector<Entry> EntriesOf(const Eigen::Vector3d& center, const SurfaceTree& tree,
                              const SparseCarriers& carriers) {
   const std::vector<SeenPatch> seen =
       PatchesSeenFrom(center, tree, {kLeastSparseWeights, kMostSparseWeights});
   std::vector<Entry> entries;
   entries.reserve(seen.size());
-  for (std::size_t i = 0; i < seen.size();) {
-    const std::uint32_t group = seen[i].group;
-    const std::size_t first = entries.size();
-    double weight = 0.0;
-    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-    for (; i < seen.size() && seen[i].group == group; ++i) {
-      weight += seen[i].weight;
-      moment += seen[i].moment;
-      const std::optional<std::uint32_t> vertex = CarryingVertex(seen[i], center, tree, carriers);
-      if (!vertex) continue;
+  Target group;
+  Target part;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    group.Add(seen[i]);
+    part.Add(seen[i]);
+    if (const auto vertex = CarryingVertex(seen[i], center, tree, carriers)) {
       const std::size_t carrier = carriers.CarrierOf(*vertex);
       entries.push_back({static_cast<std::uint32_t>(carriers.source(carrier)),
                          carriers.position(carrier) - center, seen[i].weight});
     }
-    if (entries.size() > first) {
-      Mend(std::span(entries).subspan(first), weight, moment, kLeastShare, kStiffness);
+    const bool is_last = i + 1 == seen.size();
+    if (is_last || seen[i + 1].group != seen[i].group) {
+      const std::span<Entry> of_group = std::span(entries).subspan(group.first);
+      if (!of_group.empty()) {
+        Mend(of_group, GroupShares(of_group), group.weight, group.moment, kStiffness);
+      }
+      group = {0.0, Eigen::Vector3d::Zero(), entries.size()};
+    }
+    if (is_last || seen[i + 1].part != seen[i].part) {
+      const std::span<Entry> of_part = std::span(entries).subspan(part.first);
+      if (!of_part.empty()) {
+        Mend(of_part, RowShares(of_part), part.weight, part.moment, kPartStiffness);
+      }
+      part = {0.0, Eigen::Vector3d::Zero(), entries.size()};
     }
   }
   return entries;
@@ -185,7 +233,7 @@ Row RowOf(const Eigen::Vector3d& center, const SurfaceTree& tree, const SparseCa
   std::vector<Entry> entries = EntriesOf(center, tree, carriers);
   Merge(entries);
   DivideBySum(entries);
-  Mend(entries, 1.0, Eigen::Vector3d::Zero(), 0.0, 0.0);
+  Mend(entries, RowShares(entries), 1.0, Eigen::Vector3d::Zero(), 0.0);
   std::vector<Eigen::Vector3d> offsets;
   std::vector<double> weights;
   Row row;

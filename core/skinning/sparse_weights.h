@@ -34,7 +34,7 @@ struct SparseWeights {
 
 // At most so many weights for a centre (the wire's limit), and at least, where the mesh has them.
 inline constexpr std::size_t kMostSparseWeights = 128;
-inline constexpr std::size_t kLeastSparseWeights = 32;
+inline constexpr std::size_t kLeastSparseWeights = 64;
 
 // In place of all vertices a centre gets one of each patch of them: patches are small near it and
 // large far from it, and each vertex has what all of its patch weigh. Neighbouring patches together

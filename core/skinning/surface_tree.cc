@@ -160,8 +160,10 @@ class Builder {
     patch.middle = patch.area > 0.0F ? (moment / patch.area).eval() : At(patch.begin);
     if (!(patch.area > 0.0F)) return;
     for (std::size_t i = patch.begin; i < patch.end; ++i) {
-      patch.square_radius +=
-          tree_.ShareOf(tree_.order()[i])[3] * (At(i) - patch.middle).square().sum();
+      const Eigen::Array4f& share = tree_.ShareOf(tree_.order()[i]);
+      const Eigen::Array4f apart = At(i) - patch.middle;
+      patch.square_radius += share[3] * apart.square().sum();
+      patch.bulge += (share * apart).head<3>().sum();
     }
     patch.square_radius /= patch.area;
   }
@@ -180,6 +182,8 @@ class Builder {
     patch.middle = a.middle + share * (b.middle - a.middle);
     patch.square_radius = (1.0F - share) * a.square_radius + share * b.square_radius +
                           share * (1.0F - share) * (b.middle - a.middle).square().sum();
+    patch.bulge = a.bulge + b.bulge + (a.area_vector * (a.middle - patch.middle)).sum() +
+                  (b.area_vector * (b.middle - patch.middle)).sum();
   }
 
   const SurfaceTree& tree_;  // with all but its patches

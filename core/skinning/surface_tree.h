@@ -23,6 +23,7 @@ struct SurfacePatch {
   Eigen::Array4f area_vector = Eigen::Array4f::Zero();
   float area = 0.0F;
   float square_radius = 0.0F;  // area-weighted mean square distance of its vertices from the middle
+  float bulge = 0.0F;          // sum of area vector . (vertex - middle): > 0 where it is convex
   float square_reach = 0.0F;   // square of the longest edge that starts at one of its vertices
   std::uint32_t begin = 0;     // its vertices: order()[begin] ... order()[end - 1], at least two
   std::uint32_t end = 0;
