@@ -180,9 +180,36 @@ class FitTest(ServerTest):
             "tolerance_m": 0.002, "engine": "nvcloth", "capsule_profile": "tangent_hull",
             "unit": "metre", "up_axis": "y", "caller_landmark_count": 1,
             "want_feature_polygons": False, "want_vertex_gaps": True, "include_parts": [],
-            "exclude_parts": [], "include_hair": True, "include_skirt": False})
+            "exclude_parts": [], "include_hair": True, "include_skirt": False,
+            "layout": ""})
         for budget in ({"max_primitives": 33}, {"max_polygon_error": 0.25}, {"max_spheres": 30}):
             self.assertEqual(self.client.approximate(self.body, **budget).options["budget"], budget)
+
+    def test_a_layout_is_kept_by_name_and_from_a_result(self):
+        first = self.client.approximate(self.body, layout="standard-32")
+        self.assertEqual((len(first.spheres), len(first.capsules)), (32, 32))
+        self.assertEqual(first.options["layout"], "standard-32")
+        self.assertEqual(first.options["parts"],
+                         ["torso", "arms", "legs", "head", "hands", "feet"])
+        second = self.client.approximate(vertices=1.1 * self.vertices, faces=self.faces,
+                                         parts="all", layout=first)
+        self.assertEqual(second.options["layout"], "own")
+        self.assertEqual(second.sphere_names, first.sphere_names)
+        self.assertEqual(second.capsules.tolist(), first.capsules.tolist())
+        self.assertEqual(second.metrics.vertices_out, 0)
+
+    def test_files_for_engines_come_with_the_answer(self):
+        result = self.client.approximate(self.body, exports="unity, csv, gltf")
+        self.assertLess({"unity_colliders.json", "spheres.csv", "capsules.csv"},
+                        set(result.exports))
+        lines = result.exports["spheres.csv"].decode().splitlines()
+        rows = [line for line in lines if not line.startswith("#")]
+        self.assertEqual(len(rows), 1 + len(result.spheres))
+        glb = next(data for name, data in result.exports.items() if name.endswith(".glb"))
+        self.assertEqual(glb[:4], b"glTF")
+        with self.assertRaises(capfit.CapfitError) as caught:
+            self.client.approximate(self.body, exports=["fbx"])
+        self.assertEqual(caught.exception.field, "exports[0].format")
 
     def test_words_of_the_command_line_and_of_the_file_mean_the_same(self):
         for word in ("best", "best_fit", "BEST-FIT"):
