@@ -85,12 +85,21 @@ std::set<std::string> Words(const std::string& list) {
   return words;
 }
 
+void CheckWords(const std::set<std::string>& words) {
+  std::set<std::string> known = {"all"};
+  for (const SampleFormat& format : Formats()) known.insert(format.name);
+  for (const std::string& word : words) {
+    if (!known.contains(word)) Fail(word + " is no format");
+  }
+}
+
 void WriteSamples(const ColliderSet& set, const std::string& original, const std::string& wanted,
                   const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   WriteFile(folder / "expected.json", capfit::readers::Expected(set).dump(1));
   json warnings = json::object();
   const std::set<std::string> words = Words(wanted);
+  CheckWords(words);
   for (const SampleFormat& format : Formats()) {
     if (wanted != "all" && !words.contains(format.name)) continue;
     const absl::StatusOr<Exported> exported = WriteSample(format, set, original);

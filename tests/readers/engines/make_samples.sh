@@ -8,7 +8,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 samples=$1 out=$2
 bodies=${CAPFIT_BODIES:-$root/../shared/bodies}
 avatars=${CAPFIT_AVATARS:-$root/../shared/avatars}
-formats=unity,unreal,nvcloth,jolt,bullet,rapier,mujoco,mujoco_meshes,urdf,tables
+formats=unity,unreal,nvcloth,jolt,bullet,rapier,mujoco,mujoco_meshes,urdf,csv
 
 rm -rf "$out"
 "$samples" - "$formats" "$out/edge"
