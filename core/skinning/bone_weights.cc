@@ -89,8 +89,7 @@ class Holders {
 
   [[nodiscard]] Held Of(std::uint32_t vertex) const {
     const bool is_held = IsHeld(soup_.influences[vertex]);
-    const std::uint32_t holder =
-        is_held ? vertex : held_[nearest_->At(soup_.positions[vertex])];
+    const std::uint32_t holder = is_held ? vertex : held_[nearest_->At(soup_.positions[vertex])];
     Held held;
     double sum = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {

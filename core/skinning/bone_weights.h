@@ -14,10 +14,10 @@
 
 namespace capfit::skinning {
 
-// Row after row: sphere s has the entries from row_ends[s - 1] (0 for the first) to row_ends[s]. Its
-// centre is the sum of weight * to_mesh(joint) * offset, where to_mesh leads from the joint's own
-// frame, as it now stands, to the mesh's: at rest exactly (to 1e-9 of the mesh's unit) the fitted
-// centre. The weights of a row sum to 1; a few may be negative.
+// Row after row: sphere s has the entries from row_ends[s - 1] (0 for the first) to row_ends[s].
+// Its centre is the sum of weight * to_mesh(joint) * offset, where to_mesh leads from the joint's
+// own frame, as it now stands, to the mesh's: at rest exactly (to 1e-9 of the mesh's unit) the
+// fitted centre. The weights of a row sum to 1; a few may be negative.
 struct BoneWeights {
   std::size_t joint_count = 0;
   std::vector<std::uint32_t> row_ends;

@@ -39,8 +39,8 @@ inline constexpr std::size_t kLeastSparseWeights = 64;
 // In place of all vertices a centre gets one of each patch of them: patches are small near it and
 // large far from it, and each vertex has what all of its patch weigh. Neighbouring patches together
 // keep the weight and the mean place of what they stand for, so that parts of the body that move as
-// one move the centre as the dense weights do: within 2 mm of them over a walk. Centres in the trunk
-// take up to kMostSparseWeights, those of limbs some 60.
+// one move the centre as the dense weights do: within 2 mm of them over a walk. Centres in the
+// trunk take up to kMostSparseWeights, those of limbs some 60.
 //
 // `parts`: for each of the mesh's vertices which part of the body it belongs to, below 16 (patches
 // keep them apart, which matters where an arm is near the trunk); empty: nobody knows. `mesh` and
