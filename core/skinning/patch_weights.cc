@@ -21,7 +21,7 @@ constexpr float kNearEdges = 2.5F;
 constexpr float kSoftShare = 0.05F;
 // What a patch's coarseness may matter, as a share of the mesh's diagonal: 1 mm on a body. (The
 // errors of patches have all directions, and most of each is mended.)
-constexpr float kLimitShare = 9e-4F;
+constexpr float kLimitShare = 6.5e-4F;
 // A part of the body that weighs more than this share gets so many patches, for which the limit is
 // lowered at most so far: four weights can be mended to have their sum and moment right.
 constexpr float kNegligibleShare = 5e-4F;

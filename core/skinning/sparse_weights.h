@@ -19,7 +19,8 @@ namespace capfit::skinning {
 
 // Row after row: sphere s has the entries from row_ends[s - 1] (0 for the first) to row_ends[s].
 // The weights of a row sum to 1 and reproduce the sphere's centre from the rest vertices, both to
-// 1e-9 (of the unit) when added up in double. They may be negative.
+// 1e-9 (of the unit) when added up in double; on meshes of a few dozen vertices, which leave no
+// small weights to take up the rounding, to 2e-8 and 1e-6. They may be negative.
 struct SparseWeights {
   std::size_t vertex_count = 0;  // the caller's vertices, in the caller's order
   std::vector<std::uint32_t> row_ends;
