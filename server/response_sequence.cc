@@ -57,8 +57,9 @@ bool ResponseSequence::FillWeights(v1::ApproximateBodyResponse& response) {
   if (!result_.weights) {
     if (index_++ > 0) return false;
     std::optional<v1::SkinningChunk> few = wire::FewWeightsToWire(result_);
-    if (few) *response.mutable_skinning() = *std::move(few);
-    return few.has_value();
+    if (!few) return false;
+    *response.mutable_skinning() = *std::move(few);
+    return true;
   }
   const wire::WeightBlock block =
       wire::BlockAt(*result_.weights, index_, first_vertex_, max_weights_);

@@ -214,7 +214,8 @@ class Result:
         if self.weights is None:
             rows = [row.weights.astype(numpy.float64) @ (vertices[..., row.vertices, :] - origin)
                     for row in self.sparse_weights or []]
-            return origin + numpy.stack(rows, axis=-2)
+            carried: FloatArray = origin + numpy.stack(rows, axis=-2)
+            return carried
         centers: FloatArray = origin + self.weights.astype(numpy.float64) @ (vertices - origin)
         return centers
 
