@@ -13,6 +13,7 @@
 #include "client/exit_code.h"
 #include "client/export_command.h"
 #include "client/motion_input.h"
+#include "client/picture/centers_file.h"
 #include "client/picture/file_bytes.h"
 #include "client/picture/gaps_file.h"
 #include "client/progress_line.h"
@@ -38,6 +39,7 @@ struct ApproximateArguments {
   bool progress = false;
   bool quiet = false;
   std::string cover_motion;  // empty: none
+  std::string frame_radii;   // file; empty: radii hold in all frames
   double fps = 30.0;
   FitFlags fit;
 };
@@ -52,7 +54,11 @@ absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
   pipeline::FitOptions options = asked;
   if (!arguments.cover_motion.empty()) {
     CAPFIT_ASSIGN_OR_RETURN(options.motion,
-                            ReadMotion(arguments.cover_motion, arguments.fps, bytes, soup));
+                            ReadMotion(arguments.cover_motion, arguments.fps,
+                                       arguments.frame_radii.empty()
+                                           ? motion::MotionRadii::kConstant
+                                           : motion::MotionRadii::kPerFrame,
+                                       bytes, soup));
   }
   CAPFIT_ASSIGN_OR_RETURN(pipeline::FitResult result,
                           pipeline::Fit(soup, options, ThreadPool(arguments.threads), progress));
@@ -104,6 +110,7 @@ absl::Status CheckOutputs(const ApproximateArguments& arguments) {
   if (has_gaps) {
     for (const std::string& path : GapsPaths(arguments.output)) paths.push_back(path);
   }
+  if (!arguments.frame_radii.empty()) paths.push_back(arguments.frame_radii);
   for (const std::string& path : paths) CAPFIT_RETURN_IF_ERROR(CheckWritable(path));
   return absl::OkStatus();
 }
@@ -126,10 +133,20 @@ absl::Status WriteOutputs(const pipeline::FitResult& result,
 void PrintMotion(const motion::MotionReport& report, std::FILE* out) {
   std::fprintf(
       out,
-      "%d frames enclosed; before, up to %d vertices were outside, by %.1f mm at most; the "
-      "set has %.1f %% more volume for it\n",
+      "%d frames enclosed; before, up to %d vertices were outside, by %.1f mm at most; the set has "
+      "%.1f %% more volume for it at rest and %.1f %% in the mean of the frames\n",
       report.frame_count, report.most_points_out_before,
-      1e3 * std::max(0.0, report.max_out_before_m), 100.0 * (report.volume_ratio - 1.0));
+      1e3 * std::max(0.0, report.max_out_before_m), 100.0 * (report.volume_ratio - 1.0),
+      100.0 * (report.mean_volume_ratio - 1.0));
+}
+
+// In the caller's unit.
+absl::Status WriteFrameRadii(const pipeline::FitResult& result, const std::string& path) {
+  std::vector<std::vector<double>> radii = result.motion->radii_m;
+  for (std::vector<double>& frame : radii) {
+    for (double& radius : frame) radius /= result.body_from_caller.scale;
+  }
+  return WriteFileBytes(path, FormatRadii(radii, path));
 }
 
 absl::Status RunApproximate(const ApproximateArguments& arguments) {
@@ -141,6 +158,9 @@ absl::Status RunApproximate(const ApproximateArguments& arguments) {
   }
   PrintWarnings(result->warnings);
   CAPFIT_RETURN_IF_ERROR(WriteOutputs(*result, arguments));
+  if (!arguments.frame_radii.empty()) {
+    CAPFIT_RETURN_IF_ERROR(WriteFrameRadii(*result, arguments.frame_radii));
+  }
   if (arguments.quiet) return absl::OkStatus();
   if (result->motion) PrintMotion(*result->motion, arguments.output == "-" ? stderr : stdout);
   std::fputs(ResultTable(*result).c_str(), arguments.output == "-" ? stderr : stdout);
@@ -161,6 +181,14 @@ void AddPlaceFlags(CLI::App& command, ApproximateArguments& arguments) {
       "With --local: enclose these poses too: moved vertices (little-endian float32, frames x "
       "vertices x 3), or the name or index of a clip of a GLB");
   motion->type_name("FILE|CLIP")->needs(local)->group("What to fit");
+  command
+      .add_option("--frame-radii", arguments.frame_radii,
+                  "With --cover-motion: radii of each frame's own, which are tighter, to this file: "
+                  "little-endian float32, frames x spheres, or {\"frames\": [[r, ...], ...]} in a "
+                  "file that ends in .json")
+      ->type_name("FILE")
+      ->needs(motion)
+      ->group("What to fit");
   command.add_option("--fps", arguments.fps, "With a clip: frames a second")
       ->check(CLI::Range(0.1, 240.0))
       ->needs(motion)

@@ -51,8 +51,8 @@ absl::StatusOr<pipeline::Motion> FromClip(const std::string& name, double fps,
   }
   pipeline::Motion motion;
   for (std::size_t f = 0; f < static_cast<std::size_t>(count); ++f) {
-    motion.frames.push_back(pipeline::PoseVertices(
-        soup, clips->JointsAt(clip, static_cast<double>(f) / fps, soup.joints)));
+    motion.joints.push_back(clips->JointsAt(clip, static_cast<double>(f) / fps, soup.joints));
+    motion.frames.push_back(pipeline::PoseVertices(soup, motion.joints.back()));
   }
   return motion;
 }
@@ -60,13 +60,14 @@ absl::StatusOr<pipeline::Motion> FromClip(const std::string& name, double fps,
 }  // namespace
 
 absl::StatusOr<std::shared_ptr<const pipeline::Motion>> ReadMotion(
-    const std::string& frames_or_clip, double fps, std::span<const std::byte> body,
-    const formats::PolygonSoup& soup) {
+    const std::string& frames_or_clip, double fps, motion::MotionRadii radii,
+    std::span<const std::byte> body, const formats::PolygonSoup& soup) {
   std::error_code error;
   const bool is_file = std::filesystem::is_regular_file(frames_or_clip, error);
   CAPFIT_ASSIGN_OR_RETURN(pipeline::Motion motion,
                           is_file ? FromFile(frames_or_clip, soup.positions.size())
                                   : FromClip(frames_or_clip, fps, body, soup));
+  motion.radii = radii;
   return std::make_shared<const pipeline::Motion>(std::move(motion));
 }
 

@@ -17,8 +17,8 @@ namespace capfit::client {
 // takes it; where there is no such file, the name or index of a clip of `body`, `fps` frames a
 // second. NOT_FOUND and INVALID_ARGUMENT name what is wrong.
 [[nodiscard]] absl::StatusOr<std::shared_ptr<const pipeline::Motion>> ReadMotion(
-    const std::string& frames_or_clip, double fps, std::span<const std::byte> body,
-    const formats::PolygonSoup& soup);
+    const std::string& frames_or_clip, double fps, motion::MotionRadii radii,
+    std::span<const std::byte> body, const formats::PolygonSoup& soup);
 
 }  // namespace capfit::client
 

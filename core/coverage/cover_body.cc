@@ -67,22 +67,6 @@ constexpr double kRoundShare = 0.4;
 constexpr double kGrownUntil = 0.95;
 constexpr double kVolumeSpacing = 0.015;  // of samples, relative to the body's size
 
-double SizeOf(const tighten::CoverTarget& target) {
-  double area = 0.0;
-  for (const mesh::Triangle& t : target.triangles) {
-    const Eigen::Vector3d& origin = target.points_m[t[0]];
-    area += 0.5 * (target.points_m[t[1]] - origin).cross(target.points_m[t[2]] - origin).norm();
-  }
-  if (area > 0.0) return std::sqrt(area);
-  Eigen::Array3d low = target.points_m[0];
-  Eigen::Array3d high = low;
-  for (const Eigen::Vector3d& p : target.points_m) {
-    low = low.min(p.array());
-    high = high.max(p.array());
-  }
-  return std::max((high - low).matrix().norm(), 1e-9);
-}
-
 class Coverer {
  public:
   Coverer(const tighten::CoverTarget& target, const CoverOptions& options, const ThreadPool& pool,
@@ -96,7 +80,7 @@ class Coverer {
         fold_(variables_.is_symmetric() ? tighten::PointGrid::Fold::kToPositiveX
                                         : tighten::PointGrid::Fold::kNone),
         grid_(target.points_m, fold_),
-        size_(SizeOf(target)) {}
+        size_(tighten::SizeOf(target)) {}
 
   CoverReport Run() {
     if (options_.tighten) {
@@ -167,7 +151,7 @@ class Coverer {
   void Tighten() {
     if (options_.loosen) {
       const tighten::SparsePoints coarse =
-          tighten::MakeSparse(FoldedPoints(), AreaWeights(), kSparseSpacing * size_);
+          tighten::MakeSparse(FoldedPoints(), tighten::AreaWeights(target_), kSparseSpacing * size_);
       const tighten::PointGrid grid(coarse.points_m);
       Expect(kLooseUntil, kLoosePhase);
       RunPhase(kLoosePhase, {{grid, AllowedAtVertices(), coarse.weights}}, /*seed=*/1);
@@ -200,18 +184,6 @@ class Coverer {
                 std::uint64_t seed) {
     phase.uniform_radius = options_.uniform_radius;
     tighten::Tighten(points, size_, phase, seed, pool_, meter_, set_);
-  }
-
-  // A third of the area of the triangles around each point; a little for those without any.
-  std::vector<double> AreaWeights() const {
-    std::vector<double> weights(target_.points_m.size(), 1e-9 * size_ * size_);
-    for (const mesh::Triangle& t : target_.triangles) {
-      const Eigen::Vector3d& origin = target_.points_m[t[0]];
-      const double third =
-          (target_.points_m[t[1]] - origin).cross(target_.points_m[t[2]] - origin).norm() / 6.0;
-      for (const auto corner : t) weights[corner] += third;
-    }
-    return weights;
   }
 
   double AllowedAtVertices() const {

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "core/base/fit_observer.h"
@@ -22,6 +21,15 @@ using MotionFrames = std::vector<std::vector<Eigen::Vector3d>>;
 using Carry =
     std::function<std::vector<std::vector<Eigen::Vector3d>>(const capsule::PrimitiveSet& at_rest)>;
 
+// Radii that hold in all frames, or some of each frame's own on top of those of rest.
+enum class MotionRadii { kConstant, kPerFrame };
+
+struct MotionOptions {
+  // tolerance_m and max_gap_m count.
+  coverage::CoverOptions cover;
+  MotionRadii radii = MotionRadii::kConstant;
+};
+
 struct MotionReport {
   int frame_count = 0;
   // Of the set as it came, in the frame where it is worst: points more than 0.1 mm outside, and how
@@ -32,23 +40,28 @@ struct MotionReport {
   double max_out_m = 0.0;
   // The volume of the set's union at rest, now over before. Range: [1, inf) or a little below.
   double volume_ratio = 1.0;
+  // The same of the union in a frame, the mean over all of them, over that at rest before.
+  double mean_volume_ratio = 1.0;
+  // With kPerFrame: by frame, then by sphere, metres.
+  std::vector<std::vector<double>> radii_m;
 };
 
-// Changes centres and radii until all points of all frames are inside, with radii that hold in
-// every frame; spheres, capsules and mirror images stay what they are. What sticks out of a frame
-// is laid back onto the body at rest, as far from its capsule and as far along it as it was, and
-// the set is tightened anew around body and such points (CoverBody); three rounds, for each moves
-// the centres. What then is still outside is met by growing radii alone, which no frame can lose
-// by.
+// Changes centres and radii until all points of all frames are inside; spheres, capsules and mirror
+// images stay what they are. The steps are those of tighten::Tighten, with rows for the points of
+// all frames: a centre's step at rest is turned into each frame as the body around it has turned.
+// Rounds of them, for the weights follow the centres. What then is still outside is met by growing
+// radii alone, which no frame can lose by.
 //
-// Of `options` tolerance_m and max_gap_m count; the set must be one of tangent hulls that encloses
-// the target already. Cancelled: frames not reached may stick out. O(rounds * (CoverBody + frames *
-// points)): about 0.5 s for 72 frames of 5k points and 64 primitives.
+// kConstant: the radii of the set hold in every frame. kPerFrame: centres and the set's radii are
+// for rest, and each frame has radii of its own, the least that enclose it.
+//
+// The set must be one of tangent hulls that encloses the target already. Cancelled: frames not
+// reached may stick out. O(steps * frames * points): about 5 s for 72 frames of 5k points and 64
+// primitives.
 [[nodiscard]] MotionReport CoverMotion(const tighten::CoverTarget& target,
                                        const MotionFrames& frames, const Carry& carry,
-                                       const coverage::CoverOptions& options,
-                                       const ThreadPool& pool, FitObserver& observer,
-                                       capsule::PrimitiveSet& set);
+                                       const MotionOptions& options, const ThreadPool& pool,
+                                       FitObserver& observer, capsule::PrimitiveSet& set);
 
 }  // namespace capfit::motion
 

@@ -62,12 +62,17 @@ class BodyFit {
   absl::Status Run(const formats::PolygonSoup& soup) {
     if (asked_.skinning == SkinningMode::kBones && !HasRig(soup)) return NoRig();
     if (options_.motion != nullptr) {
-      CAPFIT_RETURN_IF_ERROR(CheckMotion(*options_.motion, soup.positions.size()));
+      CAPFIT_RETURN_IF_ERROR(CheckMotion(*options_.motion, soup));
+      if (asked_.skinning == SkinningMode::kBones && options_.motion->joints.empty()) {
+        return InvalidField(ErrorReason::kConflict, "motion",
+                            "is of vertices alone, and bones carry the centres: name a clip of the "
+                            "mesh's file, or ask for sparse weights");
+      }
     }
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
     CAPFIT_RETURN_IF_ERROR(BuildWithinLimits());
     CAPFIT_RETURN_IF_ERROR(Cover());
-    if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverPoses());
+    if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverPoses(soup));
     CAPFIT_RETURN_IF_ERROR(Measure());
     CAPFIT_RETURN_IF_ERROR(Bind(soup));
     return absl::OkStatus();
@@ -231,8 +236,8 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
-  // All frames of the motion, with the centres where sparse weights carry them.
-  absl::Status CoverPoses() {
+  // All frames of the motion, with the centres where the chosen weights carry them.
+  absl::Status CoverPoses(const formats::PolygonSoup& soup) {
     const std::vector<std::vector<Eigen::Vector3f>>& frames = options_.motion->frames;
     const std::vector<std::uint32_t> sources = SourcesOfTarget();
     motion::MotionFrames points(frames.size());
@@ -241,24 +246,42 @@ class BodyFit {
         points[f].push_back(body_->body_from_caller.Apply(frames[f][source].cast<double>()));
       }
     });
-    const auto carry = [&](const capsule::PrimitiveSet& at_rest) {
-      const skinning::SparseWeights weights = BindSparse(*body_, CentersOf(at_rest), pool_, clock_);
-      std::vector<std::vector<Eigen::Vector3d>> centers(frames.size());
-      pool_.ForEach(frames.size(), [&](std::size_t f) {
-        std::vector<Eigen::Vector3d> vertices;
-        vertices.reserve(frames[f].size());
-        for (const Eigen::Vector3f& v : frames[f]) vertices.push_back(v.cast<double>());
-        centers[f] = skinning::Apply(weights, vertices);
-        for (Eigen::Vector3d& center : centers[f]) center = body_->body_from_caller.Apply(center);
-      });
-      return centers;
-    };
-    coverage::CoverOptions cover_options;
-    cover_options.tolerance_m = options_.tolerance_m;
-    result_.motion =
-        motion::CoverMotion(target_, points, carry, cover_options, pool_, clock_, set_);
+    motion::MotionOptions motion_options;
+    motion_options.cover.tolerance_m = options_.tolerance_m;
+    motion_options.radii = options_.motion->radii;
+    result_.motion = motion::CoverMotion(
+        target_, points,
+        [&](const capsule::PrimitiveSet& at_rest) { return CentersInFrames(at_rest, soup); },
+        motion_options, pool_, clock_, set_);
     max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
     return CheckCancelled(clock_);
+  }
+
+  // In the body's frame at rest.
+  motion::MotionFrames CentersInFrames(const capsule::PrimitiveSet& at_rest,
+                                       const formats::PolygonSoup& soup) const {
+    skinning::SparseWeights sparse = BindSparse(*body_, CentersOf(at_rest), pool_, clock_);
+    std::optional<skinning::BoneWeights> bones;
+    if (options_.skinning == SkinningMode::kBones) {
+      const std::vector<Eigen::Vector3d> centers =
+          CentersOf(ToCallerFrame(at_rest, caller_from_body_));
+      skinning::MakeExact(soup.positions, centers, sparse);
+      bones = skinning::BonesOfSparse(sparse, centers, soup);
+    }
+    motion::MotionFrames centers(options_.motion->frames.size());
+    pool_.ForEach(centers.size(), [&](std::size_t f) {
+      centers[f] = bones ? skinning::Apply(*bones, options_.motion->joints[f])
+                         : skinning::Apply(sparse, InDouble(options_.motion->frames[f]));
+      for (Eigen::Vector3d& center : centers[f]) center = body_->body_from_caller.Apply(center);
+    });
+    return centers;
+  }
+
+  static std::vector<Eigen::Vector3d> InDouble(const std::vector<Eigen::Vector3f>& points) {
+    std::vector<Eigen::Vector3d> doubles;
+    doubles.reserve(points.size());
+    for (const Eigen::Vector3f& p : points) doubles.push_back(p.cast<double>());
+    return doubles;
   }
 
   // For each point of the target a vertex of the caller's that lies there.

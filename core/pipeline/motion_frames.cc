@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <string>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
@@ -37,25 +38,40 @@ Placing Blend(const formats::JointInfluences& influences, const std::vector<Plac
   return blend;
 }
 
+absl::Status CheckFrame(const std::vector<Eigen::Vector3f>& frame, std::size_t vertex_count,
+                        const std::string& field) {
+  if (frame.size() != vertex_count) {
+    return InvalidField(
+        ErrorReason::kCountMismatch, field,
+        absl::StrCat("has ", frame.size(), " vertices, must have ", vertex_count));
+  }
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    if (frame[v].allFinite()) continue;
+    return InvalidField(ErrorReason::kNotFinite, absl::StrCat(field, "[", v, "]"),
+                        "must be finite");
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
-absl::Status CheckMotion(const Motion& motion, std::size_t vertex_count) {
+absl::Status CheckMotion(const Motion& motion, const formats::PolygonSoup& soup) {
   if (motion.frames.empty()) return InvalidField(ErrorReason::kMissing, "motion", "has no frames");
   if (motion.frames.size() > kMostMotionFrames) {
     return TooLarge("motion", motion.frames.size(), "frames", kMostMotionFrames);
   }
+  if (!motion.joints.empty() && motion.joints.size() != motion.frames.size()) {
+    return InvalidField(ErrorReason::kCountMismatch, "motion",
+                        absl::StrCat("has joints of ", motion.joints.size(), " frames, must have ",
+                                     motion.frames.size()));
+  }
   for (std::size_t f = 0; f < motion.frames.size(); ++f) {
     const std::string field = absl::StrCat("motion[", f, "]");
-    if (motion.frames[f].size() != vertex_count) {
-      return InvalidField(
-          ErrorReason::kCountMismatch, field,
-          absl::StrCat("has ", motion.frames[f].size(), " vertices, must have ", vertex_count));
-    }
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-      if (motion.frames[f][v].allFinite()) continue;
-      return InvalidField(ErrorReason::kNotFinite, absl::StrCat(field, "[", v, "]"),
-                          "must be finite");
-    }
+    CAPFIT_RETURN_IF_ERROR(CheckFrame(motion.frames[f], soup.positions.size(), field));
+    if (motion.joints.empty() || motion.joints[f].size() == soup.joints.size()) continue;
+    return InvalidField(
+        ErrorReason::kCountMismatch, field,
+        absl::StrCat("has ", motion.joints[f].size(), " joints, must have ", soup.joints.size()));
   }
   return absl::OkStatus();
 }

@@ -1,5 +1,9 @@
 #include "core/tighten/cover_target.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
 #include <cstdint>
 #include <limits>
 
@@ -24,6 +28,34 @@ CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts) {
     target.triangles.push_back(kept);
   }
   return target;
+}
+
+double SizeOf(const CoverTarget& target) {
+  double area = 0.0;
+  for (const mesh::Triangle& t : target.triangles) {
+    const Eigen::Vector3d& origin = target.points_m[t[0]];
+    area += 0.5 * (target.points_m[t[1]] - origin).cross(target.points_m[t[2]] - origin).norm();
+  }
+  if (area > 0.0) return std::sqrt(area);
+  Eigen::Array3d low = target.points_m[0];
+  Eigen::Array3d high = low;
+  for (const Eigen::Vector3d& p : target.points_m) {
+    low = low.min(p.array());
+    high = high.max(p.array());
+  }
+  return std::max((high - low).matrix().norm(), 1e-9);
+}
+
+std::vector<double> AreaWeights(const CoverTarget& target) {
+  const double size = SizeOf(target);
+  std::vector<double> weights(target.points_m.size(), 1e-9 * size * size);
+  for (const mesh::Triangle& t : target.triangles) {
+    const Eigen::Vector3d& origin = target.points_m[t[0]];
+    const double third =
+        (target.points_m[t[1]] - origin).cross(target.points_m[t[2]] - origin).norm() / 6.0;
+    for (const auto corner : t) weights[corner] += third;
+  }
+  return weights;
 }
 
 }  // namespace capfit::tighten

@@ -21,6 +21,14 @@ struct CoverTarget {
 // The vertices of the selected parts, and the triangles whose three corners are all among them.
 [[nodiscard]] CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts);
 
+// What lengths of tightening are relative to: the square root of the triangles' area, without
+// triangles the diagonal of the points' box. There must be a point.
+[[nodiscard]] double SizeOf(const CoverTarget& target);
+
+// By point a third of the area of the triangles around it, square metres; a billionth of the whole
+// for those without any.
+[[nodiscard]] std::vector<double> AreaWeights(const CoverTarget& target);
+
 }  // namespace capfit::tighten
 
 #endif  // CAPFIT_CORE_TIGHTEN_COVER_TARGET_H_

@@ -18,6 +18,8 @@ using geometry::TaperedCapsule;
 
 // Steeper capsules are little more than their larger end, and engines differ most on them.
 constexpr double kMaxSin = 0.8;
+// What fixed centres may go, relative to the trust region: the programme wants some room.
+constexpr double kFixed = 1e-6;
 // Relative to the body's size, as the settings of a phase are.
 constexpr double kLeastRadius = 0.003;
 constexpr double kSampleSpacing = 0.025;
@@ -49,7 +51,7 @@ class Tightener {
     shapes_ = ShapesOf(variables_.solids(), set_);
     PenaltyProgram program;
     AddVolume(seed, program);
-    AddBounds(trust_m, program);
+    AddBounds(trust_m, phase.fixed_centers ? kFixed * trust_m : trust_m, program);
     AddPointRows(kDepthOfInterest * trust_m, phase.row_spacing * size_, program);
     SetPenalties(penalty, program);
     if (phase.uniform_radius) {
@@ -82,9 +84,12 @@ class Tightener {
     }
   }
 
-  void AddBounds(double trust_m, PenaltyProgram& program) const {
-    program.lower = Eigen::VectorXd::Constant(variables_.count(), -trust_m);
-    program.upper = Eigen::VectorXd::Constant(variables_.count(), trust_m);
+  void AddBounds(double trust_m, double center_trust_m, PenaltyProgram& program) const {
+    program.upper = Eigen::VectorXd::Constant(variables_.count(), center_trust_m);
+    for (const int i : variables_.representatives()) {
+      program.upper[variables_.of(i).first + 3] = trust_m;
+    }
+    program.lower = -program.upper;
     for (const int i : variables_.representatives()) {
       const double radius = set_.spheres[static_cast<std::size_t>(i)].radius_m;
       const double room = std::max(radius - kLeastRadius * size_, 1e-3 * std::min(trust_m, radius));
@@ -109,13 +114,34 @@ class Tightener {
     return row;
   }
 
-  PenaltyRow PointRow(const Eigen::Vector3d& point, std::int32_t solid, double allowed_m,
-                      double penalty) const {
-    const auto index = static_cast<std::size_t>(solid);
-    const geometry::CapsuleDistance at = shapes_[index].Locate(point);
-    const Eigen::Vector4d speed(at.normal.x(), at.normal.y(), at.normal.z(), 1.0);
-    return RowOf(variables_.solids()[index], -(1.0 - at.axis_parameter) * speed,
-                 -at.axis_parameter * speed, at.distance_m - allowed_m, penalty);
+  // How fast a point's distance falls as the sphere moves and grows.
+  static Eigen::Vector4d SpeedOf(const Eigen::Vector3d& normal, const CarriedPose* pose,
+                                 int sphere) {
+    const Eigen::Vector3d at_rest =
+        pose == nullptr ? normal
+                        : pose->turns[static_cast<std::size_t>(sphere)].transpose() * normal;
+    return {at_rest.x(), at_rest.y(), at_rest.z(), 1.0};
+  }
+
+  // `place`: of the point in the grid.
+  PenaltyRow PointRow(const PointsToHold& points, const std::vector<TaperedCapsule>& shapes,
+                      std::uint32_t place, std::int32_t nearest, double penalty) const {
+    const auto index = static_cast<std::size_t>(nearest);
+    const geometry::CapsuleDistance at = shapes[index].Locate(points.points.point(place));
+    const Solid& solid = variables_.solids()[index];
+    return RowOf(solid,
+                 -(1.0 - at.axis_parameter) * SpeedOf(at.normal, points.pose, solid.ends[0]),
+                 -at.axis_parameter * SpeedOf(at.normal, points.pose, solid.ends[1]),
+                 at.distance_m - points.allowed_m, penalty);
+  }
+
+  std::vector<TaperedCapsule> ShapesIn(const CarriedPose& pose) const {
+    capsule::PrimitiveSet carried = set_;
+    for (std::size_t i = 0; i < carried.spheres.size(); ++i) {
+      carried.spheres[i].center_m =
+          pose.now_m[i] + pose.turns[i] * (set_.spheres[i].center_m - pose.rest_m[i]);
+    }
+    return ShapesOf(variables_.solids(), carried);
   }
 
   // What a chunk of blocks asks for.
@@ -128,16 +154,18 @@ class Tightener {
     near_weight_ = 0.0;
     if (shapes_.empty()) return;
     for (const PointsToHold& points : points_) {
-      const UnionDistances distances = points.points.DistancesTo(shapes_, -depth_m, pool_);
+      const std::vector<TaperedCapsule> shapes =
+          points.pose == nullptr ? shapes_ : ShapesIn(*points.pose);
+      const UnionDistances distances = points.points.DistancesTo(shapes, -depth_m, pool_);
       const std::size_t blocks = points.points.blocks().size();
       std::vector<Rows> found((blocks + kBlocksAtOnce - 1) / kBlocksAtOnce);
       pool_.ForChunks(blocks, kBlocksAtOnce, [&](std::size_t begin, std::size_t end) {
         Rows& rows = found[begin / kBlocksAtOnce];
         for (std::size_t b = begin; b < end; ++b) {
           if (spacing_m > 0.0) {
-            AddDemanding(points, distances, b, depth_m, spacing_m, rows);
+            AddDemanding(points, shapes, distances, b, depth_m, spacing_m, rows);
           } else {
-            AddAll(points, distances, b, depth_m, rows);
+            AddAll(points, shapes, distances, b, depth_m, rows);
           }
         }
       });
@@ -151,8 +179,8 @@ class Tightener {
   // All points near the surface: a choice among them could fall out differently for vertices that
   // differ by rounding alone. For the same reason those just near enough count for nothing yet
   // where weights are added up; as rows they do not bind.
-  void AddAll(const PointsToHold& points, const UnionDistances& distances, std::size_t b,
-              double depth_m, Rows& rows) const {
+  void AddAll(const PointsToHold& points, const std::vector<TaperedCapsule>& shapes,
+              const UnionDistances& distances, std::size_t b, double depth_m, Rows& rows) const {
     const PointGrid::Block& block = points.points.blocks()[b];
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
       const double excess = distances.distance_m[i] - points.allowed_m;
@@ -160,15 +188,15 @@ class Tightener {
       const double ramp = std::min(1.0, 2.0 * (1.0 + excess / depth_m));
       const double weight = points.weights.empty() ? 1.0 : points.weights[points.points.order()[i]];
       rows.near_weight += ramp * weight;
-      rows.rows.push_back(
-          PointRow(points.points.point(i), distances.solid[i], points.allowed_m, weight));
+      rows.rows.push_back(PointRow(points, shapes, i, distances.solid[i], weight));
     }
   }
 
   // Of the points of a cell that are nearest to the same solid, or to its image, the one furthest
   // out.
-  void AddDemanding(const PointsToHold& points, const UnionDistances& distances, std::size_t b,
-                    double depth_m, double spacing_m, Rows& rows) const {
+  void AddDemanding(const PointsToHold& points, const std::vector<TaperedCapsule>& shapes,
+                    const UnionDistances& distances, std::size_t b, double depth_m,
+                    double spacing_m, Rows& rows) const {
     struct Cell {
       Eigen::Array3i place;
       std::size_t solid;
@@ -193,8 +221,7 @@ class Tightener {
     }
     for (std::size_t c = 0; c < count; ++c) {
       const std::uint32_t i = cells[c].point;
-      rows.rows.push_back(
-          PointRow(points.points.point(i), distances.solid[i], points.allowed_m, 1.0));
+      rows.rows.push_back(PointRow(points, shapes, i, distances.solid[i], 1.0));
     }
   }
 

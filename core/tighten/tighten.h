@@ -4,8 +4,10 @@
 #ifndef CAPFIT_CORE_TIGHTEN_TIGHTEN_H_
 #define CAPFIT_CORE_TIGHTEN_TIGHTEN_H_
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/base/thread_pool.h"
 #include "core/base/work_meter.h"
@@ -34,8 +36,19 @@ struct TightenPhase {
   // for the point that asks for most there: enough to end with, where another step follows that
   // sees what the others ask for.
   double row_spacing = 0.0;
+  // Radii alone: the centres stay.
+  bool fixed_centers = false;
   // Pulls the two radii of each capsule together, at a price: nearly equal, not exactly.
   bool uniform_radius = false;
+};
+
+// The set carried to another pose of the body.
+struct CarriedPose {
+  // By sphere: where its centre is now for a centre at rest_m in the set, and how what is around it
+  // has turned since, so that a centre moved at rest by d has moved here by turn * d.
+  std::vector<Eigen::Vector3d> rest_m;
+  std::vector<Eigen::Vector3d> now_m;
+  std::vector<Eigen::Matrix3d> turns;
 };
 
 // Points that must come in.
@@ -44,6 +57,8 @@ struct PointsToHold {
   double allowed_m = 0.0;  // how far each may stick out; negative: how deep it must be
   // What each weighs, by the caller's index, any unit; or empty.
   std::span<const double> weights{};
+  // Where the points are in another pose: into the set as that carries it. Not with folded points.
+  const CarriedPose* pose = nullptr;
 };
 
 // Each step takes the least volume of the union, by its gradient, under one linear row for each
