@@ -53,12 +53,11 @@ absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
   CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, formats::ReadMesh(bytes, format));
   pipeline::FitOptions options = asked;
   if (!arguments.cover_motion.empty()) {
-    CAPFIT_ASSIGN_OR_RETURN(options.motion,
-                            ReadMotion(arguments.cover_motion, arguments.fps,
-                                       arguments.frame_radii.empty()
-                                           ? motion::MotionRadii::kConstant
-                                           : motion::MotionRadii::kPerFrame,
-                                       bytes, soup));
+    CAPFIT_ASSIGN_OR_RETURN(
+        options.motion, ReadMotion(arguments.cover_motion, arguments.fps,
+                                   arguments.frame_radii.empty() ? motion::MotionRadii::kConstant
+                                                                 : motion::MotionRadii::kPerFrame,
+                                   bytes, soup));
   }
   CAPFIT_ASSIGN_OR_RETURN(pipeline::FitResult result,
                           pipeline::Fit(soup, options, ThreadPool(arguments.threads), progress));
@@ -182,10 +181,11 @@ void AddPlaceFlags(CLI::App& command, ApproximateArguments& arguments) {
       "vertices x 3), or the name or index of a clip of a GLB");
   motion->type_name("FILE|CLIP")->needs(local)->group("What to fit");
   command
-      .add_option("--frame-radii", arguments.frame_radii,
-                  "With --cover-motion: radii of each frame's own, which are tighter, to this file: "
-                  "little-endian float32, frames x spheres, or {\"frames\": [[r, ...], ...]} in a "
-                  "file that ends in .json")
+      .add_option(
+          "--frame-radii", arguments.frame_radii,
+          "With --cover-motion: radii of each frame's own, which are tighter, to this file: "
+          "little-endian float32, frames x spheres, or {\"frames\": [[r, ...], ...]} in a "
+          "file that ends in .json")
       ->type_name("FILE")
       ->needs(motion)
       ->group("What to fit");

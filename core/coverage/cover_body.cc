@@ -150,8 +150,8 @@ class Coverer {
 
   void Tighten() {
     if (options_.loosen) {
-      const tighten::SparsePoints coarse =
-          tighten::MakeSparse(FoldedPoints(), tighten::AreaWeights(target_), kSparseSpacing * size_);
+      const tighten::SparsePoints coarse = tighten::MakeSparse(
+          FoldedPoints(), tighten::AreaWeights(target_), kSparseSpacing * size_);
       const tighten::PointGrid grid(coarse.points_m);
       Expect(kLooseUntil, kLoosePhase);
       RunPhase(kLoosePhase, {{grid, AllowedAtVertices(), coarse.weights}}, /*seed=*/1);

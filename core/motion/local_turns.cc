@@ -44,9 +44,10 @@ LocalTurns::LocalTurns(std::span<const Eigen::Vector3d> rest_m, const capsule::P
     const auto nearest = static_cast<std::size_t>(at.solid[i]);
     const double t = shapes[nearest].Locate(grid.point(i)).axis_parameter;
     for (const int end : {0, 1}) {
-      const Share share{grid.order()[i],
-                        static_cast<std::uint32_t>(solids[nearest].ends[static_cast<std::size_t>(end)]),
-                        end == 0 ? 1.0 - t : t};
+      const Share share{
+          grid.order()[i],
+          static_cast<std::uint32_t>(solids[nearest].ends[static_cast<std::size_t>(end)]),
+          end == 0 ? 1.0 - t : t};
       if (!(share.weight > 0.0)) continue;
       shares_.push_back(share);
       weights_[share.sphere] += share.weight;
@@ -67,9 +68,8 @@ std::vector<Eigen::Matrix3d> LocalTurns::At(std::span<const Eigen::Vector3d> now
   // The points at rest are relative to their middle: so those now need not be.
   std::vector<Eigen::Matrix3d> products(weights_.size(), Eigen::Matrix3d::Zero());
   for (const Share& share : shares_) {
-    products[share.sphere] +=
-        share.weight * now_m[share.point] *
-        (rest_m_[share.point] - middles_m_[share.sphere]).transpose();
+    products[share.sphere] += share.weight * now_m[share.point] *
+                              (rest_m_[share.point] - middles_m_[share.sphere]).transpose();
   }
   std::vector<Eigen::Matrix3d> turns(weights_.size(), Eigen::Matrix3d::Identity());
   for (std::size_t s = 0; s < turns.size(); ++s) {

@@ -33,9 +33,9 @@ class LocalTurns {
 
   std::span<const Eigen::Vector3d> rest_m_;
   std::vector<Share> shares_;
-  std::vector<double> weights_;               // by sphere, summed
-  std::vector<Eigen::Vector3d> middles_m_;    // of its points at rest
-  std::vector<std::size_t> stands_for_;       // by sphere: itself, or the one that it turns as
+  std::vector<double> weights_;             // by sphere, summed
+  std::vector<Eigen::Vector3d> middles_m_;  // of its points at rest
+  std::vector<std::size_t> stands_for_;     // by sphere: itself, or the one that it turns as
 };
 
 }  // namespace capfit::motion

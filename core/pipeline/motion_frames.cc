@@ -41,9 +41,8 @@ Placing Blend(const formats::JointInfluences& influences, const std::vector<Plac
 absl::Status CheckFrame(const std::vector<Eigen::Vector3f>& frame, std::size_t vertex_count,
                         const std::string& field) {
   if (frame.size() != vertex_count) {
-    return InvalidField(
-        ErrorReason::kCountMismatch, field,
-        absl::StrCat("has ", frame.size(), " vertices, must have ", vertex_count));
+    return InvalidField(ErrorReason::kCountMismatch, field,
+                        absl::StrCat("has ", frame.size(), " vertices, must have ", vertex_count));
   }
   for (std::size_t v = 0; v < vertex_count; ++v) {
     if (frame[v].allFinite()) continue;

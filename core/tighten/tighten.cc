@@ -129,8 +129,7 @@ class Tightener {
     const auto index = static_cast<std::size_t>(nearest);
     const geometry::CapsuleDistance at = shapes[index].Locate(points.points.point(place));
     const Solid& solid = variables_.solids()[index];
-    return RowOf(solid,
-                 -(1.0 - at.axis_parameter) * SpeedOf(at.normal, points.pose, solid.ends[0]),
+    return RowOf(solid, -(1.0 - at.axis_parameter) * SpeedOf(at.normal, points.pose, solid.ends[0]),
                  -at.axis_parameter * SpeedOf(at.normal, points.pose, solid.ends[1]),
                  at.distance_m - points.allowed_m, penalty);
   }

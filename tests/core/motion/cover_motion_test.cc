@@ -75,8 +75,8 @@ TEST(CoverMotionTest, RadiiThatHoldInAllFrames) {
   const MotionFrames frames = {pipe.Bulging(-0.4, 0.0), pipe.Bulging(-0.4, 0.02),
                                pipe.Bulging(0.4, 0.03)};
   NullObserver observer;
-  const MotionReport report = CoverMotion(pipe.target, frames, Still(3), {}, ThreadPool(2),
-                                          observer, pipe.set);
+  const MotionReport report =
+      CoverMotion(pipe.target, frames, Still(3), {}, ThreadPool(2), observer, pipe.set);
   EXPECT_EQ(report.frame_count, 3);
   EXPECT_NEAR(report.max_out_before_m, 0.03, 1e-3);
   EXPECT_TRUE(report.radii_m.empty());
@@ -92,8 +92,8 @@ TEST(CoverMotionTest, RadiiOfEachFrameAreTighter) {
   const MotionFrames frames = {own.Bulging(-0.4, 0.0), own.Bulging(-0.4, 0.02),
                                own.Bulging(0.4, 0.03)};
   NullObserver observer;
-  const MotionReport all = CoverMotion(constant.target, frames, Still(3), {}, ThreadPool(2),
-                                       observer, constant.set);
+  const MotionReport all =
+      CoverMotion(constant.target, frames, Still(3), {}, ThreadPool(2), observer, constant.set);
   const MotionReport each =
       CoverMotion(own.target, frames, Still(3), {.cover = {}, .radii = MotionRadii::kPerFrame},
                   ThreadPool(2), observer, own.set);
@@ -114,8 +114,8 @@ TEST(CoverMotionTest, SameBitsForAnyNumberOfThreads) {
     Pipe pipe;
     NullObserver observer;
     (void)CoverMotion(pipe.target, {pipe.Bulging(0.2, 0.02), pipe.Bulging(-0.3, 0.03)}, Still(2),
-                      {.cover = {}, .radii = MotionRadii::kPerFrame}, ThreadPool(threads),
-                      observer, pipe.set);
+                      {.cover = {}, .radii = MotionRadii::kPerFrame}, ThreadPool(threads), observer,
+                      pipe.set);
     std::vector<double> numbers;
     for (const geometry::Sphere& s : pipe.set.spheres) {
       numbers.insert(numbers.end(), {s.center_m.x(), s.center_m.y(), s.center_m.z(), s.radius_m});

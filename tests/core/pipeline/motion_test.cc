@@ -223,7 +223,8 @@ TEST(Motion, AWalkWithRadiiOfEachFrameIsEnclosedTightly) {
   }
   bodies /= static_cast<double>(walk.motion->frames.size());
   // All is enclosed, so E_r is the union's volume over the body's, less 1.
-  const double mean_E_r = (1.0 + rest->metrics.E_r) * result->motion->mean_volume_ratio / bodies - 1.0;
+  const double mean_E_r =
+      (1.0 + rest->metrics.E_r) * result->motion->mean_volume_ratio / bodies - 1.0;
   std::printf("E_r at rest %.3f, in the mean of the frames %.3f\n", rest->metrics.E_r, mean_E_r);
   EXPECT_LE(mean_E_r, 1.12 * rest->metrics.E_r);
 }
