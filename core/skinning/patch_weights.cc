@@ -16,15 +16,15 @@ namespace {
 // A patch whose radius is more than this share of its distance is summed up by its parts.
 constexpr float kFarShare = 0.15F;
 // Triangles of vertices nearer than so many of their longest edges are summed exactly.
-constexpr float kNearEdges = 2.5F;
+constexpr float kNearEdges = 1.75F;
 // Keeps what stands for a vertex finite where the centre touches it, as a share of its area.
 constexpr float kSoftShare = 0.05F;
 // What a patch's coarseness may matter, as a share of the mesh's diagonal: 1 mm on a body. (The
 // errors of patches have all directions, and most of each is mended.)
-constexpr float kLimitShare = 9e-4F;
+constexpr float kLimitShare = 6.5e-4F;
 // A part of the body that weighs more than this share gets so many patches, for which the limit is
 // lowered at most so far: four weights can be mended to have their sum and moment right.
-constexpr float kNegligibleShare = 5e-4F;
+constexpr float kNegligibleShare = 1.5e-3F;
 constexpr std::size_t kLeastOfPart = 5;
 constexpr float kMostLowered = 1.0F / 64.0F;
 // What is seen edge-on counts like this share of its area.
@@ -81,7 +81,7 @@ class Viewer {
         limit *= kLimitFactor;
         is_raised = true;
       } else if (seen_.size() < counts_.least && !is_raised) {
-        limit /= kLimitFactor * kLimitFactor;
+        limit /= 2.0F;
       } else {
         return;
       }

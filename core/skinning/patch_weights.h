@@ -25,15 +25,14 @@ struct SeenPatch {
 // How many patches: at least and at most so many, where the mesh has them. Between, as many as it
 // takes that what the coarseness of none of them can matter is more than a limit.
 struct PatchCounts {
-  std::size_t least = 32;
+  std::size_t least = 64;
   std::size_t most = 128;
   std::size_t group = 12;
 };
 
 // Weights agree with MeanValueRawWeights, summed over each patch, to some percent of them:
 // triangles near the centre are summed exactly, farther ones as if they were in their vertices, far
-// ones as if they were in the middle of a small patch. O(counts.most * log n), about 5 us; up to
-// 50 us where the centre is near the surface.
+// ones as if they were in the middle of a small patch. O(counts.most * log n), some 25 us.
 [[nodiscard]] std::vector<SeenPatch> PatchesSeenFrom(const Eigen::Vector3d& center,
                                                      const SurfaceTree& tree,
                                                      const PatchCounts& counts);

@@ -1,5 +1,4 @@
 // core/skinning: weights of 64 centres in both forms, on one thread, and applying the sparse ones.
-// The sparse form must take a tenth of the dense one's time on meshes of usual size.
 #include <benchmark/benchmark.h>
 
 #include <vector>
