@@ -90,10 +90,10 @@ absl::StatusOr<CarriedSet> ReadCarried(const AnimateArguments& arguments) {
   CAPFIT_RETURN_IF_ERROR(CheckVertices(set.weights, soup));
   CAPFIT_RETURN_IF_ERROR(CheckBelongs(result, soup));
   if (result.spheres.size() != SphereCountOf(set.weights)) {
-    return InvalidField(ErrorReason::kContradictsBody, "WEIGHTS",
-                        absl::StrCat("are for ", SphereCountOf(set.weights),
-                                     " spheres, RESULT has ", result.spheres.size(),
-                                     "; fit again with --skinning"));
+    return InvalidField(
+        ErrorReason::kContradictsBody, "WEIGHTS",
+        absl::StrCat("are for ", SphereCountOf(set.weights), " spheres, RESULT has ",
+                     result.spheres.size(), "; fit again with --skinning"));
   }
   for (const geometry::Sphere& sphere : result.spheres) set.radii.push_back(sphere.radius_m);
   set.vertices = std::move(soup.positions);

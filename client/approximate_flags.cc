@@ -117,9 +117,10 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
       ->capture_default_str()
       ->group(kWhatToFit);
   AddBudget(command, options);
-  AddWordOption(command, "--skinning", options.skinning, SkinningWords(),
-                "What carries the centres when the body moves. sparse: weights of some 85 vertices each; "
-                "bones: of the file's joints; both in RESULT.json; dense: of all vertices, beside it")
+  AddWordOption(
+      command, "--skinning", options.skinning, SkinningWords(),
+      "What carries the centres when the body moves. sparse: weights of some 85 vertices each; "
+      "bones: of the file's joints; both in RESULT.json; dense: of all vertices, beside it")
       ->group(kOutput);
   command
       .add_flag("--heat-map", options.want_vertex_gaps,

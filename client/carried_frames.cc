@@ -133,9 +133,9 @@ absl::StatusOr<CarriedFrames> CarryAlong(const CarriedSet& set, std::istream& in
       vertices[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      joints[j] = Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(
-                      numbers.data() + 12 * j)
-                      .cast<double>();
+      joints[j] =
+          Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(numbers.data() + 12 * j)
+              .cast<double>();
     }
     carrier.IsBones() ? carrier.MoveJoints(joints) : carrier.MoveVertices(vertices);
   }
@@ -146,18 +146,17 @@ absl::StatusOr<CarriedFrames> CarryAlong(const CarriedSet& set, const formats::G
   const double frames = std::floor(clips.clips()[clip].length_s * fps + kFrameShare) + 1.0;
   if (!(frames <= static_cast<double>(kMostFrames))) {
     return InvalidField(ErrorReason::kTooLarge, "--fps",
-                        absl::StrCat("makes ", frames, " frames of ",
-                                     clips.clips()[clip].length_s, " s, must make at most ",
-                                     kMostFrames));
+                        absl::StrCat("makes ", frames, " frames of ", clips.clips()[clip].length_s,
+                                     " s, must make at most ", kMostFrames));
   }
   const ThreadPool pool(1);
   Carrier carrier(set, pool);
   for (std::size_t frame = 0; frame < static_cast<std::size_t>(frames); ++frame) {
     const std::vector<Placing> joints = clips.JointsAt(clip, static_cast<double>(frame) / fps);
     if (joints.size() != set.joints.size()) {
-      return InvalidField(ErrorReason::kContradictsBody, "BODY",
-                          absl::StrCat("has ", joints.size(), " joints, RESULT has ",
-                                       set.joints.size()));
+      return InvalidField(
+          ErrorReason::kContradictsBody, "BODY",
+          absl::StrCat("has ", joints.size(), " joints, RESULT has ", set.joints.size()));
     }
     carrier.MoveJoints(joints);
   }

@@ -26,9 +26,9 @@ using AnyWeights =
 struct CarriedSet {
   AnyWeights weights;
   std::vector<double> radii;
-  std::vector<Eigen::Vector3d> vertices;     // of the body at rest
-  std::vector<formats::NamedJoint> joints;   // at rest; those of bone weights
-  bool stretches_radii = false;              // see core/skinning/stretched_radii.h
+  std::vector<Eigen::Vector3d> vertices;    // of the body at rest
+  std::vector<formats::NamedJoint> joints;  // at rest; those of bone weights
+  bool stretches_radii = false;             // see core/skinning/stretched_radii.h
 };
 
 // In the unit of what moves.

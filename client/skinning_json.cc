@@ -96,8 +96,7 @@ absl::StatusOr<std::uint32_t> IndexBelow(const json& value, std::size_t end,
 absl::StatusOr<formats::NamedJoint> ParseJoint(const json& value, std::size_t joint_count,
                                                const std::string& field) {
   formats::NamedJoint joint;
-  CAPFIT_ASSIGN_OR_RETURN(const json* const to_mesh,
-                          ListAt(value, "to_mesh", field + ".", 12, 12));
+  CAPFIT_ASSIGN_OR_RETURN(const json* const to_mesh, ListAt(value, "to_mesh", field + ".", 12, 12));
   for (int i = 0; i < 12; ++i) {
     CAPFIT_ASSIGN_OR_RETURN(joint.to_mesh(i / 4, i % 4),
                             FiniteNumber((*to_mesh)[static_cast<std::size_t>(i)],
@@ -121,16 +120,14 @@ absl::Status ParseRow(const json& row, const char* name, std::size_t end, const 
                       std::vector<Index>& indices, std::vector<float>& weights) {
   CAPFIT_ASSIGN_OR_RETURN(const json* const entries,
                           ListAt(row, name, field + ".", 1, kMostVerticesOfResult));
-  CAPFIT_ASSIGN_OR_RETURN(
-      const json* const numbers,
-      ListAt(row, "weights", field + ".", entries->size(), entries->size()));
+  CAPFIT_ASSIGN_OR_RETURN(const json* const numbers,
+                          ListAt(row, "weights", field + ".", entries->size(), entries->size()));
   for (std::size_t i = 0; i < entries->size(); ++i) {
     CAPFIT_ASSIGN_OR_RETURN(
         const std::uint32_t index,
         IndexBelow((*entries)[i], end, absl::StrCat(field, ".", name, "[", i, "]")));
-    CAPFIT_ASSIGN_OR_RETURN(
-        const double weight,
-        FiniteNumber((*numbers)[i], absl::StrCat(field, ".weights[", i, "]")));
+    CAPFIT_ASSIGN_OR_RETURN(const double weight,
+                            FiniteNumber((*numbers)[i], absl::StrCat(field, ".weights[", i, "]")));
     indices.push_back(static_cast<Index>(index));
     weights.push_back(static_cast<float>(weight));
   }
@@ -146,8 +143,8 @@ absl::StatusOr<skinning::SparseWeights> ParseSparse(const json& value) {
                                      "sparse_weights.vertex_count"));
   for (std::size_t s = 0; s < rows->size(); ++s) {
     CAPFIT_RETURN_IF_ERROR(ParseRow((*rows)[s], "vertices", weights.vertex_count,
-                                    absl::StrCat("sparse_weights.rows[", s, "]"),
-                                    weights.vertices, weights.weights));
+                                    absl::StrCat("sparse_weights.rows[", s, "]"), weights.vertices,
+                                    weights.weights));
     weights.row_ends.push_back(static_cast<std::uint32_t>(weights.vertices.size()));
   }
   return weights;
@@ -160,8 +157,8 @@ absl::StatusOr<skinning::BoneWeights> ParseBones(const json& value, std::size_t 
                           ListAt(value, "rows", "bone_weights.", 0, kMostRows));
   for (std::size_t s = 0; s < rows->size(); ++s) {
     const std::string field = absl::StrCat("bone_weights.rows[", s, "]");
-    CAPFIT_RETURN_IF_ERROR(ParseRow((*rows)[s], "joints", joint_count, field, weights.joints,
-                                    weights.weights));
+    CAPFIT_RETURN_IF_ERROR(
+        ParseRow((*rows)[s], "joints", joint_count, field, weights.joints, weights.weights));
     const std::size_t count = weights.joints.size() - weights.offsets.size();
     CAPFIT_ASSIGN_OR_RETURN(const json* const offsets,
                             ListAt((*rows)[s], "offsets", field + ".", count, count));
@@ -172,8 +169,8 @@ absl::StatusOr<skinning::BoneWeights> ParseBones(const json& value, std::size_t 
       }
       Eigen::Vector3d offset;
       for (int axis = 0; axis < 3; ++axis) {
-        CAPFIT_ASSIGN_OR_RETURN(
-            offset[axis], FiniteNumber((*offsets)[i][static_cast<std::size_t>(axis)], path));
+        CAPFIT_ASSIGN_OR_RETURN(offset[axis],
+                                FiniteNumber((*offsets)[i][static_cast<std::size_t>(axis)], path));
       }
       weights.offsets.push_back(offset);
     }

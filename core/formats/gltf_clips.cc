@@ -137,9 +137,9 @@ class GltfClipsReader {
     for (std::size_t i = 0; i < times.count(); ++i) {
       const double time = times.At(i, 0);
       if (!(time >= before) || !std::isfinite(time)) {
-        return FileError(ErrorReason::kOutOfOrder, place,
-                         absl::StrCat("its key ", i, " is at ", time, " s, must not be before ",
-                                      before, " s"));
+        return FileError(
+            ErrorReason::kOutOfOrder, place,
+            absl::StrCat("its key ", i, " is at ", time, " s, must not be before ", before, " s"));
       }
       channel.times_s.push_back(time);
       before = time;

@@ -115,8 +115,7 @@ std::optional<std::string_view> Base64Of(std::string_view uri) {
 absl::StatusOr<GltfFile> GltfFile::Open(std::span<const std::byte> bytes, GltfContent content) {
   GltfFile file;
   const bool is_text = AsText(bytes).substr(0, 4) != "glTF" && LooksLikeGltfText(AsText(bytes));
-  CAPFIT_RETURN_IF_ERROR(is_text ? file.OpenText(bytes, content)
-                                 : file.OpenChunks(bytes, content));
+  CAPFIT_RETURN_IF_ERROR(is_text ? file.OpenText(bytes, content) : file.OpenChunks(bytes, content));
   CAPFIT_RETURN_IF_ERROR(CheckVersion(file.json_));
   CAPFIT_RETURN_IF_ERROR(CheckRequiredExtensions(file.json_));
   CAPFIT_RETURN_IF_ERROR(file.UnpackBuffers());

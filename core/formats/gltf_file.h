@@ -27,8 +27,8 @@ class GltfFile {
   // written in it as base64. INVALID_ARGUMENT says what is wrong; an extension that the file calls
   // required and that changes its geometry in a way not read here is refused by name
   // (UNSUPPORTED_FILE). Keeps a view of `bytes`.
-  [[nodiscard]] static absl::StatusOr<GltfFile> Open(
-      std::span<const std::byte> bytes, GltfContent content = GltfContent::kStill);
+  [[nodiscard]] static absl::StatusOr<GltfFile> Open(std::span<const std::byte> bytes,
+                                                     GltfContent content = GltfContent::kStill);
 
   GltfFile(GltfFile&&) = default;
   GltfFile& operator=(GltfFile&&) = default;

@@ -19,8 +19,8 @@ namespace capfit::formats {
 enum class GltfContent : std::uint8_t { kStill, kAnimated };
 
 // The object that the text describes, without images and extras, which may be large, without
-// animations unless they are what the file is read for, of materials only the names, of the file's own extensions only VRM's table of human bones; nothing
-// where it is no JSON object. O(text).
+// animations unless they are what the file is read for, of materials only the names, of the file's
+// own extensions only VRM's table of human bones; nothing where it is no JSON object. O(text).
 //
 // Not json::parse with a callback: that searches the whole array again for each of its elements.
 [[nodiscard]] std::optional<nlohmann::json> ParseGltfJson(

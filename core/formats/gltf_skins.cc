@@ -103,8 +103,13 @@ class SkeletonReader {
                        absl::StrCat("its joint node ", node, " stands nowhere"));
     }
     joint = static_cast<std::int32_t>(skeleton_.joints.size());
-    skeleton_.joints.push_back({NameAt(json_[node], "name"), position, -1, {}, to_mesh,
-                                static_cast<std::int32_t>(node), to_mesh});
+    skeleton_.joints.push_back({NameAt(json_[node], "name"),
+                                position,
+                                -1,
+                                {},
+                                to_mesh,
+                                static_cast<std::int32_t>(node),
+                                to_mesh});
     has_bind_.push_back(0);
     return joint;
   }
@@ -135,14 +140,13 @@ class SkeletonReader {
     return absl::OkStatus();
   }
 
-  // Skins may have their vertices in different spaces: a joint that an earlier skin has told of says
-  // how this one's lies in the first one's.
+  // Skins may have their vertices in different spaces: a joint that an earlier skin has told of
+  // says how this one's lies in the first one's.
   void TakeBinds(const GltfSkin& skin, const std::vector<Eigen::Matrix4d>& inverse_binds) {
     Eigen::Matrix4d first_from_here = Eigen::Matrix4d::Identity();
     for (std::size_t j = 0; j < skin.joints.size(); ++j) {
       if (has_bind_[skin.joints[j]] == 0 || !IsPlacing(inverse_binds[j].topRows<3>())) continue;
-      first_from_here.topRows<3>() =
-          skeleton_.joints[skin.joints[j]].bind * inverse_binds[j];
+      first_from_here.topRows<3>() = skeleton_.joints[skin.joints[j]].bind * inverse_binds[j];
       break;
     }
     for (std::size_t j = 0; j < skin.joints.size(); ++j) {

@@ -16,7 +16,8 @@
 
 namespace capfit::formats {
 
-// Whether the way from where a vertex is stored to where it is drawn leaves a body a body: zeros are common where an exporter knew no bind pose.
+// Whether the way from where a vertex is stored to where it is drawn leaves a body a body: zeros
+// are common where an exporter knew no bind pose.
 [[nodiscard]] bool IsPlacing(const Placing& placing);
 
 struct GltfSkin {

@@ -49,7 +49,8 @@ enum class FitMode { kEnclose, kBestFit };
 // kPaper: the published method, its coverage step replaced by a better one. kTight: centres, radii
 // and topology found together (core/refine), under the same budget.
 enum class Quality { kPaper, kTight };
-// What carries the centres along: a weight of every vertex; of few vertices; of the skeleton's joints.
+// What carries the centres along: a weight of every vertex; of few vertices; of the skeleton's
+// joints.
 enum class SkinningMode { kNone, kDense, kSparse, kBones };
 
 // How much may be spent. At most one of the three ways: max_primitives; max_spheres and/or

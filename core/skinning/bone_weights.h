@@ -14,10 +14,10 @@
 
 namespace capfit::skinning {
 
-// Row after row: sphere s has the entries from row_ends[s - 1] (0 for the first) to row_ends[s]. Its
-// centre is the sum of weight * to_mesh(joint) * offset, where to_mesh leads from the joint's own
-// frame, as it now stands, to the mesh's: at rest exactly (to 1e-9 of the mesh's unit) the fitted
-// centre. The weights of a row sum to 1; a few may be negative.
+// Row after row: sphere s has the entries from row_ends[s - 1] (0 for the first) to row_ends[s].
+// Its centre is the sum of weight * to_mesh(joint) * offset, where to_mesh leads from the joint's
+// own frame, as it now stands, to the mesh's: at rest exactly (to 1e-9 of the mesh's unit) the
+// fitted centre. The weights of a row sum to 1; a few may be negative.
 struct BoneWeights {
   std::size_t joint_count = 0;
   std::vector<std::uint32_t> row_ends;
@@ -31,12 +31,12 @@ struct BoneWeights {
   }
 };
 
-// Joints with less of a centre than this are left out, and the others moved to make up for it.
+// What joints with less of a centre than this have is handed on to the joint above them.
 inline constexpr double kLeastBoneWeight = 1e-3;
 
 // The sparse rows carried over to the joints that hold their vertices: for a body that moves by
 // linear blend skinning with the soup's joints and influences the centres are where `sparse` puts
-// them, but for what joints below kLeastBoneWeight would do, in any pose. A vertex that no joint
+// them, but for what joints below kLeastBoneWeight would do by themselves, in any pose. A vertex that no joint
 // holds moves with the nearest one that some do. `centers` and the soup are in the mesh's frame.
 // Nothing where no vertex of the soup has a joint that could carry. O(weights + vertices).
 [[nodiscard]] std::optional<BoneWeights> BonesOfSparse(const SparseWeights& sparse,

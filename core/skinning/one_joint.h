@@ -15,11 +15,13 @@ namespace capfit::skinning {
 
 // The drift of a sphere on a joint: how far its centre is from where the bone weights put it when
 // any one of the skeleton's joints turns by 30 degrees about its own position (with all that hangs
-// below it), the worst joint and axis. In the mesh's unit; 0 where one joint alone holds the sphere.
+// below it), the worst joint and axis. In the mesh's unit; 0 where one joint alone holds the
+// sphere.
 struct OneJoint {
-  std::vector<std::int32_t> of_sphere;   // the joint of least drift
-  std::vector<double> sphere_drift;      // its drift
-  std::vector<std::int32_t> of_capsule;  // the joint of which the larger drift of both ends is least
+  std::vector<std::int32_t> of_sphere;  // the joint of least drift
+  std::vector<double> sphere_drift;     // its drift
+  std::vector<std::int32_t>
+      of_capsule;  // the joint of which the larger drift of both ends is least
 };
 
 // `joints` are those that the weights are for, at rest; each parent's index may be any but lead to

@@ -298,14 +298,14 @@ class Viewer {
   const PatchCounts& counts_;
   std::vector<SeenPatch> seen_;
   std::vector<const SurfacePatch*> patches_;  // of each; null for a single point
-  Eigen::Array4f relative_;  // the centre, relative to the tree's origin, and a 0
-  Eigen::Array4f sums_;      // of weight * (place, 1)
-  std::vector<std::uint32_t> near_;  // vertices
+  Eigen::Array4f relative_;                   // the centre, relative to the tree's origin, and a 0
+  Eigen::Array4f sums_;                       // of weight * (place, 1)
+  std::vector<std::uint32_t> near_;           // vertices
   // Of near triangles those that wait to be weighed together.
   std::array<mesh::Triangle, kLanes> triangles_;
   std::array<std::array<Eigen::Vector3d, 3>, kLanes> corners_;
   std::size_t triangle_count_ = 0;
-  float sizes_ = 0.0F;  // roughly the sum of the weights' sizes
+  float sizes_ = 0.0F;             // roughly the sum of the weights' sizes
   std::optional<SurfaceHit> hit_;  // the first triangle or vertex that the centre touches
 };
 

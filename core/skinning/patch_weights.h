@@ -1,5 +1,5 @@
-// What a centre sees of a surface, in a few patches: the mean value weight of each of them and where
-// in the patch it lies.
+// What a centre sees of a surface, in a few patches: the mean value weight of each of them and
+// where in the patch it lies.
 #ifndef CAPFIT_CORE_SKINNING_PATCH_WEIGHTS_H_
 #define CAPFIT_CORE_SKINNING_PATCH_WEIGHTS_H_
 
@@ -18,7 +18,7 @@ struct SeenPatch {
   std::uint32_t end = 0;
   std::uint32_t group = 0;  // the same for neighbours in the tree, PatchCounts::group at most
   std::uint32_t part = 0;   // the same for all of a part of the body; groups lie within one
-  double weight = 0.0;  // sum of the weights of its vertices, not divided by that of all
+  double weight = 0.0;      // sum of the weights of its vertices, not divided by that of all
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // the same of weight * (vertex - centre)
 };
 

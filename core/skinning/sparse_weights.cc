@@ -33,7 +33,8 @@ class SparseCarriers {
     const std::span<const std::int32_t> of_source =
         carriers ? carriers->carrier_of_source : mesh.vertex_of_source();
     for (std::size_t s = of_source.size(); s-- > 0;) {
-      if (of_source[s] >= 0) source_[static_cast<std::size_t>(of_source[s])] = static_cast<std::int32_t>(s);
+      if (of_source[s] >= 0)
+        source_[static_cast<std::size_t>(of_source[s])] = static_cast<std::int32_t>(s);
     }
   }
 
@@ -76,8 +77,9 @@ std::vector<double> GroupShares(std::span<const Entry> entries) {
   return shares;
 }
 
-// The same for a whole part of the body, or row: less where it is farther than the weights' mean distance, else long
-// levers would do all of it, and a little weight on a far part of the body moves the centre much.
+// The same for a whole part of the body, or row: less where it is farther than the weights' mean
+// distance, else long levers would do all of it, and a little weight on a far part of the body
+// moves the centre much.
 std::vector<double> RowShares(std::span<const Entry> entries) {
   double sizes = 0.0;
   double distances = 0.0;

@@ -19,8 +19,8 @@ namespace capfit::skinning {
 
 // Row after row: sphere s has the entries from row_ends[s - 1] (0 for the first) to row_ends[s].
 // The weights of a row sum to 1 and reproduce the sphere's centre from the rest vertices, both to
-// 1e-9 (of the unit) when added up in double; of a mesh of a few dozen vertices to 1e-6 of its size.
-// They may be negative.
+// 1e-9 (of the unit) when added up in double; of a mesh of a few dozen vertices to 1e-6 of its
+// size. They may be negative.
 struct SparseWeights {
   std::size_t vertex_count = 0;  // the caller's vertices, in the caller's order
   std::vector<std::uint32_t> row_ends;
@@ -45,9 +45,9 @@ inline constexpr std::size_t kLeastSparseWeights = 64;
 //
 // `parts`: for each of the mesh's vertices which part of the body it belongs to, below 16 (patches
 // keep them apart, which matters where an arm is near the trunk); empty: nobody knows. `mesh` and
-// `carriers` as in MeanValueWeights; of welded copies one carries. O(vertices + centres log n): some
-// 0.08 us a vertex and 40 us a centre. Every row depends on its own centre only, and its bits on
-// nothing else. Cancelled: rows not reached are empty.
+// `carriers` as in MeanValueWeights; of welded copies one carries. O(vertices + centres log n):
+// some 0.08 us a vertex and 40 us a centre. Every row depends on its own centre only, and its bits
+// on nothing else. Cancelled: rows not reached are empty.
 [[nodiscard]] SparseWeights SparseMeanValueWeights(const mesh::BodyMesh& mesh,
                                                    std::span<const Eigen::Vector3d> centers_m,
                                                    const ThreadPool& pool,

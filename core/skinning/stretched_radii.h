@@ -13,8 +13,8 @@
 
 namespace capfit::skinning {
 
-// A radius stays within these shares of what it is at rest: beyond, a weight's error shows more than
-// the body's stretch.
+// A radius stays within these shares of what it is at rest: beyond, a weight's error shows more
+// than the body's stretch.
 inline constexpr double kLeastStretch = 0.8;
 inline constexpr double kMostStretch = 1.25;
 

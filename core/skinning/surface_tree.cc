@@ -8,10 +8,10 @@
 namespace capfit::skinning {
 namespace {
 
-// Vertices are put in order by the halvings of a box around the mesh: nine times along each axis, to
-// some 3 mm on a body. In the last three the normal's components are halved as well, so that opposite
-// normals count like places some 3 cm apart. Before all that they are put in order by part: else
-// patches between arm and trunk would hold skin of both.
+// Vertices are put in order by the halvings of a box around the mesh: nine times along each axis,
+// to some 3 mm on a body. In the last three the normal's components are halved as well, so that
+// opposite normals count like places some 3 cm apart. Before all that they are put in order by
+// part: else patches between arm and trunk would hold skin of both.
 constexpr int kPartBits = 4;
 constexpr int kPlaceBits = 9;
 constexpr int kNormalBits = 3;
@@ -62,8 +62,8 @@ std::vector<Eigen::Array4f> SharesOf(const mesh::BodyMesh& mesh) {
   std::vector<Eigen::Array4f> shares(mesh.vertices().size(), Eigen::Array4f::Zero());
   for (const mesh::Triangle& t : mesh.triangles()) {
     const Eigen::Vector3d& a = mesh.vertices()[t[0]];
-    const Eigen::Vector3f third = ((mesh.vertices()[t[1]] - a).cross(mesh.vertices()[t[2]] - a) *
-                                   (1.0 / 6.0)).cast<float>();
+    const Eigen::Vector3f third =
+        ((mesh.vertices()[t[1]] - a).cross(mesh.vertices()[t[2]] - a) * (1.0 / 6.0)).cast<float>();
     Eigen::Array4f share;
     share << third, third.norm();
     for (const std::uint32_t v : t) shares[v] += share;
@@ -81,7 +81,8 @@ std::vector<std::uint64_t> KeysOf(const mesh::BodyMesh& mesh,
   std::vector<std::uint64_t> keys(shares.size());
   for (std::size_t v = 0; v < keys.size(); ++v) {
     const float area = shares[v][3];
-    const Eigen::Array4f normal = shares[v] * (area > 0.0F ? kHalfNormals / area : 0.0F) + kHalfNormals;
+    const Eigen::Array4f normal =
+        shares[v] * (area > 0.0F ? kHalfNormals / area : 0.0F) + kHalfNormals;
     const Eigen::Array4f place = Relative(mesh.vertices()[v], mesh.box_min()) * per_place;
     const std::uint64_t part = parts.empty() ? 0 : parts[v];
     keys[v] = (part << 3 * (kPlaceBits + kNormalBits) | KeyOf(place, normal)) << kIndexBits | v;

@@ -15,7 +15,8 @@
 
 namespace capfit::skinning {
 
-// Vertices of one part of the body that lie together and face alike. Floats: weights that are made of them are mended afterwards.
+// Vertices of one part of the body that lie together and face alike. Floats: weights that are made
+// of them are mended afterwards.
 struct SurfacePatch {
   // Area-weighted mean of its vertices, relative to SurfaceTree::origin(), and a 1.
   Eigen::Array4f middle = Eigen::Array4f(0.0F, 0.0F, 0.0F, 1.0F);

@@ -39,16 +39,16 @@ template <typename Wire, typename Weights>
 absl::Status RowsFromWire(const Wire& wire, std::size_t sphere_count, int indices,
                           Weights& weights) {
   if (static_cast<std::size_t>(wire.row_sizes_size()) != sphere_count) {
-    return Bad("skinning.row_sizes", absl::StrCat("has ", wire.row_sizes_size(),
-                                                  " entries, must have ", sphere_count));
+    return Bad("skinning.row_sizes",
+               absl::StrCat("has ", wire.row_sizes_size(), " entries, must have ", sphere_count));
   }
   std::int64_t end = 0;
   for (int s = 0; s < wire.row_sizes_size(); ++s) {
     end += wire.row_sizes(s);
     if (wire.row_sizes(s) < 0 || end > wire.weights_size()) {
-      return Bad(absl::StrCat("skinning.row_sizes[", s, "]"),
-                 absl::StrCat("is ", wire.row_sizes(s), ", beyond the ", wire.weights_size(),
-                              " weights"));
+      return Bad(
+          absl::StrCat("skinning.row_sizes[", s, "]"),
+          absl::StrCat("is ", wire.row_sizes(s), ", beyond the ", wire.weights_size(), " weights"));
     }
     weights.row_ends.push_back(static_cast<std::uint32_t>(end));
   }
@@ -87,9 +87,9 @@ absl::StatusOr<skinning::BoneWeights> BonesFromWire(const v1::SkinningChunk& chu
   weights.joint_count = joint_count;
   CAPFIT_RETURN_IF_ERROR(RowsFromWire(wire, sphere_count, wire.joints_size(), weights));
   if (wire.offsets_size() != 3 * wire.joints_size()) {
-    return Bad("skinning.bones.offsets", absl::StrCat("has ", wire.offsets_size(),
-                                                      " numbers, must have ",
-                                                      3 * wire.joints_size()));
+    return Bad(
+        "skinning.bones.offsets",
+        absl::StrCat("has ", wire.offsets_size(), " numbers, must have ", 3 * wire.joints_size()));
   }
   for (int i = 0; i < wire.joints_size(); ++i) {
     if (wire.joints(i) < 0 || static_cast<std::size_t>(wire.joints(i)) >= joint_count) {
@@ -106,8 +106,8 @@ absl::StatusOr<skinning::BoneWeights> BonesFromWire(const v1::SkinningChunk& chu
 absl::StatusOr<formats::NamedJoint> JointFromWire(const v1::Joint& wire, int joint_count,
                                                   const std::string& field) {
   if (wire.to_mesh_size() != kPlacingNumbers) {
-    return Bad(field + ".to_mesh", absl::StrCat("has ", wire.to_mesh_size(), " numbers, must have ",
-                                                kPlacingNumbers));
+    return Bad(field + ".to_mesh",
+               absl::StrCat("has ", wire.to_mesh_size(), " numbers, must have ", kPlacingNumbers));
   }
   if (wire.has_parent() && (wire.parent() < 0 || wire.parent() >= joint_count)) {
     return IndexOutOfRange(field + ".parent", wire.parent(), joint_count);
@@ -141,8 +141,7 @@ std::optional<v1::SkinningChunk> FewWeightsToWire(const pipeline::FitResult& res
   }
   if (!result.bone_weights) return std::nullopt;
   const skinning::BoneWeights& weights = *result.bone_weights;
-  v1::SkinningChunk wire =
-      ChunkOf(weights, static_cast<std::size_t>(result.body.vertex_count));
+  v1::SkinningChunk wire = ChunkOf(weights, static_cast<std::size_t>(result.body.vertex_count));
   RowsToWire(weights, *wire.mutable_bones());
   wire.mutable_bones()->mutable_joints()->Add(weights.joints.begin(), weights.joints.end());
   for (const Eigen::Vector3d& offset : weights.offsets) {

@@ -45,8 +45,7 @@ void BM_Dense(benchmark::State& state) {
   const ThreadPool pool(1);
   const NullObserver observer;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        MeanValueWeights(subject.body.mesh, subject.centers, pool, observer));
+    benchmark::DoNotOptimize(MeanValueWeights(subject.body.mesh, subject.centers, pool, observer));
   }
 }
 
@@ -55,8 +54,8 @@ void BM_Sparse(benchmark::State& state) {
   const ThreadPool pool(1);
   const NullObserver observer;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(SparseMeanValueWeights(subject.body.mesh, subject.centers, pool,
-                                                    observer, subject.parts));
+    benchmark::DoNotOptimize(
+        SparseMeanValueWeights(subject.body.mesh, subject.centers, pool, observer, subject.parts));
   }
 }
 

@@ -72,9 +72,8 @@ TEST(CarryAlongTest, NamesTheFrameThatIsWrong) {
   EXPECT_THAT(error(OfVertices(), {}), HasSubstr("frames is empty"));
   EXPECT_THAT(error(OfVertices(), {0, 0, 0, 0, 0, 0, 1}),
               HasSubstr("frames[1] has 4 bytes, must have 24"));
-  EXPECT_THAT(
-      error(OfVertices(), {0, 0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0}),
-      HasSubstr("frames[0][1] must be finite"));
+  EXPECT_THAT(error(OfVertices(), {0, 0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0}),
+              HasSubstr("frames[0][1] must be finite"));
   EXPECT_THAT(error(OfBones(), {1, 2}), HasSubstr("must have 48"));
 }
 

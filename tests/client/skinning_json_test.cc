@@ -84,7 +84,9 @@ TEST(SkinningJson, NamesTheMemberThatIsWrong) {
   EXPECT_THAT(error([](json& r) { r["sparse_weights"] = 1; }), HasSubstr("sparse_weights.rows"));
   EXPECT_THAT(error([](json& r) { r["bone_weights"]["rows"][1]["joints"][0] = "x"; }),
               HasSubstr("bone_weights.rows[1].joints[0]"));
-  EXPECT_THAT(error([](json& r) { r["bone_weights"]["rows"][1]["offsets"][0] = {1, 2}; }),
+  EXPECT_THAT(error([](json& r) {
+                r["bone_weights"]["rows"][1]["offsets"][0] = {1, 2};
+              }),
               HasSubstr("bone_weights.rows[1].offsets[0] must be three numbers"));
   EXPECT_THAT(error([](json& r) { r["bone_weights"]["rows"][0]["weights"][0] = nullptr; }),
               HasSubstr("bone_weights.rows[0].weights[0] must be a finite number"));

@@ -159,9 +159,9 @@ TEST(SkinningConversion, NamesWhatDoesNotFitTogether) {
   EXPECT_THAT(
       error(WithBones(), [](auto& w) { w.mutable_primitives()->mutable_joints(2)->set_parent(3); }),
       HasSubstr("joints[2].parent"));
-  EXPECT_THAT(
-      error(WithBones(), [](auto& w) { w.mutable_primitives()->mutable_joints(2)->add_to_mesh(3); }),
-      HasSubstr("joints[2].to_mesh"));
+  EXPECT_THAT(error(WithBones(),
+                    [](auto& w) { w.mutable_primitives()->mutable_joints(2)->add_to_mesh(3); }),
+              HasSubstr("joints[2].to_mesh"));
 }
 
 }  // namespace

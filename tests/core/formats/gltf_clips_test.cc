@@ -52,9 +52,8 @@ class Animated {
  private:
   std::size_t Accessor(const std::vector<float>& numbers, const std::string& type,
                        std::size_t count) {
-    gltf_["bufferViews"].push_back({{"buffer", 0},
-                                    {"byteOffset", binary_.size()},
-                                    {"byteLength", 4 * numbers.size()}});
+    gltf_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", 4 * numbers.size()}});
     binary_ += PackedBytes(numbers);
     gltf_["buffers"][0]["byteLength"] = binary_.size();
     gltf_["accessors"].push_back({{"bufferView", gltf_["bufferViews"].size() - 1},

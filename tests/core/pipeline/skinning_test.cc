@@ -141,10 +141,10 @@ std::vector<Vector3d> Skinned(const PolygonSoup& soup, const std::vector<Placing
       at_rest += weight * rest[soup.influences[v].joint[k]];
       at_now += weight * now[soup.influences[v].joint[k]];
     }
-    moved.push_back(at_rest(3, 3) < 0.5 ? soup.positions[v]
-                                        : Vector3d((at_now * at_rest.inverse() *
-                                                    soup.positions[v].homogeneous())
-                                                       .head<3>()));
+    moved.push_back(
+        at_rest(3, 3) < 0.5
+            ? soup.positions[v]
+            : Vector3d((at_now * at_rest.inverse() * soup.positions[v].homogeneous()).head<3>()));
   }
   return moved;
 }

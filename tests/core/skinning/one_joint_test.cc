@@ -59,13 +59,15 @@ double DriftByTrying(int on, const BoneWeights& weights) {
     for (int trial = 0; trial < 3000; ++trial) {
       const Vector3d axis(random.NextIn(-1, 1), random.NextIn(-1, 1), random.NextIn(-1, 1));
       Eigen::Affine3d turn = Eigen::Affine3d::Identity();
-      turn.translate(about).rotate(
-          Eigen::AngleAxisd(std::numbers::pi / 6, axis.normalized())).translate(-about);
+      turn.translate(about)
+          .rotate(Eigen::AngleAxisd(std::numbers::pi / 6, axis.normalized()))
+          .translate(-about);
       std::vector<Placing> now = rest;
       for (int j = 0; j < 5; ++j) {
         Eigen::Affine3d frame = Eigen::Affine3d::Identity();
         frame.matrix().topRows<3>() = rest[static_cast<std::size_t>(j)];
-        if (hangs(j, turned)) now[static_cast<std::size_t>(j)] = (turn * frame).matrix().topRows<3>();
+        if (hangs(j, turned))
+          now[static_cast<std::size_t>(j)] = (turn * frame).matrix().topRows<3>();
       }
       const Vector3d carried = hangs(on, turned) ? Vector3d(turn * center) : center;
       worst = std::max(worst, (Apply(weights, now)[0] - carried).norm());

@@ -69,8 +69,7 @@ TEST(SurfaceTreeTest, PatchesAreTheSumsOfTheirVertices) {
   for (std::size_t i = 0; i < tree.order().size(); ++i) {
     seen[tree.order()[i]] = true;
     EXPECT_EQ(tree.PlaceOf(tree.order()[i]), i);
-    EXPECT_EQ(mesh::StartOf(ball.triangles(), tree.HalfEdgeFrom(tree.order()[i])),
-              tree.order()[i]);
+    EXPECT_EQ(mesh::StartOf(ball.triangles(), tree.HalfEdgeFrom(tree.order()[i])), tree.order()[i]);
   }
   EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](bool one) { return one; }));
   // The one part first, then the other, none of whose patches mix.

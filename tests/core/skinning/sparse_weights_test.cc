@@ -100,8 +100,7 @@ TEST(SparseMeanValueWeightsTest, ReproducesCentresThatTouchTheSurface) {
 
 // A bent bar: dense and sparse rows carry the centres alike.
 TEST(SparseMeanValueWeightsTest, CarriesAsTheDenseFormDoes) {
-  const mesh::BodyMesh bar =
-      test_shapes::Capsule({{0, 0, 0}, 0.08}, {{0, 0, 1.2}, 0.1}, 60, 12);
+  const mesh::BodyMesh bar = test_shapes::Capsule({{0, 0, 0}, 0.08}, {{0, 0, 1.2}, 0.1}, 60, 12);
   std::vector<Vector3d> centers;
   for (double z = 0.0; z <= 1.2; z += 0.1) centers.emplace_back(0.01, -0.02, z);
   const DenseWeights dense = MeanValueWeights(bar, centers, One(), NullObserver());
@@ -171,8 +170,8 @@ TEST(SparseMeanValueWeightsTest, CarriersStandInForTheMesh) {
   std::vector<Vector3d> callers;
   for (const std::int32_t s : sources) callers.push_back(shell[static_cast<std::size_t>(s)]);
   const std::vector<Vector3d> centers = {{0.3, 0.2, -0.1}, {0.0, -0.8, 0.2}};
-  const SparseWeights weights = SparseMeanValueWeights(
-      solid, centers, One(), NullObserver(), {}, Carriers{shell, nearest, sources});
+  const SparseWeights weights = SparseMeanValueWeights(solid, centers, One(), NullObserver(), {},
+                                                       Carriers{shell, nearest, sources});
   EXPECT_EQ(weights.vertex_count, callers.size());
   ExpectSoundRows(weights, centers, callers, 1e-9);
 }
@@ -183,8 +182,7 @@ TEST(SparseMeanValueWeightsTest, PartsAreKeptApart) {
   std::vector<std::uint8_t> parts;
   for (const Vector3d& p : box.vertices()) parts.push_back(p.x() < 0.5 ? 3 : 12);
   const std::vector<Vector3d> center = {{0.4, 0.5, 0.5}};
-  const SparseWeights weights =
-      SparseMeanValueWeights(box, center, One(), NullObserver(), parts);
+  const SparseWeights weights = SparseMeanValueWeights(box, center, One(), NullObserver(), parts);
   ExpectSoundRows(weights, center, VerticesOf(box), 1e-9);
   const DenseWeights dense = MeanValueWeights(box, center, One(), NullObserver());
   double of_sparse = 0.0;
@@ -207,9 +205,9 @@ TEST(SparseMeanValueWeightsTest, SameBitsForAnyThreadsAndCompany) {
     EXPECT_EQ(other.weights, together.weights);
   }
   const SparseWeights alone = Sparse(ball, {centers[7]});
-  EXPECT_TRUE(std::equal(alone.weights.begin(), alone.weights.end(),
-                         together.weights.begin() + static_cast<std::ptrdiff_t>(
-                                                        together.RowBegin(7))));
+  EXPECT_TRUE(
+      std::equal(alone.weights.begin(), alone.weights.end(),
+                 together.weights.begin() + static_cast<std::ptrdiff_t>(together.RowBegin(7))));
 }
 
 TEST(SparseMeanValueWeightsTest, NoCentresGiveNoRows) {

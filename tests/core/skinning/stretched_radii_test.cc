@@ -23,8 +23,7 @@ class StretchTest : public testing::Test {
     for (const Vector3d& p : rest_) now.emplace_back(scale * p + Vector3d(7, 8, 9));
     const std::vector<Vector3d> rest_centers = Apply(sparse_, rest_);
     const std::vector<Vector3d> now_centers = Apply(sparse_, now);
-    std::vector<double> factors =
-        Stretch(sparse_, {rest_, rest_centers}, {now, now_centers});
+    std::vector<double> factors = Stretch(sparse_, {rest_, rest_centers}, {now, now_centers});
     for (const double factor : Stretch(dense_, {rest_, rest_centers}, {now, now_centers})) {
       factors.push_back(factor);
     }
