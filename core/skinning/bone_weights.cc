@@ -6,7 +6,10 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "core/mesh/nearest_vertex.h"
 #include "core/skinning/linear_precision.h"
@@ -150,6 +153,43 @@ std::map<std::uint16_t, Share> SharesOf(const SparseWeights& sparse, std::size_t
   return shares;
 }
 
+// How many joints are above it.
+std::size_t DepthOf(std::uint16_t joint, std::span<const NamedJoint> joints) {
+  std::size_t depth = 0;
+  for (std::int32_t above = joints[joint].parent; above >= 0 && depth < joints.size(); ++depth) {
+    above = joints[static_cast<std::size_t>(above)].parent;
+  }
+  return depth;
+}
+
+// Hands what joints below kLeastBoneWeight have on to the joint above them, with which they mostly
+// move: fingers to the hand. The lowest first.
+void HandOnSmall(std::map<std::uint16_t, Share>& shares, std::span<const NamedJoint> joints,
+                 const Holders& holders) {
+  std::set<std::pair<std::size_t, std::uint16_t>> lowest_last;
+  for (const auto& [joint, share] : shares) lowest_last.emplace(DepthOf(joint, joints), joint);
+  while (!lowest_last.empty()) {
+    const std::uint16_t joint = lowest_last.rbegin()->second;
+    lowest_last.erase(std::prev(lowest_last.end()));
+    const std::int32_t above = joints[joint].parent;
+    const Share share = shares[joint];
+    if (std::abs(share.weight) >= kLeastBoneWeight || above < 0) continue;
+    const auto parent = static_cast<std::uint16_t>(above);
+    if (!holders.carrier(parent).may_carry) continue;
+    const Placing to_parent =
+        Product(Inverse(holders.carrier(parent).to_mesh), holders.carrier(joint).to_mesh);
+    shares.erase(joint);
+    const bool is_new = !shares.contains(parent);
+    shares[parent].weight += share.weight;
+    shares[parent].moment +=
+        to_parent.leftCols<3>() * share.moment + share.weight * to_parent.col(3);
+    // (A ring of parents comes to its end: each joint is looked at once more at most.)
+    if (is_new && DepthOf(parent, joints) < DepthOf(joint, joints)) {
+      lowest_last.emplace(DepthOf(parent, joints), parent);
+    }
+  }
+}
+
 // Only those that matter; at least the one with the most.
 void DropSmall(std::map<std::uint16_t, Share>& shares) {
   const auto is_less = [](const auto& a, const auto& b) {
@@ -200,6 +240,7 @@ std::optional<BoneWeights> BonesOfSparse(const SparseWeights& sparse,
   for (std::size_t s = 0; s < sparse.sphere_count(); ++s) {
     std::map<std::uint16_t, Share> shares = SharesOf(sparse, s, soup, holders);
     if (shares.empty()) return std::nullopt;  // cancelled
+    HandOnSmall(shares, soup.joints, holders);
     DropSmall(shares);
     AppendRow(shares, centers[s], holders, result);
   }

@@ -31,12 +31,12 @@ struct BoneWeights {
   }
 };
 
-// Joints with less of a centre than this are left out, and the others moved to make up for it.
+// What joints with less of a centre than this have is handed on to the joint above them.
 inline constexpr double kLeastBoneWeight = 1e-3;
 
 // The sparse rows carried over to the joints that hold their vertices: for a body that moves by
 // linear blend skinning with the soup's joints and influences the centres are where `sparse` puts
-// them, but for what joints below kLeastBoneWeight would do, in any pose. A vertex that no joint
+// them, but for what joints below kLeastBoneWeight would do by themselves, in any pose. A vertex that no joint
 // holds moves with the nearest one that some do. `centers` and the soup are in the mesh's frame.
 // Nothing where no vertex of the soup has a joint that could carry. O(weights + vertices).
 [[nodiscard]] std::optional<BoneWeights> BonesOfSparse(const SparseWeights& sparse,

@@ -100,6 +100,10 @@ std::vector<double> RowShares(std::span<const Entry> entries) {
 // moment is `moment`; with stiffness, only nearly.
 void Mend(std::span<Entry> entries, const std::vector<double>& shares, double weight,
           const Eigen::Vector3d& moment, double stiffness) {
+  if (entries.size() == 1) {
+    entries.front().weight = weight;
+    return;
+  }
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Entry& entry : entries) middle += entry.offset;
   middle /= static_cast<double>(entries.size());

@@ -38,7 +38,7 @@ struct SurfacePatch {
 class SurfaceTree {
  public:
   // `parts`: for each vertex which part of the body it belongs to, below 16; patches keep them
-  // apart. Empty: nobody knows. The mesh must outlive the tree. O(n): some 0.05 us a vertex.
+  // apart. Empty: nobody knows. The mesh must outlive the tree. O(n): some 0.08 us a vertex.
   SurfaceTree(const mesh::BodyMesh& mesh, std::span<const std::uint8_t> parts);
 
   [[nodiscard]] const mesh::BodyMesh& mesh() const { return mesh_; }

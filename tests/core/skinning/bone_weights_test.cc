@@ -148,16 +148,31 @@ TEST(BonesOfSparseTest, SmallSharesAreLeftOutAndTheRestCentreStaysExact) {
   Rigged rigged(true);
   for (std::size_t v = 0; v < rigged.soup.influences.size(); ++v) {
     formats::JointInfluences& influences = rigged.soup.influences[v];
-    influences.joint = {2, 4};
+    influences.joint = {1, 4};
     influences.weight = {0.9995F, 0.0005F};
   }
   const auto bones = BonesOfSparse(rigged.sparse, rigged.centers, rigged.soup);
   ASSERT_TRUE(bones.has_value());
-  for (const std::uint16_t joint : bones->joints) EXPECT_EQ(joint, 2);
+  for (const std::uint16_t joint : bones->joints) EXPECT_EQ(joint, 1);
   const std::vector<Vector3d> at_rest = Apply(*bones, rigged.Joints());
   for (std::size_t s = 0; s < at_rest.size(); ++s) {
     EXPECT_LE((at_rest[s] - rigged.centers[s]).norm(), 1e-12);
   }
+}
+
+TEST(BonesOfSparseTest, SmallSharesGoToTheJointAbove) {
+  Rigged rigged(true);
+  for (formats::JointInfluences& influences : rigged.soup.influences) {
+    influences.joint = {0, 4};
+    influences.weight = {0.9995F, 0.0005F};
+  }
+  rigged.soup.joints[4].parent = 2;
+  // As long as what is below moves with what is above, nothing is lost: turn 0, 2 with 4.
+  const auto bones = BonesOfSparse(rigged.sparse, rigged.centers, rigged.soup);
+  ASSERT_TRUE(bones.has_value());
+  // 4 and 2 have less than a thousandth together, and so on up to 0, which has all.
+  for (const std::uint16_t joint : bones->joints) EXPECT_EQ(joint, 0);
+  for (const float weight : bones->weights) EXPECT_EQ(weight, 1.0F);
 }
 
 TEST(BonesOfSparseTest, VerticesThatNothingHoldsMoveWithTheNearestThatSomethingDoes) {
