@@ -149,7 +149,7 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
   AddBudget(command, flags);
   AddWordOption(
       command, "--skinning", options.skinning, SkinningWords(),
-      "What carries the centres when the body moves. sparse: weights of some 70 vertices each; "
+      "What carries the centres when the body moves. sparse: weights of some 100 vertices each; "
       "bones: of the file's joints; both in RESULT.json; dense: of all vertices, beside it")
       ->group(kOutput);
   AddWordList(command, "--export", flags.exports, ExportWords(),

@@ -38,20 +38,32 @@ absl::Status AppendPoint(const Tree& point, const std::string& field, std::strin
   return absl::OkStatus();
 }
 
-absl::StatusOr<std::string> FloatsOf(const std::string& text) {
+absl::Status AppendRadius(const Tree& radius, const std::string& field, std::string& bytes) {
+  if (!radius.is_number() || !std::isfinite(radius.get<double>())) {
+    return Malformed(field, "must be a finite number");
+  }
+  const auto single = static_cast<float>(radius.get<double>());
+  bytes.append(reinterpret_cast<const char*>(&single), sizeof single);
+  return absl::OkStatus();
+}
+
+// `name`: of what the file holds; `append`: one of them to the bytes.
+template <typename Append>
+absl::StatusOr<std::string> FloatsOf(const std::string& text, const std::string& name,
+                                     const Append& append) {
   const Tree root = Tree::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!root.is_object() || !root.contains("frames") || !root["frames"].is_array()) {
-    return Malformed("centers", "must be a JSON object with a list \"frames\"");
+    return Malformed(name, "must be a JSON object with a list \"frames\"");
   }
   std::string bytes;
   for (std::size_t f = 0; f < root["frames"].size(); ++f) {
     const Tree& frame = root["frames"][f];
-    const std::string field = absl::StrCat("centers[", f, "]");
+    const std::string field = absl::StrCat(name, "[", f, "]");
     if (!frame.is_array() || frame.size() != root["frames"][0].size()) {
-      return Malformed(field, "must be a list of as many points as the first frame");
+      return Malformed(field, "must be a list of as many entries as the first frame");
     }
     for (std::size_t i = 0; i < frame.size(); ++i) {
-      CAPFIT_RETURN_IF_ERROR(AppendPoint(frame[i], absl::StrCat(field, "[", i, "]"), bytes));
+      CAPFIT_RETURN_IF_ERROR(append(frame[i], absl::StrCat(field, "[", i, "]"), bytes));
     }
   }
   return bytes;
@@ -91,7 +103,12 @@ std::string FormatRadii(const std::vector<std::vector<double>>& frames, const st
 
 absl::StatusOr<std::string> ReadCenters(const std::string& path) {
   CAPFIT_ASSIGN_OR_RETURN(std::string bytes, ReadFileBytes(path));
-  return FileEnding(path) == kJsonEnding ? FloatsOf(bytes) : bytes;
+  return FileEnding(path) == kJsonEnding ? FloatsOf(bytes, "centers", AppendPoint) : bytes;
+}
+
+absl::StatusOr<std::string> ReadRadii(const std::string& path) {
+  CAPFIT_ASSIGN_OR_RETURN(std::string bytes, ReadFileBytes(path));
+  return FileEnding(path) == kJsonEnding ? FloatsOf(bytes, "radii", AppendRadius) : bytes;
 }
 
 }  // namespace capfit::client

@@ -1,4 +1,5 @@
-// Sphere centres of an animation, as `animate` writes and `render --centers` reads them:
+// Sphere centres of an animation, as `animate` writes and `render --centers` reads them, and their
+// radii (`--radii`):
 // little-endian float32, frames x spheres x 3, or in a file whose name ends in .json
 //   {"frames": [[[x, y, z], ...], ...]}
 #ifndef CAPFIT_CLIENT_PICTURE_CENTERS_FILE_H_
@@ -23,6 +24,9 @@ namespace capfit::client {
 // The centres as float32, whichever form the file has. NOT_FOUND where it cannot be read;
 // INVALID_ARGUMENT names what is no list of points ("centers[3][1] must be three finite numbers").
 [[nodiscard]] absl::StatusOr<std::string> ReadCenters(const std::string& path);
+
+// The same of radii.
+[[nodiscard]] absl::StatusOr<std::string> ReadRadii(const std::string& path);
 
 }  // namespace capfit::client
 

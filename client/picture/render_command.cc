@@ -49,6 +49,7 @@ struct RenderArguments {
   std::optional<int> height;
   std::string frames;
   std::string centers;
+  std::string radii;  // empty: those of the result
   std::vector<std::size_t> show = {0};
 };
 
@@ -143,28 +144,39 @@ absl::Status CheckSoup(const formats::PolygonSoup& soup) {
   return absl::OkStatus();
 }
 
-// Frame `frame` of a file of little-endian float32, frames x `points` x 3.
-absl::StatusOr<std::vector<Vector3d>> FramePoints(const std::string& bytes, std::size_t frame,
-                                                  std::size_t points, const std::string& field) {
-  const std::size_t frame_bytes = points * 3 * sizeof(float);
+// Frame `frame` of little-endian float32, frames x `count` things of `numbers` each.
+absl::StatusOr<std::vector<float>> FrameFloats(const std::string& bytes, std::size_t frame,
+                                               std::size_t count, std::size_t numbers,
+                                               const std::string& field) {
+  const std::size_t frame_bytes = count * numbers * sizeof(float);
   if (frame_bytes == 0 || bytes.size() % frame_bytes != 0) {
-    return InvalidField(ErrorReason::kMalformedFile, field,
-                        absl::StrCat("has ", bytes.size(), " bytes, must be a multiple of ",
-                                     frame_bytes, " (", points, " points in each frame)"));
+    return InvalidField(
+        ErrorReason::kMalformedFile, field,
+        absl::StrCat("has ", bytes.size(), " bytes, must be a multiple of ", frame_bytes, " (",
+                     count, numbers == 3 ? " points" : " numbers", " in each frame)"));
   }
   if (frame >= bytes.size() / frame_bytes) {
     return InvalidField(ErrorReason::kMalformedFile, "show",
                         absl::StrCat("has frame ", frame, ", must be below ",
                                      bytes.size() / frame_bytes, " for ", field));
   }
-  std::vector<float> values(points * 3);
+  std::vector<float> values(count * numbers);
   std::memcpy(values.data(), bytes.data() + frame * frame_bytes, frame_bytes);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    return InvalidField(ErrorReason::kMalformedFile,
+                        absl::StrCat(field, "[", frame, "][", i / numbers, "]"), "must be finite");
+  }
+  return values;
+}
+
+absl::StatusOr<std::vector<Vector3d>> FramePoints(const std::string& bytes, std::size_t frame,
+                                                  std::size_t points, const std::string& field) {
+  CAPFIT_ASSIGN_OR_RETURN(const std::vector<float> values,
+                          FrameFloats(bytes, frame, points, 3, field));
   std::vector<Vector3d> positions;
   for (std::size_t i = 0; i < points; ++i) {
     positions.emplace_back(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
-    if (positions.back().allFinite()) continue;
-    return InvalidField(ErrorReason::kMalformedFile, absl::StrCat(field, "[", frame, "][", i, "]"),
-                        "must be finite");
   }
   return positions;
 }
@@ -204,14 +216,30 @@ Scene StillScene(const RenderArguments& arguments, const Inputs& in,
 absl::StatusOr<Scene> AnimatedScene(const RenderArguments& arguments, const Inputs& in) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string frames, ReadFileBytes(arguments.frames));
   CAPFIT_ASSIGN_OR_RETURN(const std::string centers, ReadCenters(arguments.centers));
+  std::string radii;
+  if (!arguments.radii.empty()) {
+    CAPFIT_ASSIGN_OR_RETURN(radii, ReadRadii(arguments.radii));
+  }
+  ResultSet result = in.result;
   Scene scene;
   for (const std::size_t frame : arguments.show) {
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<Vector3d> positions,
                             FramePoints(frames, frame, in.soup.positions.size(), "frames"));
     CAPFIT_ASSIGN_OR_RETURN(const std::vector<Vector3d> moved,
                             FramePoints(centers, frame, in.result.spheres.size(), "centers"));
+    if (!arguments.radii.empty()) {
+      CAPFIT_ASSIGN_OR_RETURN(const std::vector<float> of_frame,
+                              FrameFloats(radii, frame, result.spheres.size(), 1, "radii"));
+      for (std::size_t i = 0; i < of_frame.size(); ++i) {
+        if (!(of_frame[i] > 0.0F)) {
+          return InvalidField(ErrorReason::kMalformedFile,
+                              absl::StrCat("radii[", frame, "][", i, "]"), "must be above 0");
+        }
+        result.spheres[i].radius_m = of_frame[i];
+      }
+    }
     scene.figures.push_back(
-        std::make_unique<Figure>(MakeFigure(in.soup, in.result, positions, moved, in.turn)));
+        std::make_unique<Figure>(MakeFigure(in.soup, result, positions, moved, in.turn)));
     const NamedView& view =
         Views().at(arguments.views.size() == 1 ? arguments.views.front() : "three-quarter");
     scene.columns.push_back({scene.figures.back().get(), view.yaw_deg * std::numbers::pi / 180.0,
@@ -360,6 +388,10 @@ void AddAnimationOptions(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--frames", arguments.frames,
                      "Deformed vertices: float32, frames x vertices x 3");
   command.add_option("--centers", arguments.centers, "Sphere centres, as `animate` writes them");
+  command
+      .add_option("--radii", arguments.radii,
+                  "Radii of each frame, as `animate` and `approximate --frame-radii` write them")
+      ->needs("--centers");
   command.add_option("--show", arguments.show, "Frames to show, e.g. 0,20,60")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -253,7 +253,8 @@ class BodyFit {
         target_, points,
         [&](const capsule::PrimitiveSet& at_rest) { return CentersInFrames(at_rest, soup); },
         motion_options, pool_, clock_, set_);
-    max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
+    max_gap_m_ =
+        coverage::CertifiedGap(target_, set_, 0.05 * motion_options.cover.max_gap_m, pool_);
     return CheckCancelled(clock_);
   }
 

@@ -36,9 +36,10 @@ inline constexpr double kLeastBoneWeight = 1e-3;
 
 // The sparse rows carried over to the joints that hold their vertices: for a body that moves by
 // linear blend skinning with the soup's joints and influences the centres are where `sparse` puts
-// them, but for what joints below kLeastBoneWeight would do by themselves, in any pose. A vertex that no joint
-// holds moves with the nearest one that some do. `centers` and the soup are in the mesh's frame.
-// Nothing where no vertex of the soup has a joint that could carry. O(weights + vertices).
+// them, but for what joints below kLeastBoneWeight would do by themselves, in any pose. A vertex
+// that no joint holds moves with the nearest one that some do. `centers` and the soup are in the
+// mesh's frame. Nothing where no vertex of the soup has a joint that could carry. O(weights +
+// vertices).
 [[nodiscard]] std::optional<BoneWeights> BonesOfSparse(const SparseWeights& sparse,
                                                        std::span<const Eigen::Vector3d> centers,
                                                        const formats::PolygonSoup& soup);

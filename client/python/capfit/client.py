@@ -123,7 +123,7 @@ class Client:
         quality             "paper": the published method; "tight": closer
         tolerance_m         how far a vertex may stick out with "enclose", in metres
         sex                 "auto", "female", "male": whether the bust may be split
-        skinning            what carries the centres along: "sparse" (some 70 vertices each),
+        skinning            what carries the centres along: "sparse" (some 100 vertices each),
                             "bones" (joints of the mesh's file), "dense" (all vertices)
         landmarks           {name: (x, y, z)} that you know better
         seed                the same seed gives the same bits

@@ -37,6 +37,18 @@ TEST_F(CentersFileTest, BothFormsReadTheSame) {
   EXPECT_EQ(FormatCenters(frames, "-").substr(0, 4), std::string("\0\0\x80\x3f", 4));
 }
 
+TEST_F(CentersFileTest, RadiiInBothFormsReadTheSame) {
+  const std::vector<std::vector<double>> frames = {{0.5, 1.0 / 3.0}, {2.0, 3.0}};
+  for (const char* const name : {"r.f32", "r.json"}) {
+    ASSERT_TRUE(WriteFileBytes(Path(name), FormatRadii(frames, name)).ok());
+    const auto bytes = ReadRadii(Path(name));
+    ASSERT_TRUE(bytes.ok()) << bytes.status();
+    EXPECT_EQ(*bytes, FormatRadii(frames, "-")) << name;
+  }
+  ASSERT_TRUE(WriteFileBytes(Path("bad.json"), R"({"frames": [[1, "2"]]})").ok());
+  EXPECT_EQ(FieldOf(ReadRadii(Path("bad.json")).status()), "radii[0][1]");
+}
+
 TEST_F(CentersFileTest, MistakesAreNamed) {
   const std::pair<const char*, const char*> cases[] = {
       {"{", "centers"},

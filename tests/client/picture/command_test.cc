@@ -190,6 +190,30 @@ TEST_F(CommandTest, RendersFramesOfAnAnimation) {
   EXPECT_THAT(errors, HasSubstr("must be a multiple of"));
 }
 
+TEST_F(CommandTest, RendersFramesWithRadiiOfTheirOwn) {
+  ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "2000"}), 0);
+  WriteResult();
+  const std::size_t vertices = ReadSoup(Path("b.obj")).positions.size();
+  ASSERT_TRUE(WriteFileBytes(Path("f.bin"), std::string(vertices * 12, '\0')).ok());
+  ASSERT_TRUE(WriteFileBytes(Path("c.bin"), std::string(2 * 12, '\0')).ok());
+  const auto render = [&](const std::string& radii) {
+    EXPECT_TRUE(WriteFileBytes(Path("r.radii.json"), radii).ok());
+    return Run({"render", Path("b.obj"), Path("r.json"), "-o", Path("p.png"), "--frames",
+                Path("f.bin"), "--centers", Path("c.bin"), "--radii", Path("r.radii.json"),
+                "--show", "0", "--width", "300", "--height", "300"});
+  };
+  ASSERT_EQ(render(R"({"frames": [[0.2, 0.3]]})"), 0);
+  const std::string small = *ReadFileBytes(Path("p.png"));
+  ASSERT_EQ(render(R"({"frames": [[0.2, 0.6]]})"), 0);
+  EXPECT_NE(small, *ReadFileBytes(Path("p.png")));
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(render(R"({"frames": [[0.2, 0]]})"), 2);
+  EXPECT_EQ(render(R"({"frames": [[0.2]]})"), 2);
+  const std::string errors = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(errors, HasSubstr("--radii[0][1] must be above 0"));
+  EXPECT_THAT(errors, HasSubstr("must be a multiple of 8"));
+}
+
 TEST_F(CommandTest, RenderRefusesBadInput) {
   ASSERT_EQ(Run({"mannequin", "-o", Path("b.obj"), "--faces", "2000"}), 0);
   WriteResult();
