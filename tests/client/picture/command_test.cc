@@ -210,7 +210,7 @@ TEST_F(CommandTest, RendersFramesWithRadiiOfTheirOwn) {
   EXPECT_EQ(render(R"({"frames": [[0.2, 0]]})"), 2);
   EXPECT_EQ(render(R"({"frames": [[0.2]]})"), 2);
   const std::string errors = testing::internal::GetCapturedStderr();
-  EXPECT_THAT(errors, HasSubstr("--radii[0][1] must be above 0"));
+  EXPECT_THAT(errors, HasSubstr("radii[0][1] must be above 0"));
   EXPECT_THAT(errors, HasSubstr("must be a multiple of 8"));
 }
 
