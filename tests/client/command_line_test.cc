@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "client/did_you_mean.h"
+#include "core/base/did_you_mean.h"
 #include "client/exit_code.h"
 #include "core/base/status.h"
 
