@@ -16,7 +16,7 @@ namespace capfit::client {
 namespace {
 
 struct InfoArguments {
-  std::string server = kDefaultServer;
+  ServerFlags server;
   double timeout_seconds = 10.0;
   bool as_json = false;
 };
@@ -33,9 +33,10 @@ absl::StatusOr<std::string> InfoJson(const v1::GetServerInfoResponse& info) {
 }
 
 absl::Status RunInfo(const InfoArguments& arguments) {
+  CAPFIT_ASSIGN_OR_RETURN(const BodyClient client, ConnectTo(arguments.server));
   const absl::StatusOr<v1::GetServerInfoResponse> info =
-      BodyClient::Connect(arguments.server).GetServerInfo(arguments.timeout_seconds);
-  if (!info.ok()) return WithServerAdvice(info.status(), arguments.server, "");
+      client.GetServerInfo(arguments.timeout_seconds);
+  if (!info.ok()) return WithServerAdvice(info.status(), arguments.server.addresses, "");
   CAPFIT_ASSIGN_OR_RETURN(const std::string text,
                           arguments.as_json ? InfoJson(*info) : InfoTable(*info));
   std::fputs(text.c_str(), stdout);
@@ -48,7 +49,7 @@ void AddInfoCommand(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<InfoArguments>();
   CLI::App* const command =
       app.add_subcommand("info", "Show version, limits, formats, engines and features of a server");
-  AddServerFlag(*command, arguments->server);
+  AddServerFlags(*command, arguments->server);
   AddTimeoutFlag(*command, arguments->timeout_seconds, "Seconds to wait");
   command->add_flag("--json", arguments->as_json, "Print GetServerInfoResponse as JSON instead");
   command->callback([arguments, &exit_code] { exit_code = Report(RunInfo(*arguments)); });

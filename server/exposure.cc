@@ -5,8 +5,8 @@
 namespace capfit::server {
 
 bool IsLoopback(const std::string& address) {
-  for (const char* const begin : {"127.", "localhost:", "[::1]:", "ipv4:127.", "ipv6:[::1]:",
-                                  "unix:", "unix-abstract:"}) {
+  for (const char* const begin :
+       {"127.", "localhost:", "[::1]:", "ipv4:127.", "ipv6:[::1]:", "unix:", "unix-abstract:"}) {
     if (address.rfind(begin, 0) == 0) return true;
   }
   return false;

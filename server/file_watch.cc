@@ -30,8 +30,8 @@ std::vector<FileWatch::Stamp> FileWatch::Look() const {
     if (path.empty() || stat(path.c_str(), &facts) != 0) {
       stamps.emplace_back();
     } else {
-      stamps.push_back({facts.st_dev, facts.st_ino, facts.st_size, facts.st_mtim.tv_sec,
-                        facts.st_mtim.tv_nsec});
+      stamps.push_back(
+          {facts.st_dev, facts.st_ino, facts.st_size, facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec});
     }
   }
   return stamps;

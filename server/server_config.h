@@ -16,7 +16,7 @@ struct ConnectionLimits {
   // New replicas get traffic because clients connect anew after this; gRPC spreads it by a tenth.
   double max_age_seconds = 600.0;         // [1, 86400]
   double max_age_grace_seconds = 3600.0;  // for calls that run by then; [1, 86400]
-  double keepalive_seconds = 60.0;  // between pings of a connection that is quiet; [1, 7200]
+  double keepalive_seconds = 60.0;        // between pings of a connection that is quiet; [1, 7200]
 };
 
 struct ServerConfig {
@@ -26,9 +26,9 @@ struct ServerConfig {
   TlsConfig tls;
   std::string token_file;  // see token_file.h; empty: everyone may call
   ConnectionLimits connection;
-  int threads = 0;                         // that compute; 0: one per core
-  int max_concurrent_fits = 2;             // [1, 64]
-  int max_queued_fits = 16;                // [0, 10000]: further calls that may upload and wait
+  int threads = 0;              // that compute; 0: one per core
+  int max_concurrent_fits = 2;  // [1, 64]
+  int max_queued_fits = 16;     // [0, 10000]: further calls that may upload and wait
   UploadLimits upload;
   int retry_pushback_ms = 500;       // [0, 600000]: sent with RESOURCE_EXHAUSTED
   double drain_delay_seconds = 0.0;  // between NOT_SERVING and refusing new calls; [0, 600]

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/host_and_port.h"
 #include "core/base/did_you_mean.h"
+#include "core/base/host_and_port.h"
 #include "core/base/status.h"
 #include "core/base/version.h"
 #include "server/caller_check.h"

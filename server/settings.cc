@@ -58,8 +58,8 @@ absl::Status Take(CLI::App& app, const std::string& name, const std::vector<std:
   } catch (const CLI::ParseError& error) {
     std::string problem = error.what();
     const std::string flag = absl::StrCat("--", name);
-    if (problem.rfind(flag, 0) == 0) problem.erase(0, flag.size());
-    return InvalidField(ErrorReason::kOutOfRange, place, problem);
+    if (problem.rfind(flag + ": ", 0) == 0) problem.erase(0, flag.size() + 2);
+    return InvalidField(ErrorReason::kOutOfRange, place, absl::StrCat("is wrong: ", problem));
   }
   Collect(app, values);
   return absl::OkStatus();
@@ -77,19 +77,19 @@ absl::Status TakeFile(CLI::App& app, const std::string& path, Values& values) {
   try {
     items = CLI::ConfigTOML().from_file(path);
   } catch (const CLI::Error& error) {
-    return InvalidField(ErrorReason::kMissing, path, absl::StrCat("cannot be read: ", error.what()));
+    return InvalidField(ErrorReason::kMissing, path,
+                        absl::StrCat("cannot be read: ", error.what()));
   }
   const std::vector<std::string> names = ConfigurableNames(app);
   for (const CLI::ConfigItem& item : items) {
     const std::string name = item.fullname();
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      return InvalidField(ErrorReason::kUnknownValue, path,
-                          absl::StrCat("has '", name, "', which is no setting",
-                                       DidYouMean(name, names)));
+      return InvalidField(
+          ErrorReason::kUnknownValue, path,
+          absl::StrCat("has '", name, "', which is no setting", DidYouMean(name, names)));
     }
     if (IsEmpty(item.inputs)) continue;
-    CAPFIT_RETURN_IF_ERROR(
-        Take(app, name, item.inputs, absl::StrCat(path, ": ", name), values));
+    CAPFIT_RETURN_IF_ERROR(Take(app, name, item.inputs, absl::StrCat(path, ": ", name), values));
   }
   return absl::OkStatus();
 }

@@ -30,9 +30,8 @@ bool IsName(const std::string& word) {
 }
 
 bool ParseHash(const std::string& word, std::array<unsigned char, 32>& hash) {
-  const bool is_hex = std::all_of(word.begin(), word.end(), [](unsigned char letter) {
-    return std::isxdigit(letter) != 0;
-  });
+  const bool is_hex = std::all_of(word.begin(), word.end(),
+                                  [](unsigned char letter) { return std::isxdigit(letter) != 0; });
   if (!is_hex || word.size() != 2 * hash.size()) return false;
   const std::string bytes = absl::HexStringToBytes(word);
   std::copy(bytes.begin(), bytes.end(), hash.begin());

@@ -6,8 +6,8 @@
 
 #include <sstream>
 
-#include "core/base/did_you_mean.h"
 #include "client/exit_code.h"
+#include "core/base/did_you_mean.h"
 #include "core/base/status.h"
 
 namespace capfit::client {
