@@ -2,6 +2,7 @@
 
 #include <google/protobuf/util/json_util.h>
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -9,8 +10,11 @@
 #include "client/body_client.h"
 #include "client/exit_code.h"
 #include "client/info_table.h"
+#include "client/connection.h"
 #include "client/server_flags.h"
 #include "core/base/status.h"
+#include "grpc/health/v1/health.grpc.pb.h"
+#include "proto/wire/status_conversion.h"
 
 namespace capfit::client {
 namespace {
@@ -19,6 +23,7 @@ struct InfoArguments {
   ServerFlags server;
   double timeout_seconds = 10.0;
   bool as_json = false;
+  bool is_probe = false;
 };
 
 absl::StatusOr<std::string> InfoJson(const v1::GetServerInfoResponse& info) {
@@ -32,7 +37,26 @@ absl::StatusOr<std::string> InfoJson(const v1::GetServerInfoResponse& info) {
   return text;
 }
 
+// The standard health service answers without a token, so the probe of a container needs none.
+absl::Status Probe(const InfoArguments& arguments) {
+  CAPFIT_ASSIGN_OR_RETURN(const Security security, SecurityOf(arguments.server));
+  CAPFIT_ASSIGN_OR_RETURN(const std::shared_ptr<grpc::Channel> channel,
+                          OpenChannel(arguments.server.addresses, security));
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() +
+                       std::chrono::milliseconds(static_cast<long>(1000 * arguments.timeout_seconds)));
+  grpc::health::v1::HealthCheckRequest request;
+  request.set_service(v1::BodyApproximationService::service_full_name());
+  grpc::health::v1::HealthCheckResponse response;
+  const grpc::Status status =
+      grpc::health::v1::Health::NewStub(channel)->Check(&context, request, &response);
+  if (!status.ok()) return wire::FromGrpcStatus(status);
+  if (response.status() == grpc::health::v1::HealthCheckResponse::SERVING) return absl::OkStatus();
+  return absl::UnavailableError("the server is not serving");
+}
+
 absl::Status RunInfo(const InfoArguments& arguments) {
+  if (arguments.is_probe) return Probe(arguments);
   CAPFIT_ASSIGN_OR_RETURN(const BodyClient client, ConnectTo(arguments.server));
   const absl::StatusOr<v1::GetServerInfoResponse> info =
       client.GetServerInfo(arguments.timeout_seconds);
@@ -52,6 +76,8 @@ void AddInfoCommand(CLI::App& app, int& exit_code) {
   AddServerFlags(*command, arguments->server);
   AddTimeoutFlag(*command, arguments->timeout_seconds, "Seconds to wait");
   command->add_flag("--json", arguments->as_json, "Print GetServerInfoResponse as JSON instead");
+  command->add_flag("--probe", arguments->is_probe,
+                    "Only ask whether it serves, without a token: exit code 0 or 3");
   command->callback([arguments, &exit_code] { exit_code = Report(RunInfo(*arguments)); });
 }
 

@@ -71,18 +71,18 @@ std::string LoadJson(const LoadTally& tally, const std::vector<LoadBody>& bodies
     by_body[bodies[i].name] = TimesJson(tally.by_body[i]);
   }
   const ReportJson report = {{"seconds", tally.seconds},
-                       {"results_per_second", RateOf(tally)},
-                       {"codes", tally.codes},
-                       {"first_messages", tally.first_message},
-                       {"answered", TimesJson(tally.answered)},
-                       {"bodies", by_body},
-                       {"refused", TimesJson(tally.refused)},
-                       {"bytes_sent", tally.bytes_sent},
-                       {"bytes_received", tally.bytes_received},
-                       {"empty_results", tally.empty_results},
-                       {"differing_results", tally.differing_results},
-                       {"refused_without_pushback", tally.refused_without_pushback},
-                       {"late_calls", tally.late_calls}};
+                             {"results_per_second", RateOf(tally)},
+                             {"codes", tally.codes},
+                             {"first_messages", tally.first_message},
+                             {"answered", TimesJson(tally.answered)},
+                             {"bodies", by_body},
+                             {"refused", TimesJson(tally.refused)},
+                             {"bytes_sent", tally.bytes_sent},
+                             {"bytes_received", tally.bytes_received},
+                             {"empty_results", tally.empty_results},
+                             {"differing_results", tally.differing_results},
+                             {"refused_without_pushback", tally.refused_without_pushback},
+                             {"late_calls", tally.late_calls}};
   return report.dump(2, ' ', false, ReportJson::error_handler_t::replace) + "\n";
 }
 

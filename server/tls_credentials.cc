@@ -15,8 +15,9 @@ namespace {
 
 grpc_ssl_server_certificate_config* ToConfig(const TlsPems& pems) {
   const grpc_ssl_pem_key_cert_pair pair = {pems.key.c_str(), pems.certificate.c_str()};
-  const char* const client_ca = pems.client_ca.empty() ? nullptr : pems.client_ca.c_str();
-  return grpc_ssl_server_certificate_config_create(client_ca, &pair, 1);
+  // gRPC 1.51 asserts that there are roots, also where clients' certificates are not asked for.
+  const std::string& roots = pems.client_ca.empty() ? pems.certificate : pems.client_ca;
+  return grpc_ssl_server_certificate_config_create(roots.c_str(), &pair, 1);
 }
 
 // gRPC's C++ classes either never reload (SslServerCredentials) or watch the files without judging
