@@ -8,9 +8,9 @@
 #include <string>
 
 #include "client/body_client.h"
+#include "client/connection.h"
 #include "client/exit_code.h"
 #include "client/info_table.h"
-#include "client/connection.h"
 #include "client/server_flags.h"
 #include "core/base/status.h"
 #include "grpc/health/v1/health.grpc.pb.h"
@@ -43,8 +43,9 @@ absl::Status Probe(const InfoArguments& arguments) {
   CAPFIT_ASSIGN_OR_RETURN(const std::shared_ptr<grpc::Channel> channel,
                           OpenChannel(arguments.server.addresses, security));
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() +
-                       std::chrono::milliseconds(static_cast<long>(1000 * arguments.timeout_seconds)));
+  context.set_deadline(
+      std::chrono::system_clock::now() +
+      std::chrono::milliseconds(static_cast<long>(1000 * arguments.timeout_seconds)));
   grpc::health::v1::HealthCheckRequest request;
   request.set_service(v1::BodyApproximationService::service_full_name());
   grpc::health::v1::HealthCheckResponse response;

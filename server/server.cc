@@ -81,6 +81,8 @@ struct Server::Parts {
   const ThreadPool pool;
   FitExecutor executor;
   Service service;
+  // gRPC asks them with each handshake, but does not keep them.
+  std::shared_ptr<grpc::ServerCredentials> credentials;
   int port = 0;
   std::unique_ptr<grpc::Server> grpc_server;
 };
@@ -100,7 +102,8 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   // A second server on the same port is a mistake, not a way to share the load.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   LimitConnections(config.connection, builder);
-  builder.AddListeningPort(config.listen, credentials, &parts->port);
+  parts->credentials = std::move(credentials);
+  builder.AddListeningPort(config.listen, parts->credentials, &parts->port);
   parts->grpc_server = builder.BuildAndStart();
   if (parts->grpc_server == nullptr) {
     return absl::UnavailableError(absl::StrCat("cannot listen on ", config.listen));
