@@ -45,8 +45,11 @@ if ! "$engine" image inspect "$base" >/dev/null 2>&1; then
   timeout 60 "$engine" pull -q "$base" >/dev/null 2>&1 || make_base
 fi
 
+# Podman's own format has no HEALTHCHECK.
+build=("$engine" build --network=host -t "$tag")
+[ "$(basename "$engine")" != podman ] || build+=(--format docker)
 if [ -z "$programs" ]; then
-  "$engine" build --network=host "$@" -t "$tag" .
+  "${build[@]}" "$@" .
 else
   # The second stage of the Dockerfile alone, with these programs in place of the first.
   context=$scratch/context
@@ -57,7 +60,7 @@ else
   { echo "FROM scratch AS build"
     echo "COPY src /src"
     sed -n '/ AS run$/,$p' Dockerfile; } >"$context/Dockerfile"
-  "$engine" build --network=host "$@" -t "$tag" "$context"
+  "${build[@]}" "$@" "$context"
 fi
 "$engine" image inspect --format '{{.Size}}' "$tag" |
   awk -v tag="$tag" '{ printf "%s: %.0f MB\n", tag, $1 / 1e6 }'
