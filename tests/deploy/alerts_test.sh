@@ -3,7 +3,7 @@
 # none; the dashboard asks only for what the rules know or the server counts.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-command -v promtool >/dev/null || { echo "SKIPPED: no promtool: apt-get install prometheus" >&2; exit 77; }
+command -v promtool >/dev/null || { echo "SKIPPED: no promtool: deploy/install_packages.sh deploy" >&2; exit 77; }
 promtool check config deploy/prometheus/prometheus.yml
 promtool test rules tests/deploy/alerts_test.yml
 # Every expression of the dashboard, as rules of a file that promtool reads.

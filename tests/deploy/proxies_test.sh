@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 server=$1 capfit=$2
 skip() { echo "SKIPPED: $*" >&2; exit 77; }
 "$server" --config deploy/kubernetes/capfit.toml --check-config
-command -v nginx >/dev/null && command -v haproxy >/dev/null || skip "no nginx or haproxy: apt-get install nginx haproxy"
+command -v nginx >/dev/null && command -v haproxy >/dev/null || skip "no nginx or haproxy: deploy/install_packages.sh deploy"
 scratch=$(mktemp -d)
 pids=()
 cleanup() {
