@@ -45,7 +45,9 @@ std::pair<int, Json> LoadWhileOneEnds(int signal, const std::vector<std::string>
   std::this_thread::sleep_for(std::chrono::seconds(2));
   first.Signal(signal);
   load.join();
-  if (signal == SIGTERM) EXPECT_EQ(first.Wait(), 0);
+  if (signal == SIGTERM) {
+    EXPECT_EQ(first.Wait(), 0);
+  }
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   return {outcome.exit_code, Json::parse(ReadText(scratch.Path("load.json")))};
 }
@@ -64,9 +66,12 @@ TEST(Replicas, StreamsThatBreakAreSentAgainAndGiveTheSameBits) {
 }
 
 TEST(Replicas, OneThatStopsInOrderFailsNoCallEvenWithoutRepeats) {
-  const auto [exit_code, load] =
-      LoadWhileOneEnds(SIGTERM, {"--drain-delay-seconds", "1"}, {"--attempts", "1"});
-  EXPECT_EQ(load["codes"].size(), 1U) << load;
+  for (const std::vector<std::string>& kind : {std::vector<std::string>{}, {"--stream"}}) {
+    std::vector<std::string> flags = {"--attempts", "1"};
+    flags.insert(flags.end(), kind.begin(), kind.end());
+    const auto [exit_code, load] = LoadWhileOneEnds(SIGTERM, {"--drain-delay-seconds", "1"}, flags);
+    EXPECT_EQ(load["codes"].size(), 1U) << load;
+  }
 }
 
 TEST(Load, TellsRefusalsFromFailures) {
