@@ -31,7 +31,7 @@ namespace {
 struct ApproximateArguments {
   std::string body;
   std::string output;
-  std::string server = kDefaultServer;
+  ServerFlags server;
   bool is_local = false;
   int threads = 0;
   double timeout_seconds = 300.0;
@@ -76,7 +76,8 @@ absl::StatusOr<pipeline::FitResult> FitThere(std::span<const std::byte> bytes,
   call.timeout_seconds = arguments.timeout_seconds;
   call.request_id = arguments.request_id;
   call.on_progress = [&progress](Stage stage, double done) { progress.OnStage(stage, done); };
-  return BodyClient::Connect(arguments.server).ApproximateFile(bytes, format, options, call);
+  CAPFIT_ASSIGN_OR_RETURN(const BodyClient client, ConnectTo(arguments.server));
+  return client.ApproximateFile(bytes, format, options, call);
 }
 
 absl::StatusOr<pipeline::FitResult> FitBody(const ApproximateArguments& arguments) {
@@ -152,8 +153,9 @@ absl::Status RunApproximate(const ApproximateArguments& arguments) {
   CAPFIT_RETURN_IF_ERROR(CheckOutputs(arguments));
   const absl::StatusOr<pipeline::FitResult> result = FitBody(arguments);
   if (!result.ok()) {
-    return arguments.is_local ? result.status()
-                              : WithServerAdvice(result.status(), arguments.server, "--local");
+    return arguments.is_local
+               ? result.status()
+               : WithServerAdvice(result.status(), arguments.server.addresses, "--local");
   }
   PrintWarnings(result->warnings);
   CAPFIT_RETURN_IF_ERROR(WriteOutputs(*result, arguments));
@@ -167,7 +169,7 @@ absl::Status RunApproximate(const ApproximateArguments& arguments) {
 }
 
 void AddPlaceFlags(CLI::App& command, ApproximateArguments& arguments) {
-  CLI::Option* const server = AddServerFlag(command, arguments.server);
+  CLI::Option* const server = AddServerFlags(command, arguments.server);
   CLI::Option* const local =
       command.add_flag("--local", arguments.is_local, "Fit in this process, without a server")
           ->excludes(server);

@@ -4,7 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
-#include "client/did_you_mean.h"
+#include "core/base/did_you_mean.h"
 
 namespace capfit::client {
 namespace {

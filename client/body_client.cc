@@ -5,14 +5,11 @@
 #include <grpcpp/security/credentials.h>
 
 #include <algorithm>
-#include <chrono>
-#include <optional>
-#include <thread>
 #include <utility>
 
-#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
 #include "client/result_collector.h"
-#include "core/base/host_and_port.h"
+#include "client/retries.h"
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/options_conversion.h"
@@ -22,16 +19,8 @@ namespace capfit::client {
 namespace {
 
 constexpr std::size_t kChunkBytes = 256 * 1024;
-constexpr int kMaxAttempts = 4;
-constexpr std::chrono::milliseconds kFirstPause{200};
-constexpr char kPushbackTrailer[] = "grpc-retry-pushback-ms";
 
 using Stream = grpc::ClientReaderWriter<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>;
-
-std::chrono::system_clock::time_point In(double seconds) {
-  return std::chrono::system_clock::now() +
-         std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000.0));
-}
 
 // Sends `total` elements in pieces: fill(begin, end, request) makes one message. False: the server
 // has ended the call, and its status says why.
@@ -91,42 +80,6 @@ absl::Status CheckOptions(const pipeline::FitOptions& options) {
   return absl::IsUnimplemented(status) ? absl::OkStatus() : status;
 }
 
-// How long to wait before the next attempt: what the server asked for, else twice as long each
-// time. Nothing where another attempt is of no use.
-std::optional<std::chrono::milliseconds> PauseAfter(const absl::Status& status, int attempt,
-                                                    const grpc::ClientContext& context) {
-  if (!absl::IsUnavailable(status) && !absl::IsResourceExhausted(status)) return std::nullopt;
-  if (attempt == kMaxAttempts) return std::nullopt;
-  const auto& trailers = context.GetServerTrailingMetadata();
-  const auto pushback = trailers.find(kPushbackTrailer);
-  if (pushback == trailers.end()) {
-    if (absl::IsResourceExhausted(status)) return std::nullopt;
-    return kFirstPause * (1 << (attempt - 1));
-  }
-  int milliseconds = 0;
-  const absl::string_view text(pushback->second.data(), pushback->second.size());
-  if (!absl::SimpleAtoi(text, &milliseconds) || milliseconds < 0) return std::nullopt;
-  return std::chrono::milliseconds(milliseconds);
-}
-
-// Makes attempts until one succeeds, or another is of no use or would end after the deadline:
-// attempt(context) gives a Status or StatusOr. gRPC's own retries are off: those of 1.51 stall when
-// a call that is still sending its upload is repeated.
-template <typename Attempt>
-auto WithRetries(double timeout_seconds, const Attempt& attempt_call)
-    -> decltype(attempt_call(std::declval<grpc::ClientContext&>())) {
-  const auto deadline = In(timeout_seconds);
-  for (int attempt = 1;; ++attempt) {
-    grpc::ClientContext context;
-    context.set_deadline(deadline);
-    auto result = attempt_call(context);
-    if (result.ok()) return result;
-    const auto pause = PauseAfter(result.status(), attempt, context);
-    if (!pause || std::chrono::system_clock::now() + *pause >= deadline) return result;
-    std::this_thread::sleep_for(*pause);
-  }
-}
-
 // One attempt: the header, what `send` sends, then the answer.
 template <typename Send>
 absl::StatusOr<pipeline::FitResult> TryOnce(v1::BodyApproximationService::Stub& stub,
@@ -146,8 +99,15 @@ absl::StatusOr<pipeline::FitResult> TryOnce(v1::BodyApproximationService::Stub& 
   return std::move(collector).Finish();
 }
 
+void AddCallMetadata(const std::string& token, const CallOptions& call,
+                     grpc::ClientContext& context) {
+  AddToken(token, context);
+  if (call.is_bulk) context.AddMetadata("capfit-priority", "bulk");
+}
+
 template <typename Send>
 absl::StatusOr<pipeline::FitResult> Approximate(v1::BodyApproximationService::Stub& stub,
+                                                const std::string& token,
                                                 v1::ApproximateBodyHeader header,
                                                 const pipeline::FitOptions& options,
                                                 const CallOptions& call, const Send& send) {
@@ -156,7 +116,8 @@ absl::StatusOr<pipeline::FitResult> Approximate(v1::BodyApproximationService::St
   header.set_request_id(call.request_id);
   v1::ApproximateBodyRequest first;
   *first.mutable_header() = std::move(header);
-  return WithRetries(call.timeout_seconds, [&](grpc::ClientContext& context) {
+  return WithRetries(call.timeout_seconds, call.max_attempts, [&](grpc::ClientContext& context) {
+    AddCallMetadata(token, call, context);
     return TryOnce(stub, context, first, call.on_progress, send);
   });
 }
@@ -164,14 +125,21 @@ absl::StatusOr<pipeline::FitResult> Approximate(v1::BodyApproximationService::St
 }  // namespace
 
 BodyClient BodyClient::Connect(const std::string& address) {
-  grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);
-  return BodyClient(grpc::CreateCustomChannel(WithPort(address).value_or(address),
-                                              grpc::InsecureChannelCredentials(), arguments));
+  absl::StatusOr<BodyClient> client = Connect(address, Security());
+  if (client.ok()) return *std::move(client);
+  // What is no address fails with the first call.
+  return BodyClient(grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
 }
 
-BodyClient::BodyClient(const std::shared_ptr<grpc::Channel>& channel)
-    : stub_(v1::BodyApproximationService::NewStub(channel)) {}
+absl::StatusOr<BodyClient> BodyClient::Connect(const std::string& addresses,
+                                               const Security& security) {
+  CAPFIT_ASSIGN_OR_RETURN(const std::shared_ptr<grpc::Channel> channel,
+                          OpenChannel(addresses, security));
+  return BodyClient(channel, security.token);
+}
+
+BodyClient::BodyClient(const std::shared_ptr<grpc::Channel>& channel, const std::string& token)
+    : stub_(v1::BodyApproximationService::NewStub(channel)), token_(token) {}
 
 absl::StatusOr<pipeline::FitResult> BodyClient::ApproximateFile(std::span<const std::byte> bytes,
                                                                 formats::MeshFormat format,
@@ -180,7 +148,7 @@ absl::StatusOr<pipeline::FitResult> BodyClient::ApproximateFile(std::span<const 
   v1::ApproximateBodyHeader header;
   header.mutable_mesh()->mutable_file()->set_format(wire::ToWire(format));
   header.mutable_mesh()->mutable_file()->set_byte_count(static_cast<std::int64_t>(bytes.size()));
-  return Approximate(*stub_, std::move(header), options, call,
+  return Approximate(*stub_, token_, std::move(header), options, call,
                      [bytes](Stream& stream) { return SendFile(stream, bytes); });
 }
 
@@ -192,14 +160,15 @@ absl::StatusOr<pipeline::FitResult> BodyClient::ApproximateMesh(const formats::P
   arrays.set_vertex_count(static_cast<int>(soup.positions.size()));
   arrays.set_face_count(static_cast<int>(soup.face_sizes.empty() ? soup.face_vertices.size() / 3
                                                                  : soup.face_sizes.size()));
-  return Approximate(*stub_, std::move(header), options, call,
+  return Approximate(*stub_, token_, std::move(header), options, call,
                      [&soup](Stream& stream) { return SendArrays(stream, soup); });
 }
 
 absl::StatusOr<v1::GetServerInfoResponse> BodyClient::GetServerInfo(double timeout_seconds) const {
   return WithRetries(
-      timeout_seconds,
+      timeout_seconds, kMaxAttempts,
       [this](grpc::ClientContext& context) -> absl::StatusOr<v1::GetServerInfoResponse> {
+        AddToken(token_, context);
         v1::GetServerInfoResponse info;
         const grpc::Status status = stub_->GetServerInfo(&context, {}, &info);
         if (!status.ok()) return wire::FromGrpcStatus(status);

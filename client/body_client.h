@@ -15,6 +15,8 @@
 
 #include "absl/status/statusor.h"
 #include "capfit/v1/service.grpc.pb.h"
+#include "client/connection.h"
+#include "client/retries.h"
 #include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 
@@ -25,22 +27,28 @@ using ProgressFunction = std::function<void(Stage stage, double fraction_done)>;
 
 // What may be set about one call.
 struct CallOptions {
-  double timeout_seconds = 300.0;  // of the whole call, upload and queueing included; > 0
-  std::string request_id;          // at most 128 bytes; comes back in logs of the server
-  ProgressFunction on_progress;    // may be empty
+  double timeout_seconds = 300.0;   // of the whole call, upload and queueing included; > 0
+  std::string request_id;           // at most 128 bytes; comes back in logs of the server
+  ProgressFunction on_progress;     // may be empty
+  int max_attempts = kMaxAttempts;  // >= 1; see retries.h
+  bool is_bulk = false;             // may wait behind calls that somebody waits for
 };
 
 // Cheap to copy; safe to use from several threads at once. Calls block. A server that is full or
-// not reachable is asked up to four times, with the pauses that it names.
+// not reachable is asked up to four times, with the pauses that it names; of several servers it is
+// another one.
 //
 // Errors have the server's code and message, and its FieldOf and ReasonOf; besides: UNAVAILABLE
 // (not reachable), DEADLINE_EXCEEDED, INTERNAL (the answer breaks the contract).
 class BodyClient {
  public:
   // "host", "host:port", "[::1]:7": see core/base/host_and_port.h; without a port 50051. Does not
-  // block: the connection is made by the first call.
+  // block: the connection is made by the first call. `address` must be one.
   [[nodiscard]] static BodyClient Connect(const std::string& address);
-  explicit BodyClient(const std::shared_ptr<grpc::Channel>& channel);
+  // The same with TLS and a token, and for several servers: see connection.h.
+  [[nodiscard]] static absl::StatusOr<BodyClient> Connect(const std::string& addresses,
+                                                          const Security& security);
+  explicit BodyClient(const std::shared_ptr<grpc::Channel>& channel, const std::string& token = "");
 
   // Uploads a mesh file as it is, in chunks of 256 KiB. kUnknown: the server looks at the bytes.
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> ApproximateFile(
@@ -57,6 +65,7 @@ class BodyClient {
 
  private:
   std::shared_ptr<v1::BodyApproximationService::Stub> stub_;
+  std::string token_;
 };
 
 }  // namespace capfit::client

@@ -9,6 +9,7 @@
 #include "client/animate_command.h"
 #include "client/approximate_command.h"
 #include "client/arguments.h"
+#include "client/batch_command.h"
 #include "client/completion_command.h"
 #include "client/evaluate_command.h"
 #include "client/exit_code.h"
@@ -16,6 +17,7 @@
 #include "client/help_format.h"
 #include "client/info_command.h"
 #include "client/inspect_command.h"
+#include "client/load_command.h"
 #include "client/picture/mannequin_command.h"
 #include "client/picture/render_command.h"
 #include "core/base/version.h"
@@ -40,6 +42,8 @@ void AddCommands(CLI::App& app, int& exit_code) {
   AddAnimateCommand(app, exit_code);
   AddRenderCommand(app, exit_code);
   AddMannequinCommand(app, exit_code);
+  AddBatchCommand(app, exit_code);
+  AddLoadCommand(app, exit_code);
   AddInfoCommand(app, exit_code);
   AddCompletionCommand(app, exit_code);
 }

@@ -1,25 +1,80 @@
 #include "client/server_flags.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "client/connection.h"
+#include "client/picture/file_bytes.h"
 #include "core/base/host_and_port.h"
 #include "core/base/status.h"
 
 namespace capfit::client {
 
-CLI::Option* AddServerFlag(CLI::App& command, std::string& server) {
-  CLI::Validator address;
-  address.description("").operation([](std::string& text) -> std::string {
-    const absl::StatusOr<std::string> whole = WithPort(text);
+namespace {
+
+CLI::Validator Addresses() {
+  CLI::Validator validator;
+  validator.description("").operation([](std::string& text) -> std::string {
+    const absl::StatusOr<std::vector<std::string>> whole = SplitAddresses(text);
     if (!whole.ok()) return std::string(whole.status().message());
-    text = *whole;
+    text = absl::StrJoin(*whole, ",");
     return "";
   });
-  return command
-      .add_option("--server", server,
-                  absl::StrCat("Server that fits; without a port: ", kDefaultPort))
-      ->transform(address)
-      ->type_name("HOST[:PORT]")
-      ->capture_default_str();
+  return validator;
+}
+
+absl::Status ReadInto(const std::string& path, std::string& text) {
+  if (path.empty()) return absl::OkStatus();
+  CAPFIT_ASSIGN_OR_RETURN(text, ReadFileBytes(path));
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+CLI::Option* AddServerFlags(CLI::App& command, ServerFlags& flags) {
+  CLI::Option* const server =
+      command
+          .add_option("--server", flags.addresses,
+                      absl::StrCat("Server that fits; several with commas between share the calls; "
+                                   "without a port: ",
+                                   kDefaultPort))
+          ->transform(Addresses())
+          ->type_name("HOST[:PORT]")
+          ->capture_default_str()
+          ->group("Server");
+  command.add_flag("--tls", flags.tls, "Speak TLS, trusting whom this machine trusts")
+      ->group("Server");
+  const auto add = [&](const char* flag, std::string& value, const char* type, const char* help) {
+    command.add_option(flag, value, help)->type_name(type)->group("Server");
+  };
+  add("--tls-ca", flags.tls_ca, "FILE", "Speak TLS, trusting only who signed in this PEM file");
+  add("--tls-certificate", flags.tls_certificate, "FILE",
+      "PEM file of a certificate of your own, for servers that ask for one");
+  add("--tls-key", flags.tls_key, "FILE", "PEM file of its key");
+  add("--tls-server-name", flags.tls_server_name, "NAME",
+      "Name in the server's certificate, where it is not the host of --server");
+  add("--token-file", flags.token_file, "FILE",
+      "File whose first line is the token that the server asks for");
+  return server;
+}
+
+absl::StatusOr<Security> SecurityOf(const ServerFlags& flags) {
+  Security security;
+  security.tls = flags.tls || !flags.tls_ca.empty() || !flags.tls_certificate.empty();
+  security.server_name = flags.tls_server_name;
+  CAPFIT_RETURN_IF_ERROR(ReadInto(flags.tls_ca, security.root_certificates));
+  CAPFIT_RETURN_IF_ERROR(ReadInto(flags.tls_certificate, security.certificate));
+  CAPFIT_RETURN_IF_ERROR(ReadInto(flags.tls_key, security.key));
+  CAPFIT_RETURN_IF_ERROR(ReadInto(flags.token_file, security.token));
+  security.token.resize(std::min(security.token.size(), security.token.find_first_of("\r\n")));
+  return security;
+}
+
+absl::StatusOr<BodyClient> ConnectTo(const ServerFlags& flags) {
+  CAPFIT_ASSIGN_OR_RETURN(const Security security, SecurityOf(flags));
+  return BodyClient::Connect(flags.addresses, security);
 }
 
 CLI::Option* AddTimeoutFlag(CLI::App& command, double& seconds, const std::string& help) {

@@ -6,13 +6,32 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "client/body_client.h"
 
 namespace capfit::client {
 
 inline constexpr char kDefaultServer[] = "127.0.0.1:50051";
 
-// --server: an address as WithPort (core/base/host_and_port.h) takes it, made whole.
-CLI::Option* AddServerFlag(CLI::App& command, std::string& server);
+// Which server or servers, and how the two sides know each other.
+struct ServerFlags {
+  std::string addresses = kDefaultServer;  // with commas between
+  bool tls = false;
+  std::string tls_ca;  // these are paths
+  std::string tls_certificate;
+  std::string tls_key;
+  std::string tls_server_name;
+  std::string token_file;  // its first line is the token
+};
+
+// --server and the flags of Security, in the group "Server". --server takes addresses as
+// SplitAddresses (connection.h) does, and makes them whole.
+CLI::Option* AddServerFlags(CLI::App& command, ServerFlags& flags);
+
+// Security with the files read; NOT_FOUND where one cannot be.
+[[nodiscard]] absl::StatusOr<Security> SecurityOf(const ServerFlags& flags);
+
+// BodyClient::Connect with them.
+[[nodiscard]] absl::StatusOr<BodyClient> ConnectTo(const ServerFlags& flags);
 
 // --timeout, in seconds.
 CLI::Option* AddTimeoutFlag(CLI::App& command, double& seconds, const std::string& help);

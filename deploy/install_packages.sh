@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that capfit needs; does nothing where they are there already.
 #
-#   deploy/install_packages.sh [build] [test] [bench] [check] [run]
+#   deploy/install_packages.sh [build] [test] [deploy] [bench] [check] [run]
 #
 #   build  compiler and libraries                     (default)
 #   test   what the tests call besides: Python and the builder of its package, JSON Schema, buf, plugins,
 #          physics engines and a C# compiler that read exports
+#   deploy what tests/deploy holds the files of deploy/ against; some of it starts services of its own
 #   bench  what draws the plots of the evaluation
 #   check  formatter, linter, fuzzer and sanitizer runtimes
 #   run    the shared libraries of the finished programs only
@@ -22,8 +23,9 @@ test=(
   python3 python3-grpcio python3-protobuf python3-numpy python3-jsonschema
   python3-pip python3-setuptools python3-wheel npm git
   protoc-gen-go protoc-gen-go-grpc protobuf-compiler-grpc-java-plugin
-  libbullet-dev liburdfdom-dev mono-mcs
+  libbullet-dev liburdfdom-dev mono-mcs openssl
 )
+deploy=(prometheus nginx haproxy)
 bench=(python3 python3-matplotlib)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3 mypy)
 run=(libgrpc++1.51 libtbb12 libspdlog1.10 libcairo2 libdraco7 libmeshoptimizer2d)
@@ -33,10 +35,11 @@ for group in "${@:-build}"; do
   case "$group" in
     build) wanted+=("${build[@]}") ;;
     test) wanted+=("${test[@]}") ;;
+    deploy) wanted+=("${deploy[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     check) wanted+=("${check[@]}") ;;
     run) wanted+=("${run[@]}") ;;
-    *) echo "install_packages.sh: no group '$group' (build, test, bench, check, run)" >&2; exit 2 ;;
+    *) echo "install_packages.sh: no group '$group' (build, test, deploy, bench, check, run)" >&2; exit 2 ;;
   esac
 done
 

@@ -15,7 +15,8 @@ namespace capfit::server {
 
 class Server {
  public:
-  // Listens and serves from here on. UNAVAILABLE when the address cannot be had.
+  // Listens and serves from here on. UNAVAILABLE when the address cannot be had, INVALID_ARGUMENT
+  // for certificates and tokens that are wrong.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerConfig& config,
                                                        FitBackend backend);
   // Drains, if nobody has.

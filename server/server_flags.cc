@@ -1,12 +1,21 @@
 #include "server/server_flags.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iostream>
 #include <string>
+#include <vector>
 
+#include "core/base/did_you_mean.h"
 #include "core/base/host_and_port.h"
+#include "core/base/status.h"
 #include "core/base/version.h"
+#include "server/caller_check.h"
+#include "server/exposure.h"
+#include "server/settings.h"
+#include "server/tls_files.h"
 
 namespace capfit::server {
 namespace {
@@ -43,7 +52,101 @@ void AddDrain(CLI::App& app, ServerConfig& config) {
       ->check(CLI::Range(0.0, 600.0));
 }
 
+void AddSecurity(CLI::App& app, ServerConfig& config) {
+  app.add_option("--tls-certificate", config.tls.certificate_file,
+                 "PEM file of the server's certificate and those between it and the root; read "
+                 "again when it changes");
+  app.add_option("--tls-key", config.tls.key_file, "PEM file of the key that belongs to it");
+  app.add_option("--tls-client-ca", config.tls.client_ca_file,
+                 "PEM file of who signs clients' certificates; with it every client needs one");
+  app.add_option("--token-file", config.token_file,
+                 "File of lines NAME SHA256 [expires=YYYY-MM-DD]: who may call; read again when it "
+                 "changes");
+  app.add_flag("--insecure-listen", config.insecure_listen,
+               "Listen on other addresses than the loopback without TLS and without tokens");
+}
+
+void AddConnectionLimits(CLI::App& app, ConnectionLimits& limits) {
+  app.add_option("--max-metadata-bytes", limits.max_metadata_bytes, "Metadata of one call")
+      ->check(CLI::Range(1024, 1'048'576));
+  app.add_option("--max-streams-per-connection", limits.max_streams,
+                 "Calls at a time on one connection; further ones wait")
+      ->check(CLI::Range(1, 10'000));
+  app.add_option("--max-connection-age-seconds", limits.max_age_seconds,
+                 "Clients connect anew after this, so that new replicas get traffic")
+      ->check(CLI::Range(1.0, 86'400.0));
+  app.add_option("--max-connection-age-grace-seconds", limits.max_age_grace_seconds,
+                 "Calls that run by then may take this long")
+      ->check(CLI::Range(1.0, 86'400.0));
+  app.add_option("--keepalive-seconds", limits.keepalive_seconds,
+                 "A quiet connection is asked after this whether the client is still there")
+      ->check(CLI::Range(1.0, 7200.0));
+}
+
+// What is done instead of serving.
+struct Errands {
+  std::string config_file;
+  bool check = false;
+  bool print = false;
+};
+
+// These name no setting, so neither environment nor file have them.
+void AddErrands(CLI::App& app, Errands& errands) {
+  app.add_option("--config", errands.config_file,
+                 "File of lines NAME = VALUE, the names as those of the flags; also CAPFIT_CONFIG")
+      ->configurable(false);
+  app.add_flag("--check-config", errands.check,
+               "Look at all settings and the files that they name, and end: 0 good, 1 not")
+      ->configurable(false);
+  app.add_flag("--print-config", errands.print,
+               "Print the settings that hold, as --config reads them, and end")
+      ->configurable(false);
+  app.footer(
+      "Each setting can stand in three places, of which the first counts: the flag (--threads 4),\n"
+      "the environment (CAPFIT_THREADS=4), and the file that --config names (threads = 4).\n"
+      "Exit codes: 0 done; 1 a setting or a file that it names is wrong; 3 it cannot serve.");
+}
+
+// A flag that there is not, with the one that may have been meant; "" where all are known.
+std::string UnknownFlag(const CLI::App& app, const std::vector<std::string>& words) {
+  std::vector<std::string> names;
+  for (const CLI::Option* const option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back(absl::StrCat("--", name));
+  }
+  for (const std::string& word : words) {
+    const std::string name = word.substr(0, word.find('='));
+    if (name.rfind("--", 0) != 0 || std::find(names.begin(), names.end(), name) != names.end()) {
+      continue;
+    }
+    return absl::StrCat("'", name, "' is no flag", DidYouMean(name, names));
+  }
+  return "";
+}
+
+int Complain(const std::string& problem) {
+  std::cerr << "capfit-server: " << problem << "\nRun 'capfit-server --help' for help.\n";
+  return 1;
+}
+
+int Check(const ServerConfig& config) {
+  if (const absl::Status status = CheckConfig(config); !status.ok()) {
+    return Complain(std::string(status.message()));
+  }
+  std::cout << "the settings are good\n";
+  return 0;
+}
+
 }  // namespace
+
+absl::Status CheckConfig(const ServerConfig& config) {
+  CAPFIT_RETURN_IF_ERROR(CheckExposure(config));
+  if (!config.tls.is_on() && !(config.tls.key_file + config.tls.client_ca_file).empty()) {
+    return InvalidField(ErrorReason::kMissing, "--tls-certificate",
+                        "is missing: --tls-key and --tls-client-ca are of no use without it");
+  }
+  if (config.tls.is_on()) CAPFIT_RETURN_IF_ERROR(ReadTlsPems(config.tls).status());
+  return CallerCheck::Create(config).status();
+}
 
 std::optional<int> ParseFlags(int argc, const char* const* argv, ServerConfig& config) {
   CLI::App app{"capfit-server: human body meshes as few spheres and tapered capsules, over gRPC"};
@@ -63,16 +166,32 @@ std::optional<int> ParseFlags(int argc, const char* const* argv, ServerConfig& c
   app.add_option("--threads", config.threads, "Threads that compute; 0: one per core")
       ->check(CLI::Range(0, 256));
   std::int64_t max_upload_mb = config.upload.max_bytes / kMebibyte;
+  AddSecurity(app, config);
+  AddConnectionLimits(app, config.connection);
   AddLimits(app, config, max_upload_mb);
   AddDrain(app, config);
   app.add_option("--log-level", config.log_level, "Least severe level that is logged")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
+  Errands errands;
+  AddErrands(app, errands);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (const std::string problem = UnknownFlag(app, words); !problem.empty()) {
+    return Complain(problem);
+  }
   try {
-    app.parse(argc, argv);
+    if (const absl::Status status = ReadSettings(app, words); !status.ok()) {
+      return Complain(std::string(status.message()));
+    }
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 1;
+    if (error.get_exit_code() == 0) return app.exit(error);  // help and version
+    return Complain(error.what());
   }
   config.upload.max_bytes = max_upload_mb * kMebibyte;
+  if (errands.print) {
+    std::cout << app.config_to_str(/*default_also=*/true, /*write_description=*/true);
+    return 0;
+  }
+  if (errands.check) return Check(config);
   return std::nullopt;
 }
 

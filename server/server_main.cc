@@ -1,4 +1,4 @@
-// capfit-server: parses flags, serves until SIGTERM or SIGINT, drains, exits 0.
+// capfit-server: reads its settings, serves until SIGTERM or SIGINT, drains, exits 0.
 #include <pthread.h>
 #include <signal.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -41,6 +41,10 @@ int Run(int argc, const char* const* argv) {
   if (const std::optional<int> exit_code = ParseFlags(argc, argv, config)) return *exit_code;
   spdlog::set_default_logger(spdlog::stderr_color_mt("capfit-server"));
   spdlog::set_level(spdlog::level::from_str(config.log_level));
+  if (const absl::Status status = CheckConfig(config); !status.ok()) {
+    spdlog::error("{}", std::string(status.message()));
+    return 1;
+  }
   const sigset_t signals = BlockStopSignals();
   const absl::StatusOr<std::unique_ptr<Server>> server =
       Server::Start(config, {pipeline::ValidateOptions, pipeline::Fit});
@@ -49,7 +53,9 @@ int Run(int argc, const char* const* argv) {
     return 3;
   }
   const int port = (*server)->port();
-  spdlog::info("listening on {} (port {})", config.listen, port);
+  spdlog::info("listening on {} (port {}){}{}", config.listen, port,
+               config.tls.is_on() ? " with TLS" : "",
+               config.token_file.empty() ? "" : " for those who have a token");
   if (!config.port_file.empty() && !WritePortFile(config.port_file, port)) {
     spdlog::error("cannot write the port to {}", config.port_file);
     return 3;

@@ -1,28 +1,51 @@
 #include "server/service.h"
 
+#include "proto/wire/status_conversion.h"
 #include "server/approximate_body_call.h"
 #include "server/approximate_body_unary_call.h"
 
 namespace capfit::server {
+namespace {
 
-grpc::ServerBidiReactor<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>*
-Service::ApproximateBody(grpc::CallbackServerContext* context) {
+using BodyStream = grpc::ServerBidiReactor<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>;
+
+// Ends before it begins.
+class RefusedStream final : public BodyStream {
+ public:
+  explicit RefusedStream(const absl::Status& status) { Finish(wire::ToGrpcStatus(status)); }
+  void OnDone() override { delete this; }
+};
+
+grpc::ServerUnaryReactor* Finished(grpc::CallbackServerContext& context,
+                                   const absl::Status& status) {
+  grpc::ServerUnaryReactor* const reactor = context.DefaultReactor();
+  reactor->Finish(wire::ToGrpcStatus(status));
+  return reactor;
+}
+
+}  // namespace
+
+BodyStream* Service::ApproximateBody(grpc::CallbackServerContext* context) {
+  const absl::StatusOr<std::string> caller = callers_.NameOf(*context);
+  if (!caller.ok()) return new RefusedStream(caller.status());
   return ApproximateBodyCall::Start(context, services_);
 }
 
 grpc::ServerUnaryReactor* Service::ApproximateBodyUnary(
     grpc::CallbackServerContext* context, const v1::ApproximateBodyUnaryRequest* request,
     v1::ApproximateBodyUnaryResponse* response) {
+  const absl::StatusOr<std::string> caller = callers_.NameOf(*context);
+  if (!caller.ok()) return Finished(*context, caller.status());
   return ApproximateBodyUnaryCall::Start(context, request, response, services_);
 }
 
 grpc::ServerUnaryReactor* Service::GetServerInfo(grpc::CallbackServerContext* context,
                                                  const v1::GetServerInfoRequest* /*request*/,
                                                  v1::GetServerInfoResponse* response) {
+  const absl::StatusOr<std::string> caller = callers_.NameOf(*context);
+  if (!caller.ok()) return Finished(*context, caller.status());
   *response = info_;
-  grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
-  reactor->Finish(grpc::Status::OK);
-  return reactor;
+  return Finished(*context, absl::OkStatus());
 }
 
 }  // namespace capfit::server

@@ -3,15 +3,16 @@
 #define CAPFIT_SERVER_SERVICE_H_
 
 #include "capfit/v1/service.grpc.pb.h"
+#include "server/caller_check.h"
 #include "server/fit_job.h"
 
 namespace capfit::server {
 
-// Starts one object for each call and answers what needs no work at once.
+// Asks who calls, starts one object for each call, and answers what needs no work at once.
 class Service final : public v1::BodyApproximationService::CallbackService {
  public:
-  Service(const CallServices& services, v1::GetServerInfoResponse info)
-      : services_(services), info_(std::move(info)) {}
+  Service(const CallServices& services, CallerCheck callers, v1::GetServerInfoResponse info)
+      : services_(services), callers_(std::move(callers)), info_(std::move(info)) {}
 
   grpc::ServerBidiReactor<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>* ApproximateBody(
       grpc::CallbackServerContext* context) override;
@@ -26,6 +27,7 @@ class Service final : public v1::BodyApproximationService::CallbackService {
 
  private:
   const CallServices services_;
+  CallerCheck callers_;
   const v1::GetServerInfoResponse info_;
 };
 

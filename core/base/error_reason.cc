@@ -35,6 +35,7 @@ constexpr std::array kReasons = {
     KnownReason{ErrorReason::kOpenSurface, "OPEN_SURFACE", StatusCode::kFailedPrecondition},
     KnownReason{ErrorReason::kNotManifold, "NOT_MANIFOLD", StatusCode::kFailedPrecondition},
     KnownReason{ErrorReason::kNotImplemented, "NOT_IMPLEMENTED", StatusCode::kUnimplemented},
+    KnownReason{ErrorReason::kUnauthenticated, "UNAUTHENTICATED", StatusCode::kUnauthenticated},
     KnownReason{ErrorReason::kServerFull, "SERVER_FULL", StatusCode::kResourceExhausted},
     KnownReason{ErrorReason::kOutOfMemory, "OUT_OF_MEMORY", StatusCode::kResourceExhausted},
     KnownReason{ErrorReason::kServerStopping, "SERVER_STOPPING", StatusCode::kUnavailable},

@@ -40,6 +40,7 @@ enum class ErrorReason {
   kNotManifold,
 
   kNotImplemented,
+  kUnauthenticated,
   kServerFull,
   kOutOfMemory,
   kServerStopping,

@@ -70,7 +70,9 @@ if(CAPFIT_BUILD_SERVICE)
   install(TARGETS capfit_whole_client EXPORT capfitClient COMPONENT library)
   install(EXPORT capfitClient FILE capfitClientTargets.cmake NAMESPACE capfit::
     DESTINATION "${package_dir}" COMPONENT library)
-  install(FILES "${PROJECT_SOURCE_DIR}/client/body_client.h" DESTINATION "${header_dir}/client"
+  install(FILES "${PROJECT_SOURCE_DIR}/client/body_client.h"
+                "${PROJECT_SOURCE_DIR}/client/connection.h"
+                "${PROJECT_SOURCE_DIR}/client/retries.h" DESTINATION "${header_dir}/client"
     COMPONENT library)
   install(DIRECTORY "${PROJECT_BINARY_DIR}/proto/capfit" DESTINATION "${header_dir}"
     COMPONENT library FILES_MATCHING PATTERN "*.pb.h")

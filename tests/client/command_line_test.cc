@@ -6,7 +6,6 @@
 
 #include <sstream>
 
-#include "client/did_you_mean.h"
 #include "client/exit_code.h"
 #include "core/base/status.h"
 
@@ -31,16 +30,6 @@ Said RunWords(const std::string& words) {
   const int exit_code = RunCommandLine(arguments);
   return {exit_code, testing::internal::GetCapturedStdout(),
           testing::internal::GetCapturedStderr()};
-}
-
-TEST(DidYouMean, TheNearestIsNamed) {
-  EXPECT_EQ(EditDistance("", "abc"), 3);
-  EXPECT_EQ(EditDistance("aproximate", "approximate"), 1);
-  EXPECT_EQ(EditDistance("rednre", "render"), 2);
-  EXPECT_EQ(DidYouMean("evalaute", {"approximate", "evaluate"}), "; did you mean evaluate?");
-  EXPECT_EQ(DidYouMean("--max-prim", {"--max-primitives", "--max-spheres"}),
-            "; did you mean --max-primitives?");
-  EXPECT_EQ(DidYouMean("dance", {"approximate", "evaluate"}), "");
 }
 
 struct Case {

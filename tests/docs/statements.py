@@ -9,7 +9,7 @@ import documents
 
 TOP_LEVEL = ("proto/", "server/", "client/", "core/", "deploy/", "tests/", "docs/", ".ci/")
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
-COMMANDS = ("approximate", "inspect", "render", "evaluate", "animate", "export",
+COMMANDS = ("approximate", "batch", "load", "inspect", "render", "evaluate", "animate", "export",
             "mannequin", "info")
 # A range of a table: flags and fields by what the contract calls them, and what one of it is there.
 RANGES = {
@@ -85,7 +85,7 @@ def _unknown_of_command(place, text, flags):
             words = part.split()
         programs = [i for i, word in enumerate(words)
                     if word in ("capfit", "capfit-server") or word.endswith(("/capfit", "/capfit-server"))]
-        if not programs:
+        if not programs or words[0] in ("docker", "podman"):  # there it is an image's name
             continue
         rest = words[programs[0] + 1:]
         server = words[programs[0]].endswith("capfit-server")

@@ -1,11 +1,18 @@
 #include "server/server_flags.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdlib>
+#include <fstream>
+#include <string>
 #include <vector>
 
 namespace capfit::server {
 namespace {
+
+using testing::HasSubstr;
 
 std::optional<int> Parse(std::vector<const char*> words, ServerConfig& config) {
   words.insert(words.begin(), "capfit-server");
@@ -33,6 +40,86 @@ TEST(ServerFlags, AreTaken) {
   EXPECT_EQ(config.max_queued_fits, 0);
   EXPECT_EQ(config.upload.mesh.max_faces, 900U);
   EXPECT_EQ(config.drain_seconds, 1.5);
+}
+
+std::string FileOf(const std::string& text) {
+  const std::string path = testing::TempDir() + "capfit_flags_" + std::to_string(getpid());
+  std::ofstream(path) << text;
+  return path;
+}
+
+// A variable of the environment as long as it lives.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }
+  ~Variable() { unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+};
+
+TEST(ServerFlags, FlagsComeBeforeTheEnvironmentAndThatBeforeTheFile) {
+  const std::string file = FileOf(
+      "# a comment\nthreads = 3\nmax-faces = 500\ndrain-seconds = 7.5\nlog-level = \"debug\"\n"
+      "insecure-listen = true\nport-file = \"\"\n");
+  const Variable threads("CAPFIT_THREADS", "4");
+  const Variable faces("CAPFIT_MAX_FACES", "600");
+  const Variable empty("CAPFIT_DRAIN_SECONDS", "");
+  ServerConfig config;
+  EXPECT_EQ(Parse({"--config", file.c_str(), "--threads", "5"}, config), std::nullopt);
+  EXPECT_EQ(config.threads, 5);
+  EXPECT_EQ(config.upload.mesh.max_faces, 600U);
+  EXPECT_EQ(config.drain_seconds, 7.5);
+  EXPECT_EQ(config.log_level, "debug");
+  EXPECT_TRUE(config.insecure_listen);
+}
+
+std::string ErrorOf(const std::vector<const char*>& words) {
+  ServerConfig config;
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(Parse(words, config), 1);
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(ServerFlags, WhatIsWrongIsNamedWithItsPlace) {
+  const std::string unknown = FileOf("thread = 3\n");
+  EXPECT_THAT(ErrorOf({"--config", unknown.c_str()}),
+              HasSubstr(unknown + " has 'thread', which is no setting; did you mean threads?"));
+  const std::string wrong = FileOf("threads = 999\n");
+  EXPECT_THAT(ErrorOf({"--config", wrong.c_str()}),
+              HasSubstr(wrong + ": threads is wrong: Value 999 not in range 0 to 256"));
+  EXPECT_THAT(ErrorOf({"--config", "/nowhere"}), HasSubstr("/nowhere cannot be read"));
+  EXPECT_THAT(ErrorOf({"--thread", "3"}),
+              HasSubstr("'--thread' is no flag; did you mean --threads?"));
+  const Variable variable("CAPFIT_LOG_LEVEL", "loud");
+  EXPECT_THAT(ErrorOf({}), HasSubstr("CAPFIT_LOG_LEVEL is wrong: loud not in"));
+}
+
+TEST(ServerFlags, ThePrintedSettingsAreReadBackTheSame) {
+  const auto print = [](const std::vector<const char*>& words) {
+    ServerConfig config;
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(Parse(words, config), 0);
+    return testing::internal::GetCapturedStdout();
+  };
+  const std::string printed =
+      print({"--listen", "[::1]:7", "--max-upload-mb", "5", "--print-config"});
+  EXPECT_THAT(printed, HasSubstr("max-upload-mb=5"));
+  EXPECT_THAT(printed, HasSubstr("[::1]:7"));
+  const std::string file = FileOf(printed);
+  EXPECT_EQ(print({"--config", file.c_str(), "--print-config"}), printed);
+}
+
+TEST(ServerFlags, TheCheckLooksAtWhatTheSettingsName) {
+  ServerConfig config;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(Parse({"--check-config"}, config), 0);
+  static_cast<void>(testing::internal::GetCapturedStdout());
+  EXPECT_THAT(ErrorOf({"--check-config", "--listen", "0.0.0.0:1"}), HasSubstr("--insecure-listen"));
+  EXPECT_THAT(ErrorOf({"--check-config", "--token-file", "/nowhere"}),
+              HasSubstr("/nowhere cannot be read"));
 }
 
 TEST(ServerFlags, WrongOnesEndTheProgram) {

@@ -8,7 +8,8 @@
     print(result.capsules)  # int32 (c, 2): pairs of spheres
 """
 from capfit.answer import ProgressFunction
-from capfit.client import DEFAULT_PORT, Client
+from capfit.client import Client
+from capfit.connection import DEFAULT_PORT
 from capfit.errors import CapfitError, FitWarning
 from capfit.result import (BodyFacts, FeaturePolygon, GapStatistics, Landmark, MeshPart, Metrics,
                            PartMetrics, Result, Similarity)

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import functools
 import inspect
-import re
 import time
 from typing import Any, Callable, Iterable, Optional, TypeVar, Union, cast
 
@@ -11,6 +10,7 @@ import grpc
 from numpy.typing import ArrayLike
 
 from capfit.answer import Answer, ProgressFunction
+from capfit.connection import DEFAULT_PORT, open_channel, token_metadata, with_port
 from capfit.errors import CapfitError, error_of
 from capfit.layout import layout_of
 from capfit.options import Landmarks, Words, fit_options
@@ -20,7 +20,6 @@ from capfit.upload import Body, Faces, array_upload, file_upload
 from capfit.v1 import mesh_pb2, server_info_pb2, service_pb2, service_pb2_grpc
 from capfit.words import nearest, number_of
 
-DEFAULT_PORT = 50051
 _MAX_ATTEMPTS = 4
 _FIRST_PAUSE_SECONDS = 0.2
 
@@ -50,13 +49,33 @@ class Client:
 
         with capfit.Client("127.0.0.1:50051") as client:
             result = client.approximate("body.glb", max_primitives=64, parts="all")
+
+    Several servers share the calls: "HOST:PORT,HOST:PORT", or all addresses of a name of DNS:
+    "dns:///HOST:PORT".
+
+    tls                 speak TLS, trusting whom the machine trusts
+    root_certificates   speak TLS, trusting only who signed here (PEM, as bytes)
+    certificate, key    your own, for servers that ask for one (PEM, as bytes)
+    server_name         in the server's certificate, where it is not the host of the address
+    token               what the operator gave you, for servers that ask for one
     """
 
-    def __init__(self, address: str) -> None:
-        self._address = _with_port(address)
-        # gRPC's own retries stall when a call that is still sending its upload is repeated.
-        options = [("grpc.enable_retries", 0)]
-        self._channel = grpc.insecure_channel(self._address, options=options)
+    def __init__(
+        self,
+        address: str,
+        *,
+        tls: bool = False,
+        root_certificates: Optional[bytes] = None,
+        certificate: Optional[bytes] = None,
+        key: Optional[bytes] = None,
+        server_name: Optional[str] = None,
+        token: Optional[str] = None,
+    ) -> None:
+        self._address = address if "," in address else with_port(address)
+        self._channel = open_channel(
+            address, tls=tls, root_certificates=root_certificates, certificate=certificate,
+            key=key, server_name=server_name)
+        self._metadata = token_metadata(token)
         make_stub: Any = service_pb2_grpc.BodyApproximationServiceStub
         self._stub = make_stub(self._channel)
 
@@ -168,7 +187,8 @@ class Client:
         first = service_pb2.ApproximateBodyRequest(header=header)
 
         def attempt(seconds: float) -> Result:
-            call = self._stub.ApproximateBody(upload(first), timeout=seconds)
+            call = self._stub.ApproximateBody(upload(first), timeout=seconds,
+                                              metadata=self._metadata)
             answer = Answer(on_progress)
             try:
                 for response in call:
@@ -184,7 +204,8 @@ class Client:
         request = server_info_pb2.GetServerInfoRequest()
 
         def attempt(seconds: float) -> ServerInfo:
-            return info_of(self._stub.GetServerInfo(request, timeout=seconds))
+            return info_of(self._stub.GetServerInfo(request, timeout=seconds,
+                                                    metadata=self._metadata))
 
         return self._with_retries(timeout, attempt)
 
@@ -215,16 +236,3 @@ def _pause_after(error: CapfitError, attempt: int) -> Optional[float]:
     if error.code == "RESOURCE_EXHAUSTED":
         return None
     return float(_FIRST_PAUSE_SECONDS * 2 ** (attempt - 1))
-
-
-def _with_port(address: str) -> str:
-    """HOST:PORT of HOST, [V6] or HOST:PORT; gRPC's own targets (unix:..., dns:///...) as is."""
-    if re.match(r"(unix|unix-abstract|vsock|ipv4|ipv6):|[a-z]+:///", address):
-        return address
-    match = re.fullmatch(r"(\[[0-9a-fA-F:.%]+\]|[^:\[\]/]+)(?::([0-9]+))?", address)
-    if match is None:
-        raise ValueError(f"address is {address!r}, must be HOST or HOST:PORT")
-    port = DEFAULT_PORT if match[2] is None else int(match[2])
-    if not 1 <= port <= 65535:
-        raise ValueError(f"the port of {address!r} must be in [1, 65535]")
-    return f"{match[1]}:{port}"

@@ -1,10 +1,13 @@
 // Calls a capfit server.
 import {
-  type ChannelCredentials, type ClientDuplexStream, type ServiceError, credentials,
+  type ChannelCredentials, type ClientDuplexStream, type Metadata, type ServiceError,
 } from "@grpc/grpc-js";
 import { Readable } from "node:stream";
 
 import { checkNames, checkObject, numberOf, stringOf } from "./checks";
+import {
+  type Security, SECURITY_NAMES, channelOptions, credentialsOf, metadataOf, targetOf, withPort,
+} from "./connection";
 import { BodyService } from "./contract";
 import { CapfitError, cancelled, fromServiceError, invalidField } from "./errors";
 import type { ApproximateBodyHeader } from "./generated/capfit/v1/ApproximateBodyHeader";
@@ -23,13 +26,12 @@ import { type ProgressFunction, ResultCollector } from "./result_collector";
 import { serverInfoOf } from "./result_conversion";
 import { withRetries } from "./retries";
 
-const DEFAULT_PORT = 50051;
 const FIT_TIMEOUT_MS = 300_000;
 const INFO_TIMEOUT_MS = 10_000;
 
 /** What may be set about the connection. */
-export interface ClientOptions {
-  /** Default: without TLS, as capfit-server listens. */
+export interface ClientOptions extends Security {
+  /** In place of all about TLS below. Default: without TLS, as capfit-server listens. */
   credentials?: ChannelCredentials;
 }
 
@@ -65,16 +67,21 @@ interface Limits {
  */
 export class CapfitClient {
   private readonly address: string;
+  private readonly metadata: Metadata;
   private readonly stub: BodyApproximationServiceClient;
 
-  /** `address`: HOST or HOST:PORT, port 50051 where none is told. Connects with the first call. */
+  /**
+   * `address`: HOST or HOST:PORT, port 50051 where none is told. Connects with the first call.
+   * Several share the calls: numeric addresses with commas between, or all that DNS knows of a name,
+   * "dns:///HOST:PORT".
+   */
   constructor(address: string, options: ClientOptions = {}) {
-    checkNames(options, ["credentials"], "client");
-    this.address = withPort(stringOf(address, "address"));
-    // gRPC's own attempts are off: they are counted here.
-    this.stub = new BodyService(this.address, options.credentials ?? credentials.createInsecure(), {
-      "grpc.enable_retries": 0,
-    });
+    checkNames(options, ["credentials", ...SECURITY_NAMES], "client");
+    this.address = stringOf(address, "address").split(",").map(withPort).join(",");
+    this.metadata = metadataOf(options);
+    this.stub = new BodyService(
+      targetOf(this.address), options.credentials ?? credentialsOf(options),
+      channelOptions(options));
   }
 
   /** Fits spheres and capsules to a body. */
@@ -117,7 +124,7 @@ export class CapfitClient {
   private async tryOnce(
     header: ApproximateBodyHeader, upload: Upload, limits: Limits, collector: ResultCollector,
   ): Promise<Result> {
-    const stream: Stream = this.stub.approximateBody({ deadline: limits.deadline });
+    const stream: Stream = this.stub.approximateBody(this.metadata, { deadline: limits.deadline });
     const stop = () => stream.cancel();
     limits.signal?.addEventListener("abort", stop, { once: true });
     stream.on("error", () => undefined);  // the loop sees it; later ones have nobody left to tell
@@ -140,7 +147,8 @@ export class CapfitClient {
         if (info !== undefined) resolve(info);
         else reject(error);
       };
-      const call = this.stub.getServerInfo({}, { deadline: limits.deadline }, answered);
+      const call = this.stub.getServerInfo(
+        {}, this.metadata, { deadline: limits.deadline }, answered);
       const stop = () => call.cancel();
       limits.signal?.addEventListener("abort", stop, { once: true });
     });
@@ -160,11 +168,6 @@ function limitsOf(call: InfoOptions, timeoutMs: number, others: readonly string[
   const time = numberOf(call.timeoutMs ?? timeoutMs, "call.timeoutMs");
   if (!(time > 0)) throw invalidField("OUT_OF_RANGE", "call.timeoutMs", "must be above 0", time);
   return { deadline: Date.now() + time, signal: call.signal };
-}
-
-// grpc-js would take port 443.
-function withPort(address: string): string {
-  return /^(\[[^\]]*\]|[^:/]+)$/.test(address) ? `${address}:${DEFAULT_PORT}` : address;
 }
 
 function isServiceError(error: unknown): error is ServiceError {

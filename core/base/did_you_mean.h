@@ -1,11 +1,11 @@
 // The word that was meant.
-#ifndef CAPFIT_CLIENT_DID_YOU_MEAN_H_
-#define CAPFIT_CLIENT_DID_YOU_MEAN_H_
+#ifndef CAPFIT_CORE_BASE_DID_YOU_MEAN_H_
+#define CAPFIT_CORE_BASE_DID_YOU_MEAN_H_
 
 #include <string>
 #include <vector>
 
-namespace capfit::client {
+namespace capfit {
 
 // How many letters must be changed, added, left out or swapped with their neighbour.
 [[nodiscard]] int EditDistance(const std::string& a, const std::string& b);
@@ -15,6 +15,6 @@ namespace capfit::client {
 [[nodiscard]] std::string DidYouMean(const std::string& word,
                                      const std::vector<std::string>& known);
 
-}  // namespace capfit::client
+}  // namespace capfit
 
-#endif  // CAPFIT_CLIENT_DID_YOU_MEAN_H_
+#endif  // CAPFIT_CORE_BASE_DID_YOU_MEAN_H_

@@ -1,8 +1,8 @@
-#include "client/did_you_mean.h"
+#include "core/base/did_you_mean.h"
 
 #include <algorithm>
 
-namespace capfit::client {
+namespace capfit {
 
 int EditDistance(const std::string& a, const std::string& b) {
   std::vector<std::vector<int>> cost(a.size() + 1, std::vector<int>(b.size() + 1));
@@ -35,4 +35,4 @@ std::string DidYouMean(const std::string& word, const std::vector<std::string>& 
   return nearest == nullptr ? "" : "; did you mean " + *nearest + "?";
 }
 
-}  // namespace capfit::client
+}  // namespace capfit
