@@ -10,6 +10,7 @@ import {
 } from "./connection";
 import { BodyService } from "./contract";
 import { CapfitError, cancelled, fromServiceError, invalidField } from "./errors";
+import { EXTRA_NAMES, type Extras, exportsToWire, layoutToWire } from "./extras";
 import type { ApproximateBodyHeader } from "./generated/capfit/v1/ApproximateBodyHeader";
 import type { ApproximateBodyRequest } from "./generated/capfit/v1/ApproximateBodyRequest";
 import type {
@@ -44,7 +45,7 @@ export interface InfoOptions {
 }
 
 /** What may be set about one fit. */
-export interface CallOptions extends InfoOptions {
+export interface CallOptions extends InfoOptions, Extras {
   /** Called for each progress message. What it throws ends the call. */
   onProgress?: ProgressFunction;
   /** The caller's name for the job: at most 128 bytes, it stands in the server's logs. */
@@ -88,8 +89,10 @@ export class CapfitClient {
   async approximate(mesh: Mesh, options: FitOptions = {}, call: CallOptions = {}): Promise<Result> {
     const upload = uploadOf(mesh);
     const header: ApproximateBodyHeader = { mesh: upload.header, options: optionsToWire(options) };
-    const limits = limitsOf(call, FIT_TIMEOUT_MS, ["onProgress", "requestId"]);
+    const limits = limitsOf(call, FIT_TIMEOUT_MS, ["onProgress", "requestId", ...EXTRA_NAMES]);
     if (call.requestId !== undefined) header.requestId = stringOf(call.requestId, "request_id");
+    if (call.layout !== undefined) header.layout = layoutToWire(call.layout);
+    if (call.exports !== undefined) header.exports = exportsToWire(call.exports);
     return this.attempts(limits, () => {
       const wantsPolygons = options.wantFeaturePolygons === true;
       const collector = new ResultCollector(call.onProgress, wantsPolygons);

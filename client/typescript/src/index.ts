@@ -1,6 +1,7 @@
 export { type CallOptions, CapfitClient, type ClientOptions, type InfoOptions } from "./client";
 export type { Security } from "./connection";
 export { CapfitError, type ErrorReason, type StatusCode, type Warning } from "./errors";
+export type { ExportRequest, Extras, KnownLayout } from "./extras";
 export type { ArrayMesh, FileMesh, Frame, Mesh, PolygonFaces } from "./mesh";
 export type { FitOptions, Vector } from "./options";
 export {

@@ -211,6 +211,8 @@ export interface ResultMembers {
   vertexGaps: Float32Array | undefined;
   /** Where option wantFeaturePolygons is set. */
   featurePolygons: FeaturePolygon[] | undefined;
+  /** The files that were asked for, by name. */
+  exports: Record<string, Uint8Array>;
   summary: Summary;
 }
 
@@ -227,6 +229,7 @@ export class Result implements ResultMembers {
   readonly joints!: Joint[];
   readonly vertexGaps: Float32Array | undefined;
   readonly featurePolygons: FeaturePolygon[] | undefined;
+  readonly exports!: Record<string, Uint8Array>;
   readonly summary!: Summary;
 
   constructor(members: ResultMembers) {

@@ -1,6 +1,7 @@
 // Gathers the messages of an answer into a result. What the contract does not allow is an error: a
 // result is whole or it is not there.
 import { brokenContract } from "./errors";
+import { ExportFiles } from "./extras";
 import type {
   ApproximateBodyResponse__Output as Response,
 } from "./generated/capfit/v1/ApproximateBodyResponse";
@@ -57,6 +58,7 @@ export class ResultCollector {
   private sparseWeights: SparseRow[] | undefined;
   private boneWeights: BoneRow[] | undefined;
   private gaps: Pieces | undefined;
+  private readonly exports = new ExportFiles();
   private summary: Summary__Output | undefined;
 
   constructor(
@@ -80,6 +82,8 @@ export class ResultCollector {
       this.addWeights(response.skinning);
     } else if (response.vertexGaps) {
       this.addGaps(response.vertexGaps);
+    } else if (response.exportChunk) {
+      this.exports.add(response.exportChunk);
     } else if (response.summary) {
       this.summary = response.summary;
     }
@@ -100,6 +104,7 @@ export class ResultCollector {
       joints: primitives.joints.map(jointOf),
       vertexGaps: this.gaps?.whole(),
       featurePolygons: this.wantsPolygons ? this.polygons : undefined,
+      exports: this.exports.whole(),
       summary: summaryOf(summary),
     });
   }

@@ -3,7 +3,9 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, test } from "node:test";
 
-import { CapfitClient, type Progress, type Result, type Sphere, type Vector } from "capfit";
+import {
+  CapfitClient, CapfitError, type Progress, type Result, type Sphere, type Vector,
+} from "capfit";
 
 import { address, file, polygons, triangles, vertices } from "./bodies.js";
 
@@ -129,6 +131,34 @@ test("vertex gaps and feature polygons come where they are asked for", async () 
   const json = result.toJson();
   assert.equal(json.feature_polygons!.length, featurePolygons.length);
   assert.deepEqual(json.sphere_polygons, result.spheres.map(({ polygon }) => polygon));
+});
+
+test("a layout is kept, by name and from a former result", async () => {
+  const kept = ({ spheres, capsules }: Result) => ({
+    names: spheres.map(({ name }) => name),
+    ends: capsules.map(({ first, second }) => [first, second]),
+  });
+  const first = await client.approximate({ file }, {}, { layout: "standard-32" });
+  const standard = (await client.serverInfo()).layouts.find(({ name }) => name === "standard-32")!;
+  assert.equal(first.spheres.length, standard.sphereCount);
+  const second = await client.approximate({ file }, { quality: "tight" }, { layout: first });
+  assert.deepEqual(kept(second), kept(first));
+  await assert.rejects(client.approximate({ file }, {}, { layout: "standard-33" }),
+    (error: CapfitError) => error.code === "INVALID_ARGUMENT" && error.field === "layout.name");
+});
+
+test("files for engines come along, whole", async () => {
+  const { exports, spheres } = await client.approximate(
+    { file }, {}, { exports: ["csv", { format: "usd", plain: true, maxOvershootM: 0.01 }] });
+  const names = Object.keys(exports);
+  assert.ok(names.some((name) => name.endsWith(".usda")));
+  const csv = names.filter((name) => name.endsWith(".csv"))
+    .map((name) => new TextDecoder().decode(exports[name]!)).join("\n");
+  assert.ok(spheres.every(({ name }) => csv.includes(name)));
+  const none = await client.approximate({ file });
+  assert.deepEqual(none.exports, {});
+  await assert.rejects(client.approximate({ file }, {}, { exports: ["dae"] }),
+    (error: CapfitError) => error.code === "INVALID_ARGUMENT" && error.field === "exports[0].format");
 });
 
 test("every option arrives", async () => {
