@@ -2,10 +2,12 @@
 
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/resource_quota.h>
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <thread>
@@ -19,8 +21,20 @@
 namespace capfit::server {
 namespace {
 
+// Time to tell the callers of unfinished calls.
+constexpr std::chrono::milliseconds kLastWord{500};
+
 std::chrono::milliseconds Milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000.0));
+}
+
+AdmissionLimits LimitsOf(const ServerConfig& config) {
+  return {config.max_held_bytes,
+          config.max_queued_seconds,
+          config.max_concurrent_fits + config.max_queued_fits,
+          config.max_concurrent_fits,
+          config.client_percent / 100.0,
+          config.retry_pushback_ms};
 }
 
 // Once per process, before the first server is built.
@@ -44,13 +58,18 @@ struct Server::Parts {
       : config(config_in),
         backend(std::move(backend_in)),
         pool(config.threads),
-        executor(config.max_concurrent_fits, config.max_queued_fits),
-        service({config, backend, pool, executor},
+        admission(LimitsOf(config)),
+        executor(config.max_concurrent_fits),
+        service({config, backend, pool, admission, cost, executor, watchdog, stop_at},
                 DescribeServer(config, pool.threads(), backend)) {}
 
   const ServerConfig config;
   const FitBackend backend;
   const ThreadPool pool;
+  Admission admission;
+  FitCost cost;
+  std::atomic<Watchdog::Clock::time_point> stop_at{Watchdog::Clock::time_point::max()};
+  Watchdog watchdog;
   FitExecutor executor;
   Service service;
   int port = 0;
@@ -64,6 +83,9 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   grpc::ServerBuilder builder;
   builder.RegisterService(&parts->service);
   builder.SetMaxReceiveMessageSize(kMaxReceivedBytes);
+  // A fuse behind our own budget, for what gRPC holds before we see it: messages half received.
+  builder.SetResourceQuota(
+      grpc::ResourceQuota("capfit").Resize(static_cast<std::size_t>(config.max_held_bytes)));
   // A second server on the same port is a mistake, not a way to share the load.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   builder.AddListeningPort(config.listen, grpc::InsecureServerCredentials(), &parts->port);
@@ -84,6 +106,10 @@ Server::~Server() {
 
 int Server::port() const { return parts_->port; }
 
+std::int64_t Server::held_bytes() const { return parts_->admission.held_bytes(); }
+
+std::size_t Server::waiting_fits() const { return parts_->executor.waiting(); }
+
 std::shared_ptr<grpc::Channel> Server::InProcessChannel() {
   return parts_->grpc_server->InProcessChannel({});
 }
@@ -92,8 +118,11 @@ void Server::Drain() {
   if (parts_->grpc_server == nullptr) return;
   parts_->grpc_server->GetHealthCheckService()->SetServingStatus(false);
   std::this_thread::sleep_for(Milliseconds(parts_->config.drain_delay_seconds));
-  parts_->grpc_server->Shutdown(std::chrono::system_clock::now() +
-                                Milliseconds(parts_->config.drain_seconds));
+  // Calls that are still there see the end of the grace themselves and say so; gRPC cuts off only
+  // what does not.
+  const auto grace = Milliseconds(parts_->config.drain_seconds);
+  parts_->stop_at = Watchdog::Clock::now() + grace;
+  parts_->grpc_server->Shutdown(std::chrono::system_clock::now() + grace + kLastWord);
   parts_->grpc_server->Wait();
   parts_->grpc_server.reset();
 }

@@ -4,6 +4,8 @@
 
 #include <grpcpp/channel.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include "absl/status/statusor.h"
@@ -26,11 +28,16 @@ class Server {
   // The port it listens on; 0 where the address has none (a Unix socket).
   [[nodiscard]] int port() const;
 
+  // What calls hold of the memory budget now, and how many fits wait.
+  [[nodiscard]] std::int64_t held_bytes() const;
+  [[nodiscard]] std::size_t waiting_fits() const;
+
   // A channel to this server without a network, for tests.
   [[nodiscard]] std::shared_ptr<grpc::Channel> InProcessChannel();
 
   // Health says NOT_SERVING; after `drain_delay_seconds` new calls are refused; running ones may
-  // finish within `drain_seconds` and are cancelled then. Returns when all is over.
+  // finish within `drain_seconds`, what is left then ends with UNAVAILABLE. Returns when all is
+  // over.
   void Drain();
 
  private:

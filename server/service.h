@@ -3,7 +3,7 @@
 #define CAPFIT_SERVER_SERVICE_H_
 
 #include "capfit/v1/service.grpc.pb.h"
-#include "server/fit_job.h"
+#include "server/call_services.h"
 
 namespace capfit::server {
 

@@ -45,6 +45,9 @@ enum class ErrorReason {
   kServerStopping,
   kCancelled,
   kDeadlineExceeded,
+  kUploadTooSlow,
+  kReaderTooSlow,
+  kFitTooLong,
   kInternal
 };
 
