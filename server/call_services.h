@@ -9,6 +9,7 @@
 #include "server/fit_backend.h"
 #include "server/fit_cost.h"
 #include "server/fit_executor.h"
+#include "server/metrics.h"
 #include "server/server_config.h"
 #include "server/watchdog.h"
 
@@ -22,6 +23,7 @@ struct CallServices {
   Admission& admission;
   FitCost& cost;
   FitExecutor& executor;
+  Metrics& metrics;
   Watchdog& watchdog;
   // When a stopping server's grace ends; never before it stops.
   const std::atomic<std::chrono::steady_clock::time_point>& stop_at;

@@ -51,12 +51,18 @@ std::size_t FitExecutor::waiting() const {
   return queue_.size();
 }
 
+std::size_t FitExecutor::running() const {
+  const std::lock_guard lock(mutex_);
+  return running_;
+}
+
 FitExecutor::Job FitExecutor::Next() {
   std::unique_lock lock(mutex_);
   for (;;) {
     const std::optional<Ticket> ticket = queue_.TakeNext(NowSeconds(), running_long_ < most_long_);
     if (ticket) {
       Job job = std::move(jobs_.extract(*ticket).mapped());
+      ++running_;
       if (job.is_long) ++running_long_;
       return job;
     }
@@ -66,12 +72,12 @@ FitExecutor::Job FitExecutor::Next() {
 }
 
 void FitExecutor::Done(const Job& job) {
-  if (!job.is_long) return;
   {
     const std::lock_guard lock(mutex_);
-    --running_long_;
+    --running_;
+    if (job.is_long) --running_long_;
   }
-  wake_.notify_all();
+  if (job.is_long) wake_.notify_all();
 }
 
 void FitExecutor::Work() {

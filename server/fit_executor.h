@@ -33,6 +33,8 @@ class FitExecutor {
   [[nodiscard]] std::function<void()> Withdraw(Ticket ticket);
   // Jobs that wait.
   [[nodiscard]] std::size_t waiting() const;
+  // Jobs that run.
+  [[nodiscard]] std::size_t running() const;
 
  private:
   struct Job {
@@ -49,6 +51,7 @@ class FitExecutor {
   std::condition_variable wake_;
   FitQueue queue_;
   std::map<Ticket, Job> jobs_;
+  std::size_t running_ = 0;
   int running_long_ = 0;
   bool stopping_ = false;
   std::vector<std::thread> threads_;

@@ -217,8 +217,7 @@ absl::StatusOr<pipeline::FitResult> FitJob::Compute(FitObserver& observer) {
   CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, std::move(upload_).Finish());
   absl::StatusOr<pipeline::FitResult> result =
       services_.backend.fit(soup, options_, services_.pool, observer);
-  // Whatever the fit makes of being stopped: a mesh that it looked at in part only is not judged.
-  if (!result.ok() && IsOver()) return GaveUp();
+  if (absl::IsCancelled(result.status())) return GaveUp();
   if (!result.ok()) return result;
   CAPFIT_RETURN_IF_ERROR(
       pipeline::AddExports(options_.exports, upload_.file(), kExportSource, *result));
@@ -266,6 +265,7 @@ grpc::Status FitJob::Close(const char* method, const absl::Status& status) {
   record_.seconds = Watchdog::SecondsSince(begin_);
   record_.status = status;
   spdlog::info("{}", CallLine(record_, services_.config.log_format));
+  services_.metrics.Count(record_);
   if (!absl::IsResourceExhausted(status)) return wire::ToGrpcStatus(status);
   const int wait_ms = RetryMs(status, services_.config.retry_pushback_ms);
   context_.AddTrailingMetadata(kPushbackTrailer, std::to_string(wait_ms));

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/status.h"
 #include "grpc/health/v1/health.pb.h"
 #include "server/server_info.h"
 #include "server/service.h"
@@ -60,7 +61,7 @@ struct Server::Parts {
         pool(config.threads),
         admission(LimitsOf(config)),
         executor(config.max_concurrent_fits),
-        service({config, backend, pool, admission, cost, executor, watchdog, stop_at},
+        service({config, backend, pool, admission, cost, executor, metrics, watchdog, stop_at},
                 DescribeServer(config, pool.threads(), backend)) {}
 
   const ServerConfig config;
@@ -71,15 +72,32 @@ struct Server::Parts {
   std::atomic<Watchdog::Clock::time_point> stop_at{Watchdog::Clock::time_point::max()};
   Watchdog watchdog;
   FitExecutor executor;
+  Metrics metrics;
   Service service;
   int port = 0;
   std::unique_ptr<grpc::Server> grpc_server;
+  std::unique_ptr<Metrics::Endpoint> metrics_endpoint;
+
+  [[nodiscard]] Gauges Now() const {
+    return {static_cast<std::int64_t>(executor.waiting()),
+            static_cast<std::int64_t>(executor.running()),
+            admission.ExpectedWaitSeconds(),
+            admission.held_bytes(),
+            config.max_held_bytes,
+            pool.threads(),
+            0};
+  }
 };
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config,
                                                       FitBackend backend) {
   EnablePlugins();
   auto parts = std::make_unique<Parts>(config, std::move(backend));
+  if (!config.metrics_listen.empty()) {
+    CAPFIT_ASSIGN_OR_RETURN(
+        parts->metrics_endpoint,
+        parts->metrics.Serve(config.metrics_listen, [now = parts.get()] { return now->Now(); }));
+  }
   grpc::ServerBuilder builder;
   builder.RegisterService(&parts->service);
   builder.SetMaxReceiveMessageSize(kMaxReceivedBytes);
@@ -109,6 +127,14 @@ int Server::port() const { return parts_->port; }
 std::int64_t Server::held_bytes() const { return parts_->admission.held_bytes(); }
 
 std::size_t Server::waiting_fits() const { return parts_->executor.waiting(); }
+
+int Server::metrics_port() const {
+  return parts_->metrics_endpoint == nullptr ? 0 : parts_->metrics_endpoint->port();
+}
+
+std::string Server::MetricsText() const {
+  return parts_->metrics.Text([this] { return parts_->Now(); });
+}
 
 std::shared_ptr<grpc::Channel> Server::InProcessChannel() {
   return parts_->grpc_server->InProcessChannel({});

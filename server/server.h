@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "absl/status/statusor.h"
 #include "core/base/thread_pool.h"
@@ -17,7 +18,7 @@ namespace capfit::server {
 
 class Server {
  public:
-  // Listens and serves from here on. UNAVAILABLE when the address cannot be had.
+  // Listens and serves from here on. UNAVAILABLE when an address cannot be had: it is named.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerConfig& config,
                                                        FitBackend backend);
   // Drains, if nobody has.
@@ -31,6 +32,10 @@ class Server {
   // What calls hold of the memory budget now, and how many fits wait.
   [[nodiscard]] std::int64_t held_bytes() const;
   [[nodiscard]] std::size_t waiting_fits() const;
+
+  // The port that serves metrics, 0 without one; and what it serves.
+  [[nodiscard]] int metrics_port() const;
+  [[nodiscard]] std::string MetricsText() const;
 
   // A channel to this server without a network, for tests.
   [[nodiscard]] std::shared_ptr<grpc::Channel> InProcessChannel();

@@ -30,6 +30,7 @@ struct ServerConfig {
   double drain_seconds = 30.0;       // running calls may finish within this; [0, 3600]
   std::string log_level = "info";    // trace, debug, info, warn, error, off
   LogFormat log_format = LogFormat::kText;
+  std::string metrics_listen;  // HOST:PORT for Prometheus; port 0: any free one; empty: nowhere
 };
 
 // Size of one request message: bodies of 200,000 faces as arrays, or of 64,000 as text, fit into

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "core/base/host_and_port.h"
@@ -56,6 +57,16 @@ void AddBudgets(CLI::App& app, ServerConfig& config, std::int64_t& max_held_mb) 
   add_time("--max-fit-seconds", config.max_fit_seconds, "Time for one fit, waiting not included");
 }
 
+void AddObservation(CLI::App& app, ServerConfig& config) {
+  app.add_option("--metrics-listen", config.metrics_listen,
+                 "HOST:PORT that serves /metrics to Prometheus; empty: nowhere");
+  const std::map<std::string, LogFormat> formats = {{"text", LogFormat::kText},
+                                                    {"json", LogFormat::kJson}};
+  app.add_option("--log-format", config.log_format, "Lines of the log: text or json")
+      ->transform(CLI::CheckedTransformer(formats).description("{text,json}"))
+      ->default_str("text");
+}
+
 void AddDrain(CLI::App& app, ServerConfig& config) {
   app.add_option("--drain-seconds", config.drain_seconds,
                  "After SIGTERM or SIGINT: running calls may finish within this")
@@ -90,6 +101,7 @@ std::optional<int> ParseFlags(int argc, const char* const* argv, ServerConfig& c
   std::int64_t max_held_mb = config.max_held_bytes / kMebibyte;
   AddBudgets(app, config, max_held_mb);
   AddDrain(app, config);
+  AddObservation(app, config);
   app.add_option("--log-level", config.log_level, "Least severe level that is logged")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
   try {

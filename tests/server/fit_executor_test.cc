@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <future>
+#include <thread>
 
 namespace capfit::server {
 namespace {
@@ -66,6 +67,7 @@ TEST(FitExecutor, LongJobsLeaveAPlaceToShortOnes) {
       gate.wait();
     });
   }
+  while (long_begun == 0) std::this_thread::yield();
   std::promise<void> done;
   executor.Submit({"", false, 0.1}, [&] { done.set_value(); });
   EXPECT_EQ(done.get_future().wait_for(std::chrono::seconds(30)), std::future_status::ready);
