@@ -10,6 +10,7 @@
 #include "server/fit_cost.h"
 #include "server/fit_executor.h"
 #include "server/metrics.h"
+#include "server/result_cache.h"
 #include "server/server_config.h"
 #include "server/watchdog.h"
 
@@ -24,6 +25,7 @@ struct CallServices {
   FitCost& cost;
   FitExecutor& executor;
   Metrics& metrics;
+  ResultCache& cache;
   Watchdog& watchdog;
   // When a stopping server's grace ends; never before it stops.
   const std::atomic<std::chrono::steady_clock::time_point>& stop_at;

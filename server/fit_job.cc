@@ -11,6 +11,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/base/version.h"
 #include "core/export/export.h"
 #include "core/pipeline/colliders.h"
 #include "proto/wire/options_conversion.h"
@@ -191,8 +192,10 @@ absl::StatusOr<pipeline::FitResult> FitJob::Run(FitObserver& observer) {
   holding_->EndFit();
   upload_.DropFile();
   if (!result.ok()) return InCallersWords(result.status());
-  services_.cost.Learn(SizeOfFit(), record_.fit_seconds);
-  record_.stage_seconds = result->stage_seconds;
+  if (!record_.is_cached) {
+    services_.cost.Learn(SizeOfFit(), record_.fit_seconds);
+    record_.stage_seconds = result->stage_seconds;
+  }
   holding_->HoldAnyway(request_bytes_ + ResultBytes(*result));
   result->warnings.insert(result->warnings.begin(), warnings_.begin(), warnings_.end());
   return result;
@@ -214,6 +217,25 @@ absl::StatusOr<pipeline::FitResult> FitJob::Compute(FitObserver& observer) {
   // A read that ends because the caller is gone looks like the end of the upload; only the context
   // knows already.
   if (IsOver() || context_.IsCancelled()) return GaveUp();
+  if (!services_.cache.is_on()) return Fit(observer);
+  const std::string key = CacheKey();
+  if (const ResultCache::Result kept = services_.cache.Find(key)) {
+    record_.is_cached = true;
+    return *kept;
+  }
+  absl::StatusOr<pipeline::FitResult> result = Fit(observer);
+  if (result.ok()) services_.cache.Keep(key, *result);
+  return result;
+}
+
+std::string FitJob::CacheKey() const {
+  ContentHash hash;
+  hash.Add(std::string(Version()));
+  upload_.AddTo(hash);
+  return hash.Finish();
+}
+
+absl::StatusOr<pipeline::FitResult> FitJob::Fit(FitObserver& observer) {
   CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, std::move(upload_).Finish());
   absl::StatusOr<pipeline::FitResult> result =
       services_.backend.fit(soup, options_, services_.pool, observer);

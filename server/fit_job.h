@@ -85,6 +85,9 @@ class FitJob {
   void NoteUnknownFields(const google::protobuf::Message& request);
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> RunGuarded(FitObserver& observer);
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> Compute(FitObserver& observer);
+  // What a result is kept under.
+  [[nodiscard]] std::string CacheKey() const;
+  [[nodiscard]] absl::StatusOr<pipeline::FitResult> Fit(FitObserver& observer);
   [[nodiscard]] FitSize SizeOfFit() const;
   // An error in the words of the request, with the warnings about it.
   [[nodiscard]] absl::Status InCallersWords(const absl::Status& status) const;

@@ -1,5 +1,8 @@
 #include "server/mesh_upload.h"
 
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+
 #include <algorithm>
 #include <numeric>
 #include <span>
@@ -230,6 +233,28 @@ absl::Status MeshUpload::AddArrays(const char* field, const v1::MeshArrays& arra
   corner_count_ =
       std::accumulate(arrays.face_sizes().begin(), arrays.face_sizes().end(), corner_count_);
   return CheckArraySizes();
+}
+
+void MeshUpload::AddTo(ContentHash& hash) const {
+  v1::ApproximateBodyHeader asked = header_;
+  asked.clear_request_id();
+  if (asked.mesh().has_file()) {
+    asked.mutable_mesh()->mutable_file()->clear_byte_count();
+  } else {
+    asked.mutable_mesh()->mutable_arrays()->Clear();
+  }
+  std::string bytes;
+  {
+    google::protobuf::io::StringOutputStream out(&bytes);
+    google::protobuf::io::CodedOutputStream coded(&out);
+    coded.SetSerializationDeterministic(true);
+    asked.SerializeToCodedStream(&coded);
+  }
+  hash.Add(bytes);
+  hash.Add(file_bytes_);
+  hash.Add(soup_.positions);
+  hash.Add(soup_.face_sizes);
+  hash.Add(soup_.face_vertices);
 }
 
 std::int64_t MeshUpload::held_bytes() const {

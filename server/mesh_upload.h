@@ -11,6 +11,7 @@
 #include "capfit/v1/service.pb.h"
 #include "core/formats/polygon_soup.h"
 #include "core/mesh/prepare_mesh.h"
+#include "server/content_hash.h"
 
 namespace capfit::server {
 
@@ -60,6 +61,9 @@ class MeshUpload {
 
   // Reads the file, or hands out the arrays. O(bytes): not for a thread that must not block.
   [[nodiscard]] absl::StatusOr<formats::PolygonSoup> Finish() &&;
+  // What tells this mesh and what is asked of it from any other: the header without its claims and
+  // its request id, and all that has come. Before Finish(). O(bytes).
+  void AddTo(ContentHash& hash) const;
   // Lets go of the file; file() is empty then.
   void DropFile() { file_bytes_ = {}; }
   // The file as it came, also after Finish(); empty where the mesh came as arrays.

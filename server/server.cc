@@ -60,9 +60,11 @@ struct Server::Parts {
         backend(std::move(backend_in)),
         pool(config.threads),
         admission(LimitsOf(config)),
+        cache(config.cache_bytes),
         executor(config.max_concurrent_fits),
-        service({config, backend, pool, admission, cost, executor, metrics, watchdog, stop_at},
-                DescribeServer(config, pool.threads(), backend)) {}
+        service(
+            {config, backend, pool, admission, cost, executor, metrics, cache, watchdog, stop_at},
+            DescribeServer(config, pool.threads(), backend)) {}
 
   const ServerConfig config;
   const FitBackend backend;
@@ -71,6 +73,7 @@ struct Server::Parts {
   FitCost cost;
   std::atomic<Watchdog::Clock::time_point> stop_at{Watchdog::Clock::time_point::max()};
   Watchdog watchdog;
+  ResultCache cache;
   FitExecutor executor;
   Metrics metrics;
   Service service;
@@ -85,7 +88,7 @@ struct Server::Parts {
             admission.held_bytes(),
             config.max_held_bytes,
             pool.threads(),
-            0};
+            cache.bytes()};
   }
 };
 

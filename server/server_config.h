@@ -29,6 +29,7 @@ struct ServerConfig {
   double drain_delay_seconds = 0.0;  // between NOT_SERVING and refusing new calls; [0, 600]
   double drain_seconds = 30.0;       // running calls may finish within this; [0, 3600]
   std::string log_level = "info";    // trace, debug, info, warn, error, off
+  std::int64_t cache_bytes = 0;      // of results that are kept to be given again; 0: none
   LogFormat log_format = LogFormat::kText;
   std::string metrics_listen;  // HOST:PORT for Prometheus; port 0: any free one; empty: nowhere
 };

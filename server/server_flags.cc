@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 
 #include "core/base/host_and_port.h"
@@ -36,7 +35,12 @@ void AddLimits(CLI::App& app, ServerConfig& config, std::int64_t& max_upload_mb)
 }
 
 // What calls may hold, and for how long.
-void AddBudgets(CLI::App& app, ServerConfig& config, std::int64_t& max_held_mb) {
+void AddBudgets(CLI::App& app, ServerConfig& config, std::int64_t& max_held_mb,
+                std::int64_t& cache_mb) {
+  app.add_option("--cache-mb", cache_mb,
+                 "Memory for results that are given again for the same mesh and options, in MiB; "
+                 "0: none are kept")
+      ->check(CLI::Range(0, 1024 * 1024));
   app.add_option("--max-held-mb", max_held_mb,
                  "Memory for uploads and answers of all calls, in MiB; beyond: RESOURCE_EXHAUSTED")
       ->check(CLI::Range(16, 1024 * 1024));
@@ -60,10 +64,11 @@ void AddBudgets(CLI::App& app, ServerConfig& config, std::int64_t& max_held_mb) 
 void AddObservation(CLI::App& app, ServerConfig& config) {
   app.add_option("--metrics-listen", config.metrics_listen,
                  "HOST:PORT that serves /metrics to Prometheus; empty: nowhere");
-  const std::map<std::string, LogFormat> formats = {{"text", LogFormat::kText},
-                                                    {"json", LogFormat::kJson}};
-  app.add_option("--log-format", config.log_format, "Lines of the log: text or json")
-      ->transform(CLI::CheckedTransformer(formats).description("{text,json}"))
+  const auto take_format = [&config](const std::string& word) {
+    config.log_format = word == "json" ? LogFormat::kJson : LogFormat::kText;
+  };
+  app.add_option_function<std::string>("--log-format", take_format, "Form of the log's lines")
+      ->check(CLI::IsMember({"text", "json"}))
       ->default_str("text");
 }
 
@@ -99,7 +104,8 @@ std::optional<int> ParseFlags(int argc, const char* const* argv, ServerConfig& c
   std::int64_t max_upload_mb = config.upload.max_bytes / kMebibyte;
   AddLimits(app, config, max_upload_mb);
   std::int64_t max_held_mb = config.max_held_bytes / kMebibyte;
-  AddBudgets(app, config, max_held_mb);
+  std::int64_t cache_mb = config.cache_bytes / kMebibyte;
+  AddBudgets(app, config, max_held_mb, cache_mb);
   AddDrain(app, config);
   AddObservation(app, config);
   app.add_option("--log-level", config.log_level, "Least severe level that is logged")
@@ -111,6 +117,7 @@ std::optional<int> ParseFlags(int argc, const char* const* argv, ServerConfig& c
   }
   config.upload.max_bytes = max_upload_mb * kMebibyte;
   config.max_held_bytes = max_held_mb * kMebibyte;
+  config.cache_bytes = cache_mb * kMebibyte;
   return std::nullopt;
 }
 
