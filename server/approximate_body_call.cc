@@ -1,57 +1,71 @@
 #include "server/approximate_body_call.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
 
 namespace capfit::server {
 
 ApproximateBodyCall* ApproximateBodyCall::Start(grpc::CallbackServerContext* context,
-                                                const CallServices& services) {
-  const auto call = std::make_shared<ApproximateBodyCall>(context, services);
+                                                const CallServices& services,
+                                                const std::string& token_name) {
+  const auto call = std::make_shared<ApproximateBodyCall>(context, services, token_name);
   call->self_ = call;
   call->Begin();
   return call.get();
 }
 
 void ApproximateBodyCall::Begin() {
+  const std::lock_guard lock(mutex_);
   const absl::Status status = job_.Admit();
-  if (status.ok()) {
-    StartRead(&request_);
-  } else {
-    End(status);
-  }
+  if (!status.ok()) return End(status);
+  AwaitMessage();
+  StartRead(&request_);
 }
 
 void ApproximateBodyCall::OnReadDone(bool ok) {
-  if (!ok) {
-    if (!is_submitted_) SubmitJob();
-    return;
+  {
+    const std::lock_guard lock(mutex_);
+    if (final_status_) return;  // the watchdog was quicker
+    if (ok) {
+      TakeMessage();
+    } else if (!is_submitted_) {
+      SubmitJob();
+    }
   }
+  // Also when it was stopped between the last message and its place in the queue.
+  if (job_.is_stopped()) job_.RunNowIfWaiting();
+}
+
+void ApproximateBodyCall::TakeMessage() {
   if (is_submitted_) {  // the upload belongs to the job by now
-    End(InvalidField(ErrorReason::kCountMismatch, "chunk",
-                     "came after all that the header declares had arrived"));
-    return;
+    return End(InvalidField(ErrorReason::kCountMismatch, "chunk",
+                            "came after all that the header declares had arrived"));
   }
   const absl::Status status = job_.Add(request_);
-  if (!status.ok()) {
-    End(status);
-    return;
+  if (!status.ok()) return End(status);
+  if (job_.is_complete()) {
+    SubmitJob();
+    if (final_status_) return;
+  } else {
+    AwaitMessage();
   }
-  if (job_.is_complete()) SubmitJob();
   // Also after that: the end of the upload, or a message too many.
   StartRead(&request_);
 }
 
 void ApproximateBodyCall::SubmitJob() {
+  DropAlarm();
   is_submitted_ = true;
-  {
-    const std::lock_guard lock(mutex_);
-    job_is_running_ = true;
-  }
   request_.Clear();
-  services_.executor.Submit([self = shared_from_this()] { self->RunJob(); });
+  job_is_running_ = true;
+  const absl::Status status = job_.Enqueue([self = shared_from_this()] { self->RunJob(); });
+  if (status.ok()) return;
+  job_is_running_ = false;
+  End(status);
 }
 
 void ApproximateBodyCall::RunJob() {
@@ -80,28 +94,28 @@ void ApproximateBodyCall::OnStage(Stage stage, double fraction_done) {
 void ApproximateBodyCall::OnWriteDone(bool ok) {
   const std::lock_guard lock(mutex_);
   is_writing_ = false;
+  DropAlarm();
   if (!ok) {
     // Nobody reads any more. The job, if it still runs, sees this and ends the call.
-    job_.Cancel();
+    job_.Stop(StopCause::kCaller);
     results_.reset();
     progress_.reset();
-    if (!final_status_) {
-      final_status_ = Refused(ErrorReason::kCancelled, "the caller stopped reading");
-    }
+    if (!final_status_) final_status_ = job_.GaveUp();
   }
   Pump();
 }
 
 void ApproximateBodyCall::Pump() {
   if (is_writing_ || is_finished_) return;
-  if (!job_.is_cancelled() && NextResponse()) {
+  if (!job_.is_stopped() && NextResponse()) {
     is_writing_ = true;
+    SetAlarm(services_.config.read_idle_seconds, &ApproximateBodyCall::ReaderIsLate);
     StartWrite(&response_);
     return;
   }
   if (job_is_running_ || (!final_status_ && !results_)) return;
   is_finished_ = true;
-  const absl::Status over = job_.is_cancelled() ? job_.GaveUp() : absl::OkStatus();
+  const absl::Status over = job_.is_stopped() ? job_.GaveUp() : absl::OkStatus();
   Finish(job_.Close("ApproximateBody", final_status_.value_or(over)));
 }
 
@@ -115,15 +129,63 @@ bool ApproximateBodyCall::NextResponse() {
 }
 
 void ApproximateBodyCall::End(const absl::Status& status) {
-  const std::lock_guard lock(mutex_);
+  DropAlarm();
   final_status_ = status;
-  job_.Cancel();
+  job_.Stop(StopCause::kAnswered);
   results_.reset();
   Pump();
 }
 
+void ApproximateBodyCall::DropAlarm() {
+  services_.watchdog.Drop(alarm_);
+  ++alarm_number_;
+}
+
+void ApproximateBodyCall::SetAlarm(double seconds, void (ApproximateBodyCall::*late)()) {
+  DropAlarm();
+  const auto ring = [weak = weak_from_this(), number = alarm_number_, late] {
+    const std::shared_ptr<ApproximateBodyCall> call = weak.lock();
+    if (call == nullptr) return;
+    const std::lock_guard lock(call->mutex_);
+    if (number == call->alarm_number_) (call.get()->*late)();
+  };
+  alarm_ = services_.watchdog.Set(Watchdog::After(seconds), ring);
+}
+
+void ApproximateBodyCall::AwaitMessage() {
+  const double left = services_.config.max_upload_seconds - Watchdog::SecondsSince(upload_begin_);
+  SetAlarm(std::min(services_.config.upload_idle_seconds, left),
+           &ApproximateBodyCall::UploadIsLate);
+}
+
+void ApproximateBodyCall::UploadIsLate() {
+  const ServerConfig& config = services_.config;
+  const bool is_over = Watchdog::SecondsSince(upload_begin_) >= config.max_upload_seconds;
+  End(Refused(ErrorReason::kUploadTooSlow,
+              is_over
+                  ? absl::StrCat("the upload did not end within ", config.max_upload_seconds, " s")
+                  : absl::StrCat("nothing more of the upload came for ", config.upload_idle_seconds,
+                                 " s")));
+}
+
+// What is being written stays with gRPC until the call is cut, so no status can be sent any more.
+void ApproximateBodyCall::ReaderIsLate() {
+  job_.Stop(StopCause::kReader);
+  context_.TryCancel();
+}
+
+void ApproximateBodyCall::OnCancel() {
+  job_.Stop(StopCause::kCaller);
+  job_.RunNowIfWaiting();
+}
+
 void ApproximateBodyCall::OnDone() {
-  job_.LeavePlace();
+  {
+    const std::lock_guard lock(mutex_);
+    DropAlarm();
+    results_.reset();
+  }
+  job_.Leave();
   const std::shared_ptr<ApproximateBodyCall> last = std::move(self_);
 }
 

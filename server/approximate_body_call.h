@@ -15,7 +15,8 @@ namespace capfit::server {
 
 // gRPC's threads run the On...Done callbacks, which only move bytes; the fit runs on the executor,
 // with this object as its observer. At most one write is under way, and the next message is made
-// when the reader has taken the last; of progress only the latest is kept.
+// when the reader has taken the last; of progress only the latest is kept. An upload that pauses
+// and a reader that does not read are ended by the watchdog.
 //
 // Lives until OnDone and until the job on the executor is over, whichever comes last.
 class ApproximateBodyCall final
@@ -23,17 +24,18 @@ class ApproximateBodyCall final
       public FitObserver,
       public std::enable_shared_from_this<ApproximateBodyCall> {
  public:
-  // Begins a call; it owns itself.
+  // Begins a call; it owns itself. `token_name`: as FitJob.
   static ApproximateBodyCall* Start(grpc::CallbackServerContext* context,
-                                    const CallServices& services);
+                                    const CallServices& services, const std::string& token_name);
 
   // For Start only.
-  ApproximateBodyCall(grpc::CallbackServerContext* context, const CallServices& services)
-      : services_(services), job_(services, *context) {}
+  ApproximateBodyCall(grpc::CallbackServerContext* context, const CallServices& services,
+                      const std::string& token_name)
+      : services_(services), context_(*context), job_(services, *context, token_name) {}
 
   void OnReadDone(bool ok) override;
   void OnWriteDone(bool ok) override;
-  void OnCancel() override { job_.Cancel(); }
+  void OnCancel() override;
   void OnDone() override;
 
   void OnStage(Stage stage, double fraction_done) override;
@@ -41,20 +43,33 @@ class ApproximateBodyCall final
 
  private:
   void Begin();
-  void SubmitJob();
   void RunJob();
-  // Sends what is next, if nothing is under way. With mutex_ held, as NextResponse.
+  // All below with mutex_ held.
+  void TakeMessage();
+  void SubmitJob();
+  // Sends what is next, if nothing is under way.
   void Pump();
   [[nodiscard]] bool NextResponse();
   void End(const absl::Status& status);
+  // Whatever rang or is to ring means nothing any more.
+  void DropAlarm();
+  // Calls `late` after `seconds`, unless the alarm is dropped or set again.
+  void SetAlarm(double seconds, void (ApproximateBodyCall::*late)());
+  void AwaitMessage();
+  void UploadIsLate();
+  void ReaderIsLate();
 
   const CallServices services_;
+  grpc::CallbackServerContext& context_;  // until OnDone
   FitJob job_;
   std::shared_ptr<ApproximateBodyCall> self_;  // until OnDone
-  v1::ApproximateBodyRequest request_;
-  bool is_submitted_ = false;  // touched by Begin and OnReadDone only
 
   std::mutex mutex_;
+  v1::ApproximateBodyRequest request_;  // gRPC's while a read is under way
+  Watchdog::Clock::time_point upload_begin_ = Watchdog::Clock::now();
+  Watchdog::Alarm alarm_;
+  std::uint64_t alarm_number_ = 0;  // of the last alarm that was set or dropped
+  bool is_submitted_ = false;
   bool job_is_running_ = false;
   bool is_writing_ = false;
   bool is_finished_ = false;

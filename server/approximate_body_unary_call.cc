@@ -1,5 +1,7 @@
 #include "server/approximate_body_unary_call.h"
 
+#include <spdlog/spdlog.h>
+
 #include <utility>
 
 #include "core/base/status.h"
@@ -9,36 +11,65 @@ namespace capfit::server {
 
 ApproximateBodyUnaryCall* ApproximateBodyUnaryCall::Start(
     grpc::CallbackServerContext* context, const v1::ApproximateBodyUnaryRequest* request,
-    v1::ApproximateBodyUnaryResponse* response, const CallServices& services) {
+    v1::ApproximateBodyUnaryResponse* response, const CallServices& services,
+    const std::string& token_name) {
   const auto call =
-      std::make_shared<ApproximateBodyUnaryCall>(context, request, response, services);
+      std::make_shared<ApproximateBodyUnaryCall>(context, request, response, services, token_name);
   call->self_ = call;
   call->Begin();
   return call.get();
 }
 
 void ApproximateBodyUnaryCall::Begin() {
-  const absl::Status status = job_.Admit();
-  if (!status.ok()) {
-    End(status);
-    return;
-  }
-  services_.executor.Submit([self = shared_from_this()] { self->End(self->RunJob()); });
+  const absl::Status status = Submit();
+  if (!status.ok()) End(status);
+  if (job_.is_stopped()) job_.RunNowIfWaiting();
+}
+
+absl::Status ApproximateBodyUnaryCall::Submit() {
+  CAPFIT_RETURN_IF_ERROR(job_.Admit());
+  CAPFIT_RETURN_IF_ERROR(job_.Expect(request_));
+  return job_.Enqueue([self = shared_from_this()] { self->End(self->RunJob()); });
 }
 
 absl::Status ApproximateBodyUnaryCall::RunJob() {
   CAPFIT_RETURN_IF_ERROR(job_.AddWhole(request_));
   CAPFIT_ASSIGN_OR_RETURN(const pipeline::FitResult result, job_.Run(*this));
   response_ = wire::ResultToWire(result, job_.request_id());
-  return job_.is_cancelled() ? job_.GaveUp() : absl::OkStatus();
+  job_.HoldAnswer(static_cast<std::int64_t>(request_.ByteSizeLong() + response_.ByteSizeLong()));
+  return job_.is_stopped() ? job_.GaveUp() : absl::OkStatus();
 }
 
 void ApproximateBodyUnaryCall::End(const absl::Status& status) {
-  Finish(job_.Close("ApproximateBodyUnary", status));
+  const grpc::Status answer = job_.Close("ApproximateBodyUnary", status);
+  const std::lock_guard lock(mutex_);
+  const auto ring = [weak = weak_from_this()] {
+    if (const std::shared_ptr<ApproximateBodyUnaryCall> call = weak.lock()) call->ReaderIsLate();
+  };
+  alarm_ = services_.watchdog.Set(Watchdog::After(services_.config.read_idle_seconds), ring);
+  Finish(answer);
+}
+
+void ApproximateBodyUnaryCall::ReaderIsLate() {
+  const std::lock_guard lock(mutex_);
+  if (is_done_) return;
+  spdlog::warn("ApproximateBodyUnary id={} cut off: its answer was not read for {} s",
+               QuotedText(job_.request_id()), services_.config.read_idle_seconds);
+  context_.TryCancel();
+}
+
+void ApproximateBodyUnaryCall::OnCancel() {
+  job_.Stop(StopCause::kCaller);
+  job_.RunNowIfWaiting();
 }
 
 void ApproximateBodyUnaryCall::OnDone() {
-  job_.LeavePlace();
+  {
+    const std::lock_guard lock(mutex_);
+    is_done_ = true;
+    services_.watchdog.Drop(alarm_);
+  }
+  job_.Leave();
   const std::shared_ptr<ApproximateBodyUnaryCall> last = std::move(self_);
 }
 

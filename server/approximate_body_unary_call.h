@@ -5,6 +5,7 @@
 #include <grpcpp/support/server_callback.h>
 
 #include <memory>
+#include <mutex>
 
 #include "server/fit_job.h"
 
@@ -21,15 +22,21 @@ class ApproximateBodyUnaryCall final
   static ApproximateBodyUnaryCall* Start(grpc::CallbackServerContext* context,
                                          const v1::ApproximateBodyUnaryRequest* request,
                                          v1::ApproximateBodyUnaryResponse* response,
-                                         const CallServices& services);
+                                         const CallServices& services,
+                                         const std::string& token_name);
 
   // For Start only.
   ApproximateBodyUnaryCall(grpc::CallbackServerContext* context,
                            const v1::ApproximateBodyUnaryRequest* request,
-                           v1::ApproximateBodyUnaryResponse* response, const CallServices& services)
-      : services_(services), job_(services, *context), request_(*request), response_(*response) {}
+                           v1::ApproximateBodyUnaryResponse* response, const CallServices& services,
+                           const std::string& token_name)
+      : services_(services),
+        context_(*context),
+        job_(services, *context, token_name),
+        request_(*request),
+        response_(*response) {}
 
-  void OnCancel() override { job_.Cancel(); }
+  void OnCancel() override;
   void OnDone() override;
 
   void OnStage(Stage, double) override {}
@@ -37,14 +44,20 @@ class ApproximateBodyUnaryCall final
 
  private:
   void Begin();
+  [[nodiscard]] absl::Status Submit();
   [[nodiscard]] absl::Status RunJob();
   void End(const absl::Status& status);
+  void ReaderIsLate();
 
   const CallServices services_;
+  grpc::CallbackServerContext& context_;  // until OnDone
   FitJob job_;
   const v1::ApproximateBodyUnaryRequest& request_;
   v1::ApproximateBodyUnaryResponse& response_;
   std::shared_ptr<ApproximateBodyUnaryCall> self_;  // until OnDone
+  std::mutex mutex_;
+  Watchdog::Alarm alarm_;
+  bool is_done_ = false;
 };
 
 }  // namespace capfit::server

@@ -1,11 +1,20 @@
 #include "server/fit_executor.h"
 
+#include <algorithm>
+#include <chrono>
+#include <optional>
 #include <utility>
 
 namespace capfit::server {
+namespace {
 
-FitExecutor::FitExecutor(int concurrent_fits, int queued_fits)
-    : place_count_(concurrent_fits + queued_fits) {
+double NowSeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+FitExecutor::FitExecutor(int concurrent_fits) : most_long_(std::max(1, concurrent_fits - 1)) {
   for (int i = 0; i < concurrent_fits; ++i) threads_.emplace_back([this] { Work(); });
 }
 
@@ -18,35 +27,63 @@ FitExecutor::~FitExecutor() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-FitExecutor::Place FitExecutor::TryTakePlace() {
-  int taken = taken_.load();
-  while (taken < place_count_) {
-    if (taken_.compare_exchange_weak(taken, taken + 1)) {
-      return {&taken_, [](std::atomic<int>* count) { count->fetch_sub(1); }};
-    }
-  }
-  return nullptr;
-}
-
-void FitExecutor::Submit(std::function<void()> job) {
+FitExecutor::Ticket FitExecutor::Submit(WaitingFit fit, std::function<void()> job) {
+  Ticket ticket = 0;
   {
     const std::lock_guard lock(mutex_);
-    jobs_.push_back(std::move(job));
+    const bool is_long = fit.expected_seconds > kLongFitSeconds;
+    ticket = queue_.Add(std::move(fit), NowSeconds());
+    jobs_.emplace(ticket, Job{std::move(job), is_long});
   }
-  wake_.notify_one();
+  // All: the one that is woken might be kept from a long fit while another is not.
+  wake_.notify_all();
+  return ticket;
+}
+
+std::function<void()> FitExecutor::Withdraw(Ticket ticket) {
+  const std::lock_guard lock(mutex_);
+  if (!queue_.Remove(ticket)) return {};
+  return std::move(jobs_.extract(ticket).mapped().run);
+}
+
+std::size_t FitExecutor::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return queue_.size();
+}
+
+std::size_t FitExecutor::running() const {
+  const std::lock_guard lock(mutex_);
+  return running_;
+}
+
+FitExecutor::Job FitExecutor::Next() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    const std::optional<Ticket> ticket = queue_.TakeNext(NowSeconds(), running_long_ < most_long_);
+    if (ticket) {
+      Job job = std::move(jobs_.extract(*ticket).mapped());
+      ++running_;
+      if (job.is_long) ++running_long_;
+      return job;
+    }
+    if (stopping_ && queue_.size() == 0) return {};
+    wake_.wait(lock);
+  }
+}
+
+void FitExecutor::Done(const Job& job) {
+  {
+    const std::lock_guard lock(mutex_);
+    --running_;
+    if (job.is_long) --running_long_;
+  }
+  if (job.is_long) wake_.notify_all();
 }
 
 void FitExecutor::Work() {
-  for (;;) {
-    std::function<void()> job;
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
-      if (jobs_.empty()) return;
-      job = std::move(jobs_.front());
-      jobs_.pop_front();
-    }
-    job();
+  for (Job job = Next(); job.run; job = Next()) {
+    job.run();
+    Done(job);
   }
 }
 

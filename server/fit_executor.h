@@ -1,49 +1,58 @@
-// Where fits run: a small fixed number of threads, never gRPC's, and the admission in front of
-// them.
+// Where fits run: a small fixed number of threads, never gRPC's, and the queue in front of them.
 #ifndef CAPFIT_SERVER_FIT_EXECUTOR_H_
 #define CAPFIT_SERVER_FIT_EXECUTOR_H_
 
-#include <atomic>
 #include <condition_variable>
-#include <deque>
 #include <functional>
-#include <memory>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <vector>
 
+#include "server/fit_queue.h"
+
 namespace capfit::server {
 
-// Runs jobs in the order in which they come. Each job may use the whole ThreadPool; more than one
-// at a time keeps the cores busy while another is in a serial stretch.
+// Runs jobs in the order of FitQueue. Each job may use the whole ThreadPool; more than one at a
+// time keeps the cores busy while another is in a serial stretch. Where there are two threads or
+// more, long fits never take the last one.
 class FitExecutor {
  public:
-  // Admits `concurrent_fits` + `queued_fits` calls at a time.
-  FitExecutor(int concurrent_fits, int queued_fits);
-  // Runs what is queued, then stops. All places must have been given back.
+  using Ticket = FitQueue::Ticket;
+
+  // `concurrent_fits` >= 1 threads.
+  explicit FitExecutor(int concurrent_fits);
+  // Runs what is queued, then stops.
   ~FitExecutor();
   FitExecutor(const FitExecutor&) = delete;
   FitExecutor& operator=(const FitExecutor&) = delete;
 
-  // A call's right to upload, wait and compute; given back on destruction. Taken when the call
-  // begins, not when its upload ends, so that a full server refuses before bytes are sent, and
-  // uploads and unread results in memory are bounded by the number of places.
-  using Place = std::shared_ptr<void>;
-
-  // Nothing when all are taken.
-  [[nodiscard]] Place TryTakePlace();
-
   // Never blocks.
-  void Submit(std::function<void()> job);
+  Ticket Submit(WaitingFit fit, std::function<void()> job);
+  // Takes a job that has not begun out of the queue and gives it back; empty when it has begun.
+  [[nodiscard]] std::function<void()> Withdraw(Ticket ticket);
+  // Jobs that wait.
+  [[nodiscard]] std::size_t waiting() const;
+  // Jobs that run.
+  [[nodiscard]] std::size_t running() const;
 
  private:
+  struct Job {
+    std::function<void()> run;
+    bool is_long = false;
+  };
   void Work();
+  // The next job, as soon as one may run; one without a function at the end.
+  [[nodiscard]] Job Next();
+  void Done(const Job& job);
 
-  const int place_count_;
-  std::atomic<int> taken_{0};
-  std::mutex mutex_;
+  const int most_long_;
+  mutable std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<std::function<void()>> jobs_;
+  FitQueue queue_;
+  std::map<Ticket, Job> jobs_;
+  std::size_t running_ = 0;
+  int running_long_ = 0;
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 };

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <optional>
@@ -9,12 +11,15 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/base/version.h"
 #include "core/export/export.h"
 #include "core/pipeline/colliders.h"
 #include "proto/wire/options_conversion.h"
 #include "proto/wire/result_conversion.h"
 #include "proto/wire/status_conversion.h"
 #include "proto/wire/unknown_fields.h"
+#include "server/caller.h"
+#include "server/result_bytes.h"
 
 namespace capfit::server {
 namespace {
@@ -22,6 +27,37 @@ namespace {
 // Files of exports are named after the body's file, whose name the server is not told.
 constexpr char kExportSource[] = "body";
 constexpr char kPushbackTrailer[] = "grpc-retry-pushback-ms";
+
+using Clock = Watchdog::Clock;
+
+// For the log: what makes one fit slower than another.
+std::string WordsOf(const pipeline::FitOptions& options) {
+  std::string words = options.quality == pipeline::Quality::kTight ? "tight" : "paper";
+  absl::StrAppend(&words, options.fit == pipeline::FitMode::kBestFit ? " best" : " enclose");
+  const auto add = [&](const char* name, const auto& value) {
+    if (value) absl::StrAppend(&words, " ", name, "=", *value);
+  };
+  add("max_primitives", options.max_primitives);
+  add("max_spheres", options.max_spheres);
+  add("max_capsules", options.max_capsules);
+  add("polygon_error", options.polygon_error);
+  if (!options.engine.empty()) absl::StrAppend(&words, " engine=", options.engine);
+  if (options.layout) absl::StrAppend(&words, " layout");
+  constexpr const char* kSkinning[] = {"", " dense", " sparse", " bones"};
+  absl::StrAppend(&words, kSkinning[static_cast<std::size_t>(options.skinning)]);
+  for (const pipeline::ExportWish& wish : options.exports) {
+    absl::StrAppend(&words, " export=", wish.format);
+  }
+  return words;
+}
+
+// The one that the refusal names.
+int RetryMs(const absl::Status& status, int least_ms) {
+  for (const auto& [name, value] : FactsOf(status)) {
+    if (name == kRetryFact) return std::max(least_ms, std::atoi(value.c_str()));
+  }
+  return least_ms;
+}
 
 absl::Status CheckMessageSize(const google::protobuf::Message& request, const char* field) {
   const std::size_t bytes = request.ByteSizeLong();
@@ -35,20 +71,22 @@ absl::Status CheckMessageSize(const google::protobuf::Message& request, const ch
 
 }  // namespace
 
-FitJob::FitJob(const CallServices& services, grpc::CallbackServerContext& context)
+FitJob::FitJob(const CallServices& services, grpc::CallbackServerContext& context,
+               std::string token_name)
     : services_(services),
       context_(context),
+      token_name_(std::move(token_name)),
       deadline_(context.deadline()),
       upload_(services.config.upload) {}
 
 absl::Status FitJob::Admit() {
-  place_ = services_.executor.TryTakePlace();
-  if (place_ != nullptr) return absl::OkStatus();
-  const ServerConfig& config = services_.config;
-  return Refused(ErrorReason::kServerFull,
-                 absl::StrCat("all ", config.max_concurrent_fits + config.max_queued_fits,
-                              " places of this server are taken, try again in ",
-                              config.retry_pushback_ms, " ms or ask another replica"));
+  record_.peer = context_.peer();
+  record_.trace = TraceOf(context_);
+  if (!record_.trace.empty()) context_.AddInitialMetadata(kTraceKey, record_.trace);
+  record_.client = ClientOf(context_, token_name_);
+  holding_.emplace(services_.admission, record_.client);
+  CAPFIT_ASSIGN_OR_RETURN(record_.is_bulk, IsBulk(context_));
+  return holding_->Open();
 }
 
 absl::Status FitJob::Add(const v1::ApproximateBodyRequest& request) {
@@ -56,7 +94,23 @@ absl::Status FitJob::Add(const v1::ApproximateBodyRequest& request) {
   NoteUnknownFields(request);
   const bool is_first = !upload_.has_header();
   CAPFIT_RETURN_IF_ERROR(InCallersWords(upload_.Add(request)));
-  return is_first ? ReadOptions() : absl::OkStatus();
+  if (is_first) {
+    CAPFIT_RETURN_IF_ERROR(ReadOptions());
+    CAPFIT_RETURN_IF_ERROR(holding_->CheckClaim(upload_.claimed_bytes()));
+  }
+  return holding_->HoldBytes(upload_.held_bytes() +
+                             static_cast<std::int64_t>(request.ByteSizeLong()));
+}
+
+absl::Status FitJob::Expect(const v1::ApproximateBodyUnaryRequest& request) {
+  // Positions become doubles, so a mesh may take twice what it took in the message.
+  request_bytes_ = static_cast<std::int64_t>(request.ByteSizeLong());
+  const v1::InlineMesh& mesh = request.mesh();
+  expected_faces_ = mesh.has_arrays() ? (mesh.arrays().face_sizes_size() > 0
+                                             ? mesh.arrays().face_sizes_size()
+                                             : mesh.arrays().triangle_indices_size() / 3)
+                                      : request_bytes_ / kFileBytesOfAFace;
+  return holding_->HoldBytes(3 * request_bytes_);
 }
 
 absl::Status FitJob::AddWhole(const v1::ApproximateBodyUnaryRequest& request) {
@@ -71,10 +125,33 @@ absl::Status FitJob::AddWhole(const v1::ApproximateBodyUnaryRequest& request) {
       "ones fit"));
 }
 
+FitSize FitJob::SizeOfFit() const {
+  return {std::max(expected_faces_, upload_.face_count()), options_.quality,
+          options_.skinning == pipeline::SkinningMode::kDense};
+}
+
+absl::Status FitJob::Enqueue(std::function<void()> run) {
+  if (request_bytes_ == 0) {
+    CAPFIT_RETURN_IF_ERROR(holding_->HoldBytes(
+        upload_.held_bytes() +
+        ExpectedResultBytes(options_, upload_.vertex_count(), upload_.held_bytes())));
+  }
+  const double seconds = services_.cost.ExpectedSeconds(SizeOfFit());
+  CAPFIT_RETURN_IF_ERROR(holding_->BeginFit(seconds));
+  queued_at_ = Clock::now();
+  ticket_ = services_.executor.Submit({record_.client, record_.is_bulk, seconds}, std::move(run));
+  return absl::OkStatus();
+}
+
+void FitJob::RunNowIfWaiting() {
+  if (const std::function<void()> run = services_.executor.Withdraw(ticket_)) run();
+}
+
 absl::Status FitJob::ReadOptions() {
   absl::StatusOr<pipeline::FitOptions> options = wire::OptionsFromWire(upload_.header());
   if (!options.ok()) return InCallersWords(options.status());
   options_ = *std::move(options);
+  record_.options = WordsOf(options_);
   CAPFIT_RETURN_IF_ERROR(InCallersWords(services_.backend.validate(options_)));
   return InCallersWords(CheckExports());
 }
@@ -107,26 +184,60 @@ absl::Status FitJob::InCallersWords(const absl::Status& status) const {
   return WithWarnings(wire::WithWirePaths(renamed, upload_.header().options()), warnings);
 }
 
-// The core throws nothing of its own; the libraries under it may, above all for want of memory.
-// That must cost one call, not the server.
 absl::StatusOr<pipeline::FitResult> FitJob::Run(FitObserver& observer) {
-  absl::StatusOr<pipeline::FitResult> result;
-  try {
-    result = Compute(observer);
-  } catch (const std::bad_alloc&) {
-    result = Refused(ErrorReason::kOutOfMemory, "not enough memory for this mesh on this server");
-  } catch (const std::exception& error) {
-    result = Refused(ErrorReason::kInternal, absl::StrCat("the fit failed: ", error.what()));
-  }
+  const SteadyTime begin = Clock::now();
+  fit_deadline_ = Watchdog::After(services_.config.max_fit_seconds);
+  record_.queued_seconds = std::chrono::duration<double>(begin - queued_at_).count();
+  record_.faces = SizeOfFit().faces;
+  absl::StatusOr<pipeline::FitResult> result = RunGuarded(observer);
+  record_.fit_seconds = Watchdog::SecondsSince(begin);
+  holding_->EndFit();
+  upload_.DropFile();
   if (!result.ok()) return InCallersWords(result.status());
+  if (!record_.is_cached) {
+    services_.cost.Learn(SizeOfFit(), record_.fit_seconds);
+    record_.stage_seconds = result->stage_seconds;
+  }
+  holding_->HoldAnyway(request_bytes_ + ResultBytes(*result));
   result->warnings.insert(result->warnings.begin(), warnings_.begin(), warnings_.end());
   return result;
+}
+
+// The core throws nothing of its own; the libraries under it may, above all for want of memory.
+// That must cost one call, not the server.
+absl::StatusOr<pipeline::FitResult> FitJob::RunGuarded(FitObserver& observer) {
+  try {
+    return Compute(observer);
+  } catch (const std::bad_alloc&) {
+    return Refused(ErrorReason::kOutOfMemory, "not enough memory for this mesh on this server");
+  } catch (const std::exception& error) {
+    return Refused(ErrorReason::kInternal, absl::StrCat("the fit failed: ", error.what()));
+  }
 }
 
 absl::StatusOr<pipeline::FitResult> FitJob::Compute(FitObserver& observer) {
   // A read that ends because the caller is gone looks like the end of the upload; only the context
   // knows already.
   if (IsOver() || context_.IsCancelled()) return GaveUp();
+  if (!services_.cache.is_on()) return Fit(observer);
+  const std::string key = CacheKey();
+  if (const ResultCache::Result kept = services_.cache.Find(key)) {
+    record_.is_cached = true;
+    return *kept;
+  }
+  absl::StatusOr<pipeline::FitResult> result = Fit(observer);
+  if (result.ok()) services_.cache.Keep(key, *result);
+  return result;
+}
+
+std::string FitJob::CacheKey() const {
+  ContentHash hash;
+  hash.Add(std::string(Version()));
+  upload_.AddTo(hash);
+  return hash.Finish();
+}
+
+absl::StatusOr<pipeline::FitResult> FitJob::Fit(FitObserver& observer) {
   CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, std::move(upload_).Finish());
   absl::StatusOr<pipeline::FitResult> result =
       services_.backend.fit(soup, options_, services_.pool, observer);
@@ -137,27 +248,50 @@ absl::StatusOr<pipeline::FitResult> FitJob::Compute(FitObserver& observer) {
   return result;
 }
 
+void FitJob::Stop(StopCause cause) {
+  StopCause none = StopCause::kNone;
+  cause_.compare_exchange_strong(none, cause);
+}
+
 bool FitJob::IsOver() const {
-  return is_cancelled() || std::chrono::system_clock::now() >= deadline_;
+  const SteadyTime now = Clock::now();
+  return is_stopped() || now >= fit_deadline_.load() || now >= services_.stop_at.load() ||
+         std::chrono::system_clock::now() >= deadline_;
 }
 
 absl::Status FitJob::GaveUp() const {
+  const SteadyTime now = Clock::now();
+  if (cause_ == StopCause::kReader) {
+    return Refused(ErrorReason::kReaderTooSlow,
+                   absl::StrCat("the caller read nothing of its answer for ",
+                                services_.config.read_idle_seconds, " s"));
+  }
+  if (now >= services_.stop_at.load()) {
+    return Refused(ErrorReason::kServerStopping,
+                   absl::StrCat("this server stops, and the call did not end within the ",
+                                services_.config.drain_seconds, " s that it had"));
+  }
   if (std::chrono::system_clock::now() >= deadline_) {
     return Refused(ErrorReason::kDeadlineExceeded, "the caller's deadline passed during the fit");
+  }
+  if (now >= fit_deadline_.load()) {
+    return Refused(ErrorReason::kFitTooLong,
+                   absl::StrCat("the fit took more than the ", services_.config.max_fit_seconds,
+                                " s that this server allows"));
   }
   return Refused(ErrorReason::kCancelled, "the caller gave up");
 }
 
 grpc::Status FitJob::Close(const char* method, const absl::Status& status) {
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  spdlog::info("{} id={} peer={} bytes={} seconds={:.3f} status={}", method,
-               wire::PlainText(request_id()), context_.peer(), upload_.received_bytes(), seconds,
-               status.ok() ? "OK"
-                           : wire::PlainText(absl::StrCat(absl::StatusCodeToString(status.code()),
-                                                          ": ", status.message())));
+  record_.method = method;
+  record_.request_id = request_id();
+  record_.received_bytes = upload_.received_bytes();
+  record_.seconds = Watchdog::SecondsSince(begin_);
+  record_.status = status;
+  spdlog::info("{}", CallLine(record_, services_.config.log_format));
+  services_.metrics.Count(record_);
   if (!absl::IsResourceExhausted(status)) return wire::ToGrpcStatus(status);
-  const int wait_ms = services_.config.retry_pushback_ms;
+  const int wait_ms = RetryMs(status, services_.config.retry_pushback_ms);
   context_.AddTrailingMetadata(kPushbackTrailer, std::to_string(wait_ms));
   return wire::ToGrpcStatus(status, wait_ms);
 }

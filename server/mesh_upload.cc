@@ -1,5 +1,8 @@
 #include "server/mesh_upload.h"
 
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+
 #include <algorithm>
 #include <numeric>
 #include <span>
@@ -13,7 +16,6 @@
 namespace capfit::server {
 namespace {
 
-constexpr std::int64_t kMaxReservedBytes = 16LL * 1024 * 1024;
 constexpr std::size_t kMaxRequestIdBytes = 128;
 
 absl::Status CheckClaim(const char* field, std::int64_t claimed, std::int64_t limit) {
@@ -72,6 +74,19 @@ absl::Status CheckInThrees(const char* field, std::size_t count) {
   return InvalidField(ErrorReason::kCountMismatch, field,
                       absl::StrCat("has ", count, " numbers, must be a multiple of 3"),
                       {{"value", absl::StrCat(count)}, {"limit", "a multiple of 3"}});
+}
+
+// Room for `needed` elements without more growth than a vector's own, and none beyond `claimed`.
+template <typename Container>
+void MakeRoom(Container& container, std::size_t needed, std::int64_t claimed) {
+  if (needed <= container.capacity()) return;
+  container.reserve(
+      std::clamp(static_cast<std::size_t>(std::max<std::int64_t>(0, claimed)), needed, 2 * needed));
+}
+
+template <typename Container>
+std::int64_t CapacityBytes(const Container& container) {
+  return static_cast<std::int64_t>(container.capacity() * sizeof(container[0]));
 }
 
 template <typename Numbers>
@@ -144,15 +159,6 @@ absl::Status MeshUpload::AddHeader(const v1::ApproximateBodyHeader& header) {
   CAPFIT_RETURN_IF_ERROR(CheckHeader(header, limits_));
   has_header_ = true;
   header_ = header;
-  if (header.mesh().has_file()) {
-    file_bytes_.reserve(
-        static_cast<std::size_t>(std::min(kMaxReservedBytes, header.mesh().file().byte_count())));
-  } else {
-    const std::int64_t claimed = header.mesh().arrays().vertex_count();
-    const auto vertex_bytes = static_cast<std::int64_t>(sizeof(Eigen::Vector3d));
-    soup_.positions.reserve(
-        static_cast<std::size_t>(std::min(kMaxReservedBytes / vertex_bytes, claimed)));
-  }
   return absl::OkStatus();
 }
 
@@ -196,6 +202,7 @@ absl::Status MeshUpload::CountBytes(const char* field, std::size_t bytes) {
 
 absl::Status MeshUpload::AddFileBytes(const char* field, const std::string& bytes) {
   CAPFIT_RETURN_IF_ERROR(CountBytes(field, bytes.size()));
+  MakeRoom(file_bytes_, file_bytes_.size() + bytes.size(), header_.mesh().file().byte_count());
   file_bytes_ += bytes;
   return absl::OkStatus();
 }
@@ -214,6 +221,10 @@ absl::Status MeshUpload::AddArrays(const char* field, const v1::MeshArrays& arra
     return InvalidField(ErrorReason::kConflict, "mesh.arrays",
                         "mixes triangle_indices and face_sizes, use one of them");
   }
+  const auto more =
+      static_cast<std::size_t>(arrays.positions_size() + arrays.positions_double_size());
+  MakeRoom(soup_.positions, (coordinate_count_ + more + 2) / 3,
+           header_.mesh().arrays().vertex_count());
   AppendCoordinates(arrays.positions(), coordinate_count_, soup_.positions);
   AppendCoordinates(arrays.positions_double(), coordinate_count_, soup_.positions);
   Append(arrays.triangle_indices(), soup_.face_vertices);
@@ -222,6 +233,49 @@ absl::Status MeshUpload::AddArrays(const char* field, const v1::MeshArrays& arra
   corner_count_ =
       std::accumulate(arrays.face_sizes().begin(), arrays.face_sizes().end(), corner_count_);
   return CheckArraySizes();
+}
+
+void MeshUpload::AddTo(ContentHash& hash) const {
+  v1::ApproximateBodyHeader asked = header_;
+  asked.clear_request_id();
+  if (asked.mesh().has_file()) {
+    asked.mutable_mesh()->mutable_file()->clear_byte_count();
+  } else {
+    asked.mutable_mesh()->mutable_arrays()->Clear();
+  }
+  std::string bytes;
+  {
+    google::protobuf::io::StringOutputStream out(&bytes);
+    google::protobuf::io::CodedOutputStream coded(&out);
+    coded.SetSerializationDeterministic(true);
+    asked.SerializeToCodedStream(&coded);
+  }
+  hash.Add(bytes);
+  hash.Add(file_bytes_);
+  hash.Add(soup_.positions);
+  hash.Add(soup_.face_sizes);
+  hash.Add(soup_.face_vertices);
+}
+
+std::int64_t MeshUpload::held_bytes() const {
+  return CapacityBytes(file_bytes_) + CapacityBytes(soup_.positions) +
+         CapacityBytes(soup_.face_sizes) + CapacityBytes(soup_.face_vertices);
+}
+
+std::int64_t MeshUpload::claimed_bytes() const {
+  if (header_.mesh().has_file()) return header_.mesh().file().byte_count();
+  const v1::ArrayEncoding& arrays = header_.mesh().arrays();
+  return static_cast<std::int64_t>(sizeof(Eigen::Vector3d)) * arrays.vertex_count() +
+         static_cast<std::int64_t>(3 * sizeof(std::uint32_t)) * arrays.face_count();
+}
+
+std::int64_t MeshUpload::face_count() const {
+  if (file_bytes_.empty()) return static_cast<std::int64_t>(soup_.face_count());
+  return static_cast<std::int64_t>(file_bytes_.size()) / kFileBytesOfAFace;
+}
+
+std::int64_t MeshUpload::vertex_count() const {
+  return file_bytes_.empty() ? static_cast<std::int64_t>(soup_.positions.size()) : face_count() / 2;
 }
 
 absl::Status MeshUpload::CheckArraySizes() const {

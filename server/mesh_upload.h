@@ -11,8 +11,13 @@
 #include "capfit/v1/service.pb.h"
 #include "core/formats/polygon_soup.h"
 #include "core/mesh/prepare_mesh.h"
+#include "server/content_hash.h"
 
 namespace capfit::server {
+
+// Of a face in a file, for guesses: OBJ takes some 60 bytes for a triangle and its half of a
+// vertex, binary STL 50, PLY and GLB 20 or less.
+inline constexpr std::int64_t kFileBytesOfAFace = 40;
 
 struct UploadLimits {
   formats::MeshLimits mesh;
@@ -21,8 +26,8 @@ struct UploadLimits {
 
 // Use: Add() each message in order, or AddWhole() the one of a unary call, then Finish(). After an
 // error the upload is of no further use.
-// Claimed sizes are checked against the limits before memory is reserved, and no more memory is
-// taken than has arrived, but for a first reservation of at most 16 MiB.
+// Claimed sizes are checked against the limits, but memory is taken only for what has arrived: at
+// most twice as much, and no more than was claimed where the claim is true.
 //
 // Errors are INVALID_ARGUMENT and name the field, what is wrong and the limit: chunk before header,
 // second header, chunk of the wrong kind or beyond what was declared, mixed kinds of arrays, empty
@@ -43,6 +48,12 @@ class MeshUpload {
   [[nodiscard]] bool has_header() const { return has_header_; }
   [[nodiscard]] const v1::ApproximateBodyHeader& header() const { return header_; }
   [[nodiscard]] std::int64_t received_bytes() const { return received_bytes_; }
+  // What the mesh takes of memory now, and will take if the header's claims are true.
+  [[nodiscard]] std::int64_t held_bytes() const;
+  [[nodiscard]] std::int64_t claimed_bytes() const;
+  // How many faces and vertices have come; guessed from the size where they came as a file.
+  [[nodiscard]] std::int64_t face_count() const;
+  [[nodiscard]] std::int64_t vertex_count() const;
 
   // An error about the mesh that Finish gave, in the words of the upload: the core does not know in
   // which precision the positions came.
@@ -50,6 +61,11 @@ class MeshUpload {
 
   // Reads the file, or hands out the arrays. O(bytes): not for a thread that must not block.
   [[nodiscard]] absl::StatusOr<formats::PolygonSoup> Finish() &&;
+  // What tells this mesh and what is asked of it from any other: the header without its claims and
+  // its request id, and all that has come. Before Finish(). O(bytes).
+  void AddTo(ContentHash& hash) const;
+  // Lets go of the file; file() is empty then.
+  void DropFile() { file_bytes_ = {}; }
   // The file as it came, also after Finish(); empty where the mesh came as arrays.
   [[nodiscard]] std::span<const std::byte> file() const {
     return std::as_bytes(std::span(file_bytes_));

@@ -2,10 +2,12 @@
 
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/resource_quota.h>
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <thread>
@@ -22,8 +24,20 @@
 namespace capfit::server {
 namespace {
 
+// Time to tell the callers of unfinished calls.
+constexpr std::chrono::milliseconds kLastWord{500};
+
 std::chrono::milliseconds Milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000.0));
+}
+
+AdmissionLimits LimitsOf(const ServerConfig& config) {
+  return {config.max_held_bytes,
+          config.max_queued_seconds,
+          config.max_concurrent_fits + config.max_queued_fits,
+          config.max_concurrent_fits,
+          config.client_percent / 100.0,
+          config.retry_pushback_ms};
 }
 
 // Once per process, before the first server is built.
@@ -72,19 +86,39 @@ struct Server::Parts {
       : config(config_in),
         backend(std::move(backend_in)),
         pool(config.threads),
-        executor(config.max_concurrent_fits, config.max_queued_fits),
-        service({config, backend, pool, executor}, std::move(callers_in),
-                DescribeServer(config, pool.threads(), backend)) {}
+        admission(LimitsOf(config)),
+        cache(config.cache_bytes),
+        executor(config.max_concurrent_fits),
+        service(
+            {config, backend, pool, admission, cost, executor, metrics, cache, watchdog, stop_at},
+            std::move(callers_in), DescribeServer(config, pool.threads(), backend)) {}
 
   const ServerConfig config;
   const FitBackend backend;
   const ThreadPool pool;
+  Admission admission;
+  FitCost cost;
+  std::atomic<Watchdog::Clock::time_point> stop_at{Watchdog::Clock::time_point::max()};
+  Watchdog watchdog;
+  ResultCache cache;
   FitExecutor executor;
+  Metrics metrics;
   Service service;
   // gRPC asks them with each handshake, but does not keep them.
   std::shared_ptr<grpc::ServerCredentials> credentials;
   int port = 0;
   std::unique_ptr<grpc::Server> grpc_server;
+  std::unique_ptr<Metrics::Endpoint> metrics_endpoint;
+
+  [[nodiscard]] Gauges Now() const {
+    return {static_cast<std::int64_t>(executor.waiting()),
+            static_cast<std::int64_t>(executor.running()),
+            admission.ExpectedWaitSeconds(),
+            admission.held_bytes(),
+            config.max_held_bytes,
+            pool.threads(),
+            cache.bytes()};
+  }
 };
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config,
@@ -96,9 +130,17 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
     CAPFIT_ASSIGN_OR_RETURN(credentials, TlsCredentials(config.tls));
   }
   auto parts = std::make_unique<Parts>(config, std::move(backend), std::move(callers));
+  if (!config.metrics_listen.empty()) {
+    CAPFIT_ASSIGN_OR_RETURN(
+        parts->metrics_endpoint,
+        parts->metrics.Serve(config.metrics_listen, [now = parts.get()] { return now->Now(); }));
+  }
   grpc::ServerBuilder builder;
   builder.RegisterService(&parts->service);
   builder.SetMaxReceiveMessageSize(kMaxReceivedBytes);
+  // A fuse behind our own budget, for what gRPC holds before we see it: messages half received.
+  builder.SetResourceQuota(
+      grpc::ResourceQuota("capfit").Resize(static_cast<std::size_t>(config.max_held_bytes)));
   // A second server on the same port is a mistake, not a way to share the load.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   LimitConnections(config.connection, builder);
@@ -121,6 +163,18 @@ Server::~Server() {
 
 int Server::port() const { return parts_->port; }
 
+std::int64_t Server::held_bytes() const { return parts_->admission.held_bytes(); }
+
+std::size_t Server::waiting_fits() const { return parts_->executor.waiting(); }
+
+int Server::metrics_port() const {
+  return parts_->metrics_endpoint == nullptr ? 0 : parts_->metrics_endpoint->port();
+}
+
+std::string Server::MetricsText() const {
+  return parts_->metrics.Text([this] { return parts_->Now(); });
+}
+
 std::shared_ptr<grpc::Channel> Server::InProcessChannel() {
   return parts_->grpc_server->InProcessChannel({});
 }
@@ -129,8 +183,11 @@ void Server::Drain() {
   if (parts_->grpc_server == nullptr) return;
   parts_->grpc_server->GetHealthCheckService()->SetServingStatus(false);
   std::this_thread::sleep_for(Milliseconds(parts_->config.drain_delay_seconds));
-  parts_->grpc_server->Shutdown(std::chrono::system_clock::now() +
-                                Milliseconds(parts_->config.drain_seconds));
+  // Calls that are still there see the end of the grace themselves and say so; gRPC cuts off only
+  // what does not.
+  const auto grace = Milliseconds(parts_->config.drain_seconds);
+  parts_->stop_at = Watchdog::Clock::now() + grace;
+  parts_->grpc_server->Shutdown(std::chrono::system_clock::now() + grace + kLastWord);
   parts_->grpc_server->Wait();
   parts_->grpc_server.reset();
 }

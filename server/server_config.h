@@ -2,8 +2,10 @@
 #ifndef CAPFIT_SERVER_SERVER_CONFIG_H_
 #define CAPFIT_SERVER_SERVER_CONFIG_H_
 
+#include <cstdint>
 #include <string>
 
+#include "server/call_record.h"
 #include "server/mesh_upload.h"
 #include "server/tls_files.h"
 
@@ -28,12 +30,23 @@ struct ServerConfig {
   ConnectionLimits connection;
   int threads = 0;              // that compute; 0: one per core
   int max_concurrent_fits = 2;  // [1, 64]
-  int max_queued_fits = 16;     // [0, 10000]: further calls that may upload and wait
+  int max_queued_fits = 256;    // [0, 10000]: further fits that may wait
+  // Of memory for uploads and answers of all calls; [16 MiB, 1 TiB].
+  std::int64_t max_held_bytes = 1024LL * 1024 * 1024;
+  double max_queued_seconds = 60.0;   // no fit comes in that would wait longer; [0, 86400]
+  int client_percent = 75;            // [1, 100]: of both and of max_queued_fits, for one client
+  double upload_idle_seconds = 20.0;  // between messages of an upload; [0.01, 86400], as below
+  double max_upload_seconds = 300.0;  // of a whole upload
+  double read_idle_seconds = 60.0;    // in which a reader takes a message of the answer
+  double max_fit_seconds = 600.0;     // of one fit, queue not included
   UploadLimits upload;
-  int retry_pushback_ms = 500;       // [0, 600000]: sent with RESOURCE_EXHAUSTED
+  int retry_pushback_ms = 500;       // [0, 600000]: the least that is sent with RESOURCE_EXHAUSTED
   double drain_delay_seconds = 0.0;  // between NOT_SERVING and refusing new calls; [0, 600]
   double drain_seconds = 30.0;       // running calls may finish within this; [0, 3600]
   std::string log_level = "info";    // trace, debug, info, warn, error, off
+  std::int64_t cache_bytes = 0;      // of results that are kept to be given again; 0: none
+  LogFormat log_format = LogFormat::kText;
+  std::string metrics_listen;  // HOST:PORT for Prometheus; port 0: any free one; empty: nowhere
 };
 
 // Size of one request message: bodies of 200,000 faces as arrays, or of 64,000 as text, fit into

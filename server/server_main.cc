@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "server/log_format.h"
 #include "server/server.h"
 #include "server/server_flags.h"
 
@@ -40,6 +41,7 @@ int Run(int argc, const char* const* argv) {
   ServerConfig config;
   if (const std::optional<int> exit_code = ParseFlags(argc, argv, config)) return *exit_code;
   spdlog::set_default_logger(spdlog::stderr_color_mt("capfit-server"));
+  SetLogFormat(config.log_format);
   spdlog::set_level(spdlog::level::from_str(config.log_level));
   if (const absl::Status status = CheckConfig(config); !status.ok()) {
     spdlog::error("{}", std::string(status.message()));

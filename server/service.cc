@@ -28,7 +28,7 @@ grpc::ServerUnaryReactor* Finished(grpc::CallbackServerContext& context,
 BodyStream* Service::ApproximateBody(grpc::CallbackServerContext* context) {
   const absl::StatusOr<std::string> caller = callers_.NameOf(*context);
   if (!caller.ok()) return new RefusedStream(caller.status());
-  return ApproximateBodyCall::Start(context, services_);
+  return ApproximateBodyCall::Start(context, services_, *caller);
 }
 
 grpc::ServerUnaryReactor* Service::ApproximateBodyUnary(
@@ -36,7 +36,7 @@ grpc::ServerUnaryReactor* Service::ApproximateBodyUnary(
     v1::ApproximateBodyUnaryResponse* response) {
   const absl::StatusOr<std::string> caller = callers_.NameOf(*context);
   if (!caller.ok()) return Finished(*context, caller.status());
-  return ApproximateBodyUnaryCall::Start(context, request, response, services_);
+  return ApproximateBodyUnaryCall::Start(context, request, response, services_, *caller);
 }
 
 grpc::ServerUnaryReactor* Service::GetServerInfo(grpc::CallbackServerContext* context,
@@ -45,6 +45,7 @@ grpc::ServerUnaryReactor* Service::GetServerInfo(grpc::CallbackServerContext* co
   const absl::StatusOr<std::string> caller = callers_.NameOf(*context);
   if (!caller.ok()) return Finished(*context, caller.status());
   *response = info_;
+  services_.metrics.CountAnswered("GetServerInfo");
   return Finished(*context, absl::OkStatus());
 }
 

@@ -3,8 +3,8 @@
 #define CAPFIT_SERVER_SERVICE_H_
 
 #include "capfit/v1/service.grpc.pb.h"
+#include "server/call_services.h"
 #include "server/caller_check.h"
-#include "server/fit_job.h"
 
 namespace capfit::server {
 

@@ -41,6 +41,9 @@ constexpr std::array kReasons = {
     KnownReason{ErrorReason::kServerStopping, "SERVER_STOPPING", StatusCode::kUnavailable},
     KnownReason{ErrorReason::kCancelled, "CANCELLED", StatusCode::kCancelled},
     KnownReason{ErrorReason::kDeadlineExceeded, "DEADLINE_EXCEEDED", StatusCode::kDeadlineExceeded},
+    KnownReason{ErrorReason::kUploadTooSlow, "UPLOAD_TOO_SLOW", StatusCode::kDeadlineExceeded},
+    KnownReason{ErrorReason::kReaderTooSlow, "READER_TOO_SLOW", StatusCode::kDeadlineExceeded},
+    KnownReason{ErrorReason::kFitTooLong, "FIT_TOO_LONG", StatusCode::kDeadlineExceeded},
     KnownReason{ErrorReason::kInternal, "INTERNAL", StatusCode::kInternal},
 };
 static_assert(kReasons.size() == static_cast<std::size_t>(ErrorReason::kInternal) + 1);

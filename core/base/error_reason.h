@@ -46,6 +46,9 @@ enum class ErrorReason {
   kServerStopping,
   kCancelled,
   kDeadlineExceeded,
+  kUploadTooSlow,
+  kReaderTooSlow,
+  kFitTooLong,
   kInternal
 };
 

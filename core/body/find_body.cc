@@ -295,6 +295,12 @@ absl::Status CheckRequired(const Body& body, const PartSelection& required) {
                  absl::StrCat("required but not found on this body: ", missing));
 }
 
+// Between the steps below, none of which takes long.
+absl::Status CheckCancelled(const FitObserver& observer) {
+  if (!observer.IsCancelled()) return absl::OkStatus();
+  return Refused(ErrorReason::kCancelled, "cancelled while the body was understood");
+}
+
 // Landmarks, segments and curves, once the frame is known.
 class Anatomist {
  public:
@@ -315,25 +321,29 @@ class Anatomist {
 
   absl::Status Run(const IntrinsicFrame& frame, double stature_m, const FitObserver& observer) {
     shape_.stature_m = stature_m;
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
     AssignSides(extremities_, frame, shape_);
     CAPFIT_ASSIGN_OR_RETURN(body_.landmarks, ToldLandmarks(options_, rig_, body_.body_from_caller,
                                                            extremities_, shape_, body_.warnings));
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
     CAPFIT_RETURN_IF_ERROR(FindLandmarks(extremities_, shape_, body_.landmarks, body_.warnings));
     if (!AllLandmarksFinite()) {
       return Refused(ErrorReason::kNotABody,
                      "not a human body: a limb has no sections from which its landmarks could be "
                      "measured");
     }
-    if (observer.IsCancelled()) return absl::CancelledError("cancelled while finding landmarks");
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
     body_.is_symmetric = IsSymmetric(shape_, body_.landmarks);
     if (body_.is_symmetric) {
       Symmetrise(body_.landmarks);
       Symmetrise(shape_);
     }
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
     shape_.pool->ForEach(2, [this](std::size_t half) {
       if (half == 0) body_.vertex_segments = LabelVertices(shape_, body_.landmarks);
       if (half == 1) body_.chains = BuildChains(shape_, body_.landmarks);
     });
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
     if (body_.is_symmetric) Symmetrise(body_.chains);
     return CheckRequired(body_, options_.required);
   }
@@ -357,15 +367,20 @@ class Anatomist {
 
 absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& options,
                               const ThreadPool& pool, const FitObserver& observer) {
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   WorkingCopy copy = MakeWorkingCopy(mesh, pool);
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   const SurfaceGraph graph(copy.points, copy.triangles, copy.mates, pool);
   const Rig rig = ReadRig(options.skeleton);
   const std::optional<RigEnds> rig_ends = FindRigEnds(rig, copy, pool);
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   const Extremities extremities =
       FindExtremities(copy.points, copy.vertex_areas, graph, pool, rig_ends);
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   std::vector<Warning> warnings;
   CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame,
                           FindFrame(options, Found{copy, extremities, rig, rig_ends}, warnings));
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   CAPFIT_ASSIGN_OR_RETURN(const WaysToBody ways,
                           FindWaysToBody(options, copy, frame, extremities, warnings));
   if (frame.facing_trust < kFacingTrust) {
@@ -380,6 +395,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                {},
                {},
                std::move(warnings)};
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
   Anatomist anatomist(options, rig, graph, extremities, pool, body);
   CAPFIT_RETURN_IF_ERROR(anatomist.Run(frame, ways.stature_m, observer));

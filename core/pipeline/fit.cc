@@ -408,7 +408,11 @@ absl::StatusOr<FitResult> Fit(const formats::PolygonSoup& soup, const FitOptions
   result.version = std::string(Version());
   StageClock clock(options, observer, result);
   const absl::Status status = BodyFit(options, pool, clock, result).Run(soup);
-  if (!status.ok()) return WithWarnings(status, result.warnings);
+  if (!status.ok()) {
+    // What was looked at in part only may have been refused for what the rest would have shown.
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
+    return WithWarnings(status, result.warnings);
+  }
   clock.End();
   return result;
 }

@@ -2,34 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <future>
+#include <thread>
 
 namespace capfit::server {
 namespace {
 
-TEST(FitExecutor, AdmitsAsManyAsFitAndWait) {
-  FitExecutor executor(2, 1);
-  std::vector<FitExecutor::Place> places;
-  for (int i = 0; i < 3; ++i) {
-    places.push_back(executor.TryTakePlace());
-    EXPECT_NE(places.back(), nullptr);
-  }
-  EXPECT_EQ(executor.TryTakePlace(), nullptr);
-  places.pop_back();
-  EXPECT_NE(executor.TryTakePlace(), nullptr) << "a place given back can be taken again";
-}
-
 TEST(FitExecutor, RunsAsManyAtATimeAsItHasThreads) {
-  FitExecutor executor(2, 10);
+  FitExecutor executor(2);
   std::promise<void> first_runs;
   std::promise<void> second_runs;
   // Each waits for the other: done only when both run at the same time.
-  executor.Submit([&] {
+  executor.Submit({}, [&] {
     first_runs.set_value();
     second_runs.get_future().wait();
   });
   std::promise<void> done;
-  executor.Submit([&] {
+  executor.Submit({}, [&] {
     first_runs.get_future().wait();
     second_runs.set_value();
     done.set_value();
@@ -40,11 +30,49 @@ TEST(FitExecutor, RunsAsManyAtATimeAsItHasThreads) {
 TEST(FitExecutor, RunsWhatIsQueuedInOrderBeforeItEnds) {
   std::vector<int> order;
   {
-    FitExecutor executor(1, 100);
-    for (int i = 0; i < 50; ++i) executor.Submit([&order, i] { order.push_back(i); });
+    FitExecutor executor(1);
+    for (int i = 0; i < 50; ++i) executor.Submit({}, [&order, i] { order.push_back(i); });
   }
   ASSERT_EQ(order.size(), 50U);
   for (int i = 0; i < 50; ++i) EXPECT_EQ(order[static_cast<std::size_t>(i)], i);
+}
+
+TEST(FitExecutor, AJobThatWaitsCanBeTakenBackOnce) {
+  FitExecutor executor(1);
+  std::promise<void> begun;
+  std::promise<void> go_on;
+  executor.Submit({}, [&] {
+    begun.set_value();
+    go_on.get_future().wait();
+  });
+  begun.get_future().wait();
+  bool has_run = false;
+  const FitExecutor::Ticket ticket = executor.Submit({}, [&] { has_run = true; });
+  EXPECT_EQ(executor.waiting(), 1U);
+  EXPECT_TRUE(executor.Withdraw(ticket));
+  EXPECT_FALSE(executor.Withdraw(ticket));
+  EXPECT_EQ(executor.waiting(), 0U);
+  go_on.set_value();
+  EXPECT_FALSE(has_run);
+}
+
+TEST(FitExecutor, LongJobsLeaveAPlaceToShortOnes) {
+  FitExecutor executor(2);
+  std::promise<void> go_on;
+  const std::shared_future<void> gate = go_on.get_future().share();
+  std::atomic<int> long_begun{0};
+  for (int i = 0; i < 2; ++i) {
+    executor.Submit({"", false, 2 * kLongFitSeconds}, [&] {
+      ++long_begun;
+      gate.wait();
+    });
+  }
+  while (long_begun == 0) std::this_thread::yield();
+  std::promise<void> done;
+  executor.Submit({"", false, 0.1}, [&] { done.set_value(); });
+  EXPECT_EQ(done.get_future().wait_for(std::chrono::seconds(30)), std::future_status::ready);
+  EXPECT_EQ(long_begun, 1);
+  go_on.set_value();
 }
 
 }  // namespace

@@ -1,18 +1,14 @@
 // The service through an in-process channel: every promise of the call that needs no real fit.
 #include <gmock/gmock.h>
-#include <grpcpp/client_context.h>
-#include <grpcpp/create_channel.h>
-#include <grpcpp/security/credentials.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <thread>
 
-#include "capfit/v1/service.grpc.pb.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
-#include "server/server.h"
 #include "tests/server/fake_fit.h"
+#include "tests/server/service_call.h"
 
 namespace capfit::server {
 namespace {
@@ -20,68 +16,6 @@ namespace {
 using Request = v1::ApproximateBodyRequest;
 using Response = v1::ApproximateBodyResponse;
 using testing::HasSubstr;
-
-std::unique_ptr<Server> StartServer(FitBackend backend, ServerConfig config = {}) {
-  config.listen = "127.0.0.1:0";
-  config.threads = 1;
-  auto server = Server::Start(config, std::move(backend));
-  EXPECT_TRUE(server.ok()) << server.status();
-  return *std::move(server);
-}
-
-Request Header(const std::string& request_id = "") {
-  Request request;
-  request.mutable_header()->mutable_mesh()->mutable_arrays();
-  request.mutable_header()->set_request_id(request_id);
-  return request;
-}
-
-Request Chunk() {
-  Request request;
-  v1::MeshArrays& arrays = *request.mutable_chunk()->mutable_arrays();
-  for (int i = 0; i < 9; ++i) arrays.add_positions(static_cast<float>(i));
-  for (const std::uint32_t i : {0U, 1U, 2U}) arrays.add_triangle_indices(i);
-  return request;
-}
-
-// One call, driven by hand.
-struct Call {
-  explicit Call(Server& server) : Call(server.InProcessChannel()) {}
-  explicit Call(const std::shared_ptr<grpc::Channel>& channel)
-      : stub(v1::BodyApproximationService::NewStub(channel)),
-        stream(stub->ApproximateBody(&context)) {}
-
-  void Send(const std::vector<Request>& requests) {
-    for (const Request& request : requests) stream->Write(request);
-    stream->WritesDone();
-  }
-  // Reads to the end.
-  grpc::Status Finish() {
-    Response response;
-    while (stream->Read(&response)) responses.push_back(response);
-    return stream->Finish();
-  }
-
-  grpc::ClientContext context;
-  std::unique_ptr<v1::BodyApproximationService::Stub> stub;
-  std::unique_ptr<grpc::ClientReaderWriter<Request, Response>> stream;
-  std::vector<Response> responses;
-};
-
-// Over the loopback: an in-process channel is cut at once when its server stops.
-std::shared_ptr<grpc::Channel> LoopbackChannel(const Server& server) {
-  return grpc::CreateChannel("127.0.0.1:" + std::to_string(server.port()),
-                             grpc::InsecureChannelCredentials());
-}
-
-template <typename Condition>
-bool WaitFor(const Condition& condition) {
-  for (int i = 0; i < 20'000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
 
 std::string FieldOf(const grpc::Status& status) {
   google::rpc::Status rich;
@@ -246,16 +180,14 @@ TEST(Service, AFullServerSaysWhenToComeBack) {
   Call waiting(*server);
   waiting.Send({Header(), Chunk()});
   ASSERT_TRUE(WaitFor([&] { return gate.waiting == 1; }));
-  // The second call's place is taken when it begins; ask until it has.
+  // The second call's place is taken when its upload has arrived; ask until it has.
   grpc::Status status;
   std::string pushback;
   ASSERT_TRUE(WaitFor([&] {
-    Call refused(*server);
-    refused.context.set_deadline(std::chrono::system_clock::now() + std::chrono::milliseconds(200));
+    Call refused(server->InProcessChannel(), {}, 0.2);
+    refused.stream->Write(Header());  // no more than the header: refused before the upload
     status = refused.Finish();
-    const auto& trailers = refused.context.GetServerTrailingMetadata();
-    const auto found = trailers.find("grpc-retry-pushback-ms");
-    if (found != trailers.end()) pushback = std::string(found->second.data(), found->second.size());
+    pushback = refused.Trailer("grpc-retry-pushback-ms");
     return status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED;
   }));
   EXPECT_EQ(pushback, "321");

@@ -1,0 +1,51 @@
+#include "server/fit_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace capfit::server {
+namespace {
+
+// Measured on two cores with 64 primitives: tests/bench/stage_times.sh.
+constexpr double kSmallestSeconds = 0.05;
+constexpr double kSecondsPerFace = 4e-6;
+constexpr double kTightFactor = 2.0;
+constexpr double kDenseFactor = 2.5;
+
+constexpr double kStep = 0.2;  // one odd fit in five moves a guess no further than itself
+// Whatever a clock or a stalled machine says, a guess stays a number to calculate with.
+constexpr double kMaxFactor = 1000.0;
+
+double FirstGuess(const FitSize& size) {
+  double seconds = kSmallestSeconds +
+                   kSecondsPerFace * static_cast<double>(std::max<std::int64_t>(0, size.faces));
+  if (size.quality == pipeline::Quality::kTight) seconds *= kTightFactor;
+  if (size.is_dense) seconds *= kDenseFactor;
+  return seconds;
+}
+
+}  // namespace
+
+FitCost::FitCost() { factor_.fill(1.0); }
+
+std::size_t FitCost::KindOf(const FitSize& size) {
+  const double steps = std::log2(static_cast<double>(std::max<std::int64_t>(1, size.faces))) / 2.0;
+  const std::size_t by_size = std::min(kSizes - 1, static_cast<std::size_t>(steps));
+  const std::size_t by_way =
+      (size.quality == pipeline::Quality::kTight ? 2U : 0U) + (size.is_dense ? 1U : 0U);
+  return by_way * kSizes + by_size;
+}
+
+double FitCost::ExpectedSeconds(const FitSize& size) const {
+  const std::lock_guard lock(mutex_);
+  return FirstGuess(size) * factor_[KindOf(size)];
+}
+
+void FitCost::Learn(const FitSize& size, double seconds) {
+  const double now = std::clamp(seconds / FirstGuess(size), 1.0 / kMaxFactor, kMaxFactor);
+  const std::lock_guard lock(mutex_);
+  double& factor = factor_[KindOf(size)];
+  factor += kStep * (now - factor);
+}
+
+}  // namespace capfit::server
