@@ -110,6 +110,10 @@ absl::Status FitJob::Expect(const v1::ApproximateBodyUnaryRequest& request) {
                                              ? mesh.arrays().face_sizes_size()
                                              : mesh.arrays().triangle_indices_size() / 3)
                                       : request_bytes_ / kFileBytesOfAFace;
+  // The rest of the options is read on the executor; the queue has to know this much.
+  if (request.options().quality() == v1::QUALITY_TIGHT) {
+    options_.quality = pipeline::Quality::kTight;
+  }
   return holding_->HoldBytes(3 * request_bytes_);
 }
 

@@ -28,9 +28,28 @@ TEST(ServerFlags, NoneGiveTheDefaults) {
 
 TEST(ServerFlags, AreTaken) {
   ServerConfig config;
-  EXPECT_EQ(Parse({"--listen", "[::1]:7", "--threads", "3", "--max-upload-mb", "5",
-                   "--max-concurrent-fits", "1", "--max-queued-fits", "0", "--max-faces", "900",
-                   "--drain-seconds", "1.5"},
+  EXPECT_EQ(Parse({"--listen",
+                   "[::1]:7",
+                   "--threads",
+                   "3",
+                   "--max-upload-mb",
+                   "5",
+                   "--max-concurrent-fits",
+                   "1",
+                   "--max-queued-fits",
+                   "0",
+                   "--max-faces",
+                   "900",
+                   "--drain-seconds",
+                   "1.5",
+                   "--max-held-mb",
+                   "64",
+                   "--cache-mb",
+                   "8",
+                   "--log-format",
+                   "json",
+                   "--upload-idle-seconds",
+                   "2.5"},
                   config),
             std::nullopt);
   EXPECT_EQ(config.listen, "[::1]:7");
@@ -40,6 +59,10 @@ TEST(ServerFlags, AreTaken) {
   EXPECT_EQ(config.max_queued_fits, 0);
   EXPECT_EQ(config.upload.mesh.max_faces, 900U);
   EXPECT_EQ(config.drain_seconds, 1.5);
+  EXPECT_EQ(config.max_held_bytes, 64 * 1024 * 1024);
+  EXPECT_EQ(config.cache_bytes, 8 * 1024 * 1024);
+  EXPECT_EQ(config.log_format, LogFormat::kJson);
+  EXPECT_EQ(config.upload_idle_seconds, 2.5);
 }
 
 std::string FileOf(const std::string& text) {
@@ -128,6 +151,8 @@ TEST(ServerFlags, WrongOnesEndTheProgram) {
   EXPECT_EQ(Parse({"--thread", "3"}, config), 1);
   EXPECT_EQ(Parse({"--threads", "-1"}, config), 1);
   EXPECT_EQ(Parse({"--log-level", "loud"}, config), 1);
+  EXPECT_EQ(Parse({"--log-format", "xml"}, config), 1);
+  EXPECT_EQ(Parse({"--client-percent", "0"}, config), 1);
   EXPECT_NE(testing::internal::GetCapturedStderr(), "");
 }
 
