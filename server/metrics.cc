@@ -168,8 +168,10 @@ void Metrics::Count(const CallRecord& record) {
   }
 }
 
-void Metrics::CountAnswered(const std::string& method) {
-  parts_->calls.Add({{"method", method}, {"code", "OK"}}).Increment();
+void Metrics::Count(const std::string& method, const absl::Status& status) {
+  CallRecord record;
+  record.status = status;
+  parts_->calls.Add({{"method", method}, {"code", CodeName(record)}}).Increment();
 }
 
 std::string Metrics::Text(const std::function<Gauges()>& gauges) const {

@@ -31,8 +31,8 @@ class Metrics {
 
   // A call is over. Any thread.
   void Count(const CallRecord& record);
-  // A quick call without a record (GetServerInfo) was answered.
-  void CountAnswered(const std::string& method);
+  // A call without a record is over: GetServerInfo, or one that was refused before it began.
+  void Count(const std::string& method, const absl::Status& status);
 
   // In Prometheus' text format, with what `gauges` gives and what the process has used.
   [[nodiscard]] std::string Text(const std::function<Gauges()>& gauges) const;

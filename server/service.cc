@@ -25,8 +25,15 @@ grpc::ServerUnaryReactor* Finished(grpc::CallbackServerContext& context,
 
 }  // namespace
 
+absl::StatusOr<std::string> Service::CallerOf(const char* method,
+                                              const grpc::CallbackServerContext& context) {
+  absl::StatusOr<std::string> caller = callers_.NameOf(context);
+  if (!caller.ok()) services_.metrics.Count(method, caller.status());
+  return caller;
+}
+
 BodyStream* Service::ApproximateBody(grpc::CallbackServerContext* context) {
-  const absl::StatusOr<std::string> caller = callers_.NameOf(*context);
+  const absl::StatusOr<std::string> caller = CallerOf("ApproximateBody", *context);
   if (!caller.ok()) return new RefusedStream(caller.status());
   return ApproximateBodyCall::Start(context, services_, *caller);
 }
@@ -34,7 +41,7 @@ BodyStream* Service::ApproximateBody(grpc::CallbackServerContext* context) {
 grpc::ServerUnaryReactor* Service::ApproximateBodyUnary(
     grpc::CallbackServerContext* context, const v1::ApproximateBodyUnaryRequest* request,
     v1::ApproximateBodyUnaryResponse* response) {
-  const absl::StatusOr<std::string> caller = callers_.NameOf(*context);
+  const absl::StatusOr<std::string> caller = CallerOf("ApproximateBodyUnary", *context);
   if (!caller.ok()) return Finished(*context, caller.status());
   return ApproximateBodyUnaryCall::Start(context, request, response, services_, *caller);
 }
@@ -42,10 +49,10 @@ grpc::ServerUnaryReactor* Service::ApproximateBodyUnary(
 grpc::ServerUnaryReactor* Service::GetServerInfo(grpc::CallbackServerContext* context,
                                                  const v1::GetServerInfoRequest* /*request*/,
                                                  v1::GetServerInfoResponse* response) {
-  const absl::StatusOr<std::string> caller = callers_.NameOf(*context);
+  const absl::StatusOr<std::string> caller = CallerOf("GetServerInfo", *context);
   if (!caller.ok()) return Finished(*context, caller.status());
   *response = info_;
-  services_.metrics.CountAnswered("GetServerInfo");
+  services_.metrics.Count("GetServerInfo", absl::OkStatus());
   return Finished(*context, absl::OkStatus());
 }
 

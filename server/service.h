@@ -26,6 +26,10 @@ class Service final : public v1::BodyApproximationService::CallbackService {
                                           v1::GetServerInfoResponse* response) override;
 
  private:
+  // As CallerCheck::NameOf; who is refused is counted.
+  [[nodiscard]] absl::StatusOr<std::string> CallerOf(const char* method,
+                                                     const grpc::CallbackServerContext& context);
+
   const CallServices services_;
   CallerCheck callers_;
   const v1::GetServerInfoResponse info_;

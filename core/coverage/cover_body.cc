@@ -19,9 +19,6 @@
 namespace capfit::coverage {
 namespace {
 
-// Vertices end up this deep inside at least, so that writing the result in another unit or with
-// fewer digits does not bring them out again. Metres; a hundredth of what anybody can measure.
-constexpr double kVertexDepth = 1e-6;
 // Points this far apart, relative to the body's size, are enough to find the shape by. All have
 // their say in the second phase.
 constexpr double kSparseSpacing = 0.024;
@@ -186,10 +183,7 @@ class Coverer {
     tighten::Tighten(points, size_, phase, seed, pool_, meter_, set_);
   }
 
-  double AllowedAtVertices() const {
-    return options_.tolerance_m > kVertexDepth ? options_.tolerance_m - kVertexDepth
-                                               : -kVertexDepth;
-  }
+  double AllowedAtVertices() const { return coverage::AllowedAtVertices(options_.tolerance_m); }
   double MaxGap() const { return options_.tolerance_m + options_.max_gap_m; }
   double AllowedBetween() const { return options_.tolerance_m + 0.8 * options_.max_gap_m; }
 
@@ -232,7 +226,7 @@ class Coverer {
         grid_.DistancesTo(tighten::ShapesOf(variables_.solids(), set_), -options_.max_gap_m, pool_);
     std::vector<Demand> demands;
     for (std::size_t i = 0; i < grid_.size(); ++i) {
-      if (distances.distance_m[i] > AllowedAtVertices() - kVertexDepth) {
+      if (distances.distance_m[i] > AllowedAtVertices() - kVertexDepthM) {
         demands.push_back({grid_.point(i), AllowedAtVertices()});
       }
     }

@@ -34,6 +34,15 @@ struct CoverOptions {
   bool keeps_swallowed = false;
 };
 
+// Vertices end up this deep inside at least, so that writing the result in another unit or with
+// fewer digits does not bring them out again. A hundredth of what anybody can measure.
+inline constexpr double kVertexDepthM = 1e-6;
+
+// How far outside a vertex may be with a tolerance; negative: how deep it must be.
+[[nodiscard]] constexpr double AllowedAtVertices(double tolerance_m) {
+  return tolerance_m > kVertexDepthM ? tolerance_m - kVertexDepthM : -kVertexDepthM;
+}
+
 struct CoverReport {
   int growth_steps = 0;
   int added_points = 0;                // inside triangles, where vertices alone were not enough

@@ -21,8 +21,7 @@ namespace {
 using geometry::TaperedCapsule;
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kDepthM = 1e-6;  // as deep as CoverBody leaves vertices
-constexpr double kOutM = 1e-4;    // what counts as outside in the report; less is grown away
+constexpr double kOutM = 1e-4;  // what counts as outside in the report; less is grown away
 constexpr double kVolumeSpacing = 0.0075;  // of samples, relative to the body's size
 constexpr double kTightenUntil = 0.7;      // share of the time
 
@@ -78,8 +77,7 @@ class MotionCoverer {
         meter_(observer),
         set_(set),
         size_(tighten::SizeOf(target)),
-        allowed_(options.cover.tolerance_m > kDepthM ? options.cover.tolerance_m - kDepthM
-                                                     : -kDepthM) {
+        allowed_(coverage::AllowedAtVertices(options.cover.tolerance_m)) {
     grids_.reserve(frames.size());
     for (const std::vector<Vec3>& points : frames) grids_.emplace_back(points);
   }
@@ -216,7 +214,8 @@ class MotionCoverer {
     report_.radii_m = std::move(radii);
   }
 
-  // Whether anything grew. One pass of points, each against the solid that was nearest.
+  // Whether anything grew. One pass of points, each against the solid that was nearest. Not
+  // coverage::GrowTo: it moves centres, and here they stay where they are carried to.
   bool GrowIn(std::size_t frame, capsule::PrimitiveSet& posed) const {
     const std::vector<tighten::Solid> solids = tighten::SetVariables(posed).solids();
     const std::vector<TaperedCapsule> shapes = tighten::ShapesOf(solids, posed);

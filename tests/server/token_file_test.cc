@@ -7,6 +7,7 @@
 #include <grpcpp/security/credentials.h>
 #include <gtest/gtest.h>
 
+#include "absl/strings/str_cat.h"
 #include "capfit/v1/service.grpc.pb.h"
 #include "core/base/status.h"
 #include "grpc/health/v1/health.grpc.pb.h"
@@ -87,6 +88,11 @@ TEST(TokenFile, EveryCallOfTheServiceAsksForOneAndHealthDoesNot) {
   grpc::ClientContext context;
   grpc::health::v1::HealthCheckResponse health;
   EXPECT_TRUE(grpc::health::v1::Health::NewStub(channel)->Check(&context, {}, &health).ok());
+  for (const char* const method : {"ApproximateBody", "ApproximateBodyUnary"}) {
+    EXPECT_THAT(server->MetricsText(),
+                HasSubstr(absl::StrCat("capfit_calls_total{code=\"UNAUTHENTICATED\",method=\"",
+                                       method, "\"} 1")));
+  }
 }
 
 TEST(TokenFile, ChangesHoldWithinASecondAndWrongFilesChangeNothing) {
