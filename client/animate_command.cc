@@ -1,5 +1,9 @@
 #include "client/animate_command.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -8,6 +12,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "client/carried_frames.h"
@@ -19,6 +24,7 @@
 #include "client/skinning_json.h"
 #include "client/weights_output.h"
 #include "core/base/status.h"
+#include "core/skinning/one_joint.h"
 
 namespace capfit::client {
 namespace {
@@ -31,8 +37,10 @@ struct AnimateArguments {
   std::string clip;
   double fps = 30.0;
   bool stretches_radii = false;
+  bool is_one_joint = false;
   std::string output;
   std::string radii_output;
+  std::string capsule_ends_output;
   int threads = 0;
 };
 
@@ -70,8 +78,31 @@ absl::Status CheckVertices(const AnyWeights& weights, const formats::PolygonSoup
                            : CheckVertexCount("WEIGHTS", sparse->vertex_count, soup);
 }
 
+// Each sphere on its one joint; after the spheres both centres of each capsule on the capsule's.
+absl::StatusOr<AnyWeights> OneJointWeights(const ResultSkinning& skinning,
+                                           const ResultSet& result) {
+  if (result.spheres.empty() || skinning.sphere_joints.size() != result.spheres.size() ||
+      skinning.capsule_joints.size() != result.capsules.size()) {
+    return InvalidField(ErrorReason::kConflict, "--one-joint",
+                        "needs a result that says which joint carries what: one of a body that "
+                        "came with a skeleton");
+  }
+  std::vector<Eigen::Vector3d> centers;
+  for (const geometry::Sphere& sphere : result.spheres) centers.push_back(sphere.center_m);
+  std::vector<std::int32_t> joints = skinning.sphere_joints;
+  for (std::size_t k = 0; k < result.capsules.size(); ++k) {
+    for (const int end : result.capsules[k]) {
+      centers.push_back(result.spheres[static_cast<std::size_t>(end)].center_m);
+      joints.push_back(skinning.capsule_joints[k]);
+    }
+  }
+  return skinning::OnOneJoint(centers, joints, skinning.joints);
+}
+
 // The weights in the result, else those beside it.
-absl::StatusOr<AnyWeights> WeightsOf(const AnimateArguments& arguments, ResultSkinning& skinning) {
+absl::StatusOr<AnyWeights> WeightsOf(const AnimateArguments& arguments, ResultSkinning& skinning,
+                                     const ResultSet& result) {
+  if (arguments.is_one_joint) return OneJointWeights(skinning, result);
   if (skinning.bones) return *std::move(skinning.bones);
   if (skinning.sparse) return *std::move(skinning.sparse);
   CAPFIT_ASSIGN_OR_RETURN(skinning::DenseWeights dense, ReadWeights(arguments.weights));
@@ -84,18 +115,24 @@ absl::StatusOr<CarriedSet> ReadCarried(const AnimateArguments& arguments) {
   CAPFIT_ASSIGN_OR_RETURN(ResultSkinning skinning, ParseSkinning(text));
   CAPFIT_ASSIGN_OR_RETURN(const ResultSet result, ParseResultSet(text));
   CarriedSet set;
-  CAPFIT_ASSIGN_OR_RETURN(set.weights, WeightsOf(arguments, skinning));
+  CAPFIT_ASSIGN_OR_RETURN(set.weights, WeightsOf(arguments, skinning, result));
   CAPFIT_RETURN_IF_ERROR(CheckSource(arguments, set.weights));
   CAPFIT_ASSIGN_OR_RETURN(formats::PolygonSoup soup, ReadBodyFile(arguments.body));
   CAPFIT_RETURN_IF_ERROR(CheckVertices(set.weights, soup));
   CAPFIT_RETURN_IF_ERROR(CheckBelongs(result, soup));
-  if (result.spheres.size() != SphereCountOf(set.weights)) {
+  if (!arguments.is_one_joint && result.spheres.size() != SphereCountOf(set.weights)) {
     return InvalidField(
         ErrorReason::kContradictsBody, "WEIGHTS",
         absl::StrCat("are for ", SphereCountOf(set.weights), " spheres, RESULT has ",
                      result.spheres.size(), "; fit again with --skinning"));
   }
   for (const geometry::Sphere& sphere : result.spheres) set.radii.push_back(sphere.radius_m);
+  if (arguments.is_one_joint) {
+    for (const std::array<int, 2>& ends : result.capsules) {
+      for (const int end : ends) set.radii.push_back(set.radii[static_cast<std::size_t>(end)]);
+    }
+  }
+  set.sphere_count = result.spheres.size();
   set.vertices = std::move(soup.positions);
   set.joints = std::move(skinning.joints);
   set.stretches_radii = arguments.stretches_radii;
@@ -104,9 +141,10 @@ absl::StatusOr<CarriedSet> ReadCarried(const AnimateArguments& arguments) {
 
 // Of dense weights alone, without the result: centres, but no radii.
 absl::StatusOr<CarriedSet> ReadHeaderAlone(const AnimateArguments& arguments) {
-  if (arguments.stretches_radii || !arguments.radii_output.empty()) {
-    return InvalidField(ErrorReason::kConflict, "WEIGHTS",
-                        "has no radii; name RESULT.json instead of its .weights.json");
+  if (arguments.stretches_radii || !arguments.radii_output.empty() || arguments.is_one_joint) {
+    return InvalidField(
+        ErrorReason::kConflict, "WEIGHTS",
+        "has no radii and no joints; name RESULT.json instead of its .weights.json");
   }
   CarriedSet set;
   CAPFIT_ASSIGN_OR_RETURN(set.weights, ReadWeights(arguments.weights));
@@ -114,6 +152,7 @@ absl::StatusOr<CarriedSet> ReadHeaderAlone(const AnimateArguments& arguments) {
   CAPFIT_ASSIGN_OR_RETURN(formats::PolygonSoup soup, ReadBodyFile(arguments.body));
   CAPFIT_RETURN_IF_ERROR(CheckVertices(set.weights, soup));
   set.vertices = std::move(soup.positions);
+  set.sphere_count = SphereCountOf(set.weights);
   return set;
 }
 
@@ -135,23 +174,46 @@ absl::StatusOr<CarriedFrames> Play(const AnimateArguments& arguments, const Carr
   return CarryAlong(set, path == "-" ? std::cin : file, ThreadPool(arguments.threads));
 }
 
+// What comes after the spheres in each frame is taken out of it.
+std::vector<std::vector<Eigen::Vector3d>> TakeCapsuleEnds(std::size_t sphere_count,
+                                                          CarriedFrames& frames) {
+  std::vector<std::vector<Eigen::Vector3d>> ends;
+  for (std::vector<Eigen::Vector3d>& centers : frames.centers) {
+    ends.emplace_back(centers.begin() + static_cast<std::ptrdiff_t>(sphere_count), centers.end());
+    centers.resize(sphere_count);
+  }
+  for (std::vector<double>& radii : frames.radii)
+    radii.resize(std::min(radii.size(), sphere_count));
+  return ends;
+}
+
+// To each output file that was asked for.
+absl::Status WriteFrames(const AnimateArguments& arguments, std::size_t sphere_count,
+                         CarriedFrames frames) {
+  const std::vector<std::vector<Eigen::Vector3d>> ends = TakeCapsuleEnds(sphere_count, frames);
+  CAPFIT_RETURN_IF_ERROR(
+      WriteFileBytes(arguments.output, FormatCenters(frames.centers, arguments.output)));
+  if (!arguments.capsule_ends_output.empty()) {
+    CAPFIT_RETURN_IF_ERROR(WriteFileBytes(arguments.capsule_ends_output,
+                                          FormatCenters(ends, arguments.capsule_ends_output)));
+  }
+  if (arguments.radii_output.empty()) return absl::OkStatus();
+  return WriteFileBytes(arguments.radii_output, FormatRadii(frames.radii, arguments.radii_output));
+}
+
 absl::Status RunAnimate(const AnimateArguments& arguments) {
-  CAPFIT_RETURN_IF_ERROR(CheckWritable(arguments.output));
-  if (!arguments.radii_output.empty()) {
-    CAPFIT_RETURN_IF_ERROR(CheckWritable(arguments.radii_output));
+  for (const std::string& path :
+       {arguments.output, arguments.radii_output, arguments.capsule_ends_output}) {
+    if (!path.empty()) CAPFIT_RETURN_IF_ERROR(CheckWritable(path));
   }
   CAPFIT_ASSIGN_OR_RETURN(const CarriedSet set, IsWeightsHeader(arguments.weights)
                                                     ? ReadHeaderAlone(arguments)
                                                     : ReadCarried(arguments));
-  CAPFIT_ASSIGN_OR_RETURN(const CarriedFrames frames, Play(arguments, set));
-  CAPFIT_RETURN_IF_ERROR(
-      WriteFileBytes(arguments.output, FormatCenters(frames.centers, arguments.output)));
-  if (!arguments.radii_output.empty()) {
-    CAPFIT_RETURN_IF_ERROR(
-        WriteFileBytes(arguments.radii_output, FormatRadii(frames.radii, arguments.radii_output)));
-  }
+  CAPFIT_ASSIGN_OR_RETURN(CarriedFrames frames, Play(arguments, set));
+  const std::size_t frame_count = frames.centers.size();
+  CAPFIT_RETURN_IF_ERROR(WriteFrames(arguments, set.sphere_count, std::move(frames)));
   std::fprintf(arguments.output == "-" ? stderr : stdout, "%zu frames of %zu sphere centres\n",
-               frames.centers.size(), SphereCountOf(set.weights));
+               frame_count, set.sphere_count);
   return absl::OkStatus();
 }
 
@@ -177,7 +239,17 @@ void AddSourceFlags(CLI::App& command, AnimateArguments& arguments) {
       ->check(CLI::Range(0.01, 10'000.0))
       ->capture_default_str()
       ->needs(clip);
-  frames->excludes(clip)->excludes(joints);
+  CLI::Option* const one_joint = command.add_flag(
+      "--one-joint", arguments.is_one_joint,
+      "Each sphere on the one joint that carries it best, as engines have them that hang each "
+      "collider on one bone");
+  command
+      .add_option("--capsule-ends", arguments.capsule_ends_output,
+                  "With --one-joint: both centres of each capsule on the capsule's one joint, "
+                  "frames x capsules x 2 x 3, in the form of --output")
+      ->type_name("FILE")
+      ->needs(one_joint);
+  frames->excludes(clip)->excludes(joints)->excludes(one_joint);
   clip->excludes(joints);
 }
 

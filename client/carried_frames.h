@@ -24,8 +24,9 @@ using AnyWeights =
 
 // What is carried, and the pose in which it was fitted.
 struct CarriedSet {
-  AnyWeights weights;
-  std::vector<double> radii;
+  AnyWeights weights;  // may carry further points after the spheres
+  std::size_t sphere_count = 0;
+  std::vector<double> radii;                // of all that is carried
   std::vector<Eigen::Vector3d> vertices;    // of the body at rest
   std::vector<formats::NamedJoint> joints;  // at rest; those of bone weights
   bool stretches_radii = false;             // see core/skinning/stretched_radii.h

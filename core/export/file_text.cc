@@ -8,6 +8,7 @@
 #include <set>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "core/export/json_text.h"
 
 namespace capfit::exports {
@@ -107,6 +108,21 @@ std::string CommentText(const std::string& text) {
     comment += is_plain && !repeats_dash ? c : '_';
   }
   return comment;
+}
+
+std::string CStringText(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    // (Of "??/" old compilers make a backslash.)
+    const bool is_plain = byte >= 0x20 && byte < 0x7f && c != '"' && c != '\\' && c != '?';
+    if (is_plain) {
+      quoted += c;
+    } else {
+      absl::StrAppendFormat(&quoted, "\\%03o", byte);
+    }
+  }
+  return quoted + "\"";
 }
 
 std::string CsvText(const std::string& text) {

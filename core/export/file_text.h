@@ -39,6 +39,8 @@ using Statement = std::vector<std::pair<std::string, std::string>>;
 // For comments of C, Python, XML and CSV, which it can neither end nor continue: printable ASCII
 // without '*' and '\', no "--"; other bytes as '_'.
 [[nodiscard]] std::string CommentText(const std::string& text);
+// A string of C, quotes included: printable ASCII as it is, other bytes in octal.
+[[nodiscard]] std::string CStringText(const std::string& text);
 // A field of a CSV file, in quotes where it must be.
 [[nodiscard]] std::string CsvText(const std::string& text);
 

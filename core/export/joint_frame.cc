@@ -30,4 +30,14 @@ Eigen::Isometry3d JointFrameIn(const Frame& frame, const ColliderSet& upright, s
   return turn * JointFrame(upright, index);
 }
 
+std::vector<Eigen::Vector3d> CentersInJoints(const ColliderSet& upright) {
+  std::vector<Eigen::Vector3d> centers;
+  for (std::size_t i = 0; i < upright.sphere_count(); ++i) {
+    const std::int32_t joint = upright.sphere_joints.empty() ? -1 : upright.sphere_joints[i];
+    centers.emplace_back(JointFrame(upright, joint).inverse() *
+                         upright.primitives.spheres[i].center_m);
+  }
+  return centers;
+}
+
 }  // namespace capfit::exports

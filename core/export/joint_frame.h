@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <vector>
 
 #include "core/export/collider_set.h"
 #include "core/export/frame.h"
@@ -19,6 +20,10 @@ namespace capfit::exports {
 // to `frame`.
 [[nodiscard]] Eigen::Isometry3d JointFrameIn(const Frame& frame, const ColliderSet& upright,
                                              std::int32_t index);
+
+// Of each sphere of an upright set its centre in the frame of its joint (JointFrame); where no
+// joint carries it the centre itself.
+[[nodiscard]] std::vector<Eigen::Vector3d> CentersInJoints(const ColliderSet& upright);
 
 }  // namespace capfit::exports
 

@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/export/file_text.h"
 #include "core/export/frame.h"
+#include "core/export/joint_frame.h"
 
 namespace capfit::exports {
 namespace {
@@ -49,22 +50,61 @@ std::string CapsuleLines(const ColliderSet& upright) {
   return lines;
 }
 
+std::string JointLines(const ColliderSet& upright) {
+  std::string lines;
+  for (const std::string& name : JointNames(upright)) {
+    absl::StrAppend(&lines, "  ", CStringText(name), ",\n");
+  }
+  return lines;
+}
+
+std::string SphereJointLines(const ColliderSet& upright) {
+  std::string lines;
+  for (std::size_t i = 0; i < upright.sphere_count(); ++i) {
+    absl::StrAppend(&lines, "  ", upright.sphere_joints.empty() ? -1 : upright.sphere_joints[i],
+                    ",\n");
+  }
+  return lines;
+}
+
+std::string OffsetLines(const ColliderSet& upright) {
+  std::string lines;
+  for (const Eigen::Vector3d& center : CentersInJoints(upright)) {
+    absl::StrAppend(&lines, "  ", FloatText(center.x()), "f, ", FloatText(center.y()), "f, ",
+                    FloatText(center.z()), "f,\n");
+  }
+  return lines;
+}
+
+// Of `count` times `per_entry` entries; one of `nothing` where there are none.
+std::string Array(const std::string& comment, const std::string& declaration, std::size_t count,
+                  std::size_t per_entry, const std::string& lines, const std::string& nothing) {
+  return absl::StrCat("\n/* ", comment, " */\nstatic const ", declaration, "[",
+                      per_entry * std::max<std::size_t>(1, count), "] = {\n",
+                      count == 0 ? absl::StrCat("  ", nothing, "\n") : lines, "};\n");
+}
+
 std::string Document(const ColliderSet& upright) {
-  std::string text = "#ifndef CAPFIT_NVCLOTH_COLLIDERS_H_\n#define CAPFIT_NVCLOTH_COLLIDERS_H_\n";
-  absl::StrAppend(
-      &text, "/*\n",
+  const std::size_t spheres = upright.sphere_count();
+  const std::size_t capsules = upright.capsule_count();
+  const std::size_t joints = upright.joints.size();
+  return absl::StrCat(
+      "#ifndef CAPFIT_NVCLOTH_COLLIDERS_H_\n#define CAPFIT_NVCLOTH_COLLIDERS_H_\n/*\n",
       StatementLines(StatementOf(upright, "capfit-nvcloth", YUpFrame(), kNvClothAxis), "  ", ""),
-      "*/\n#include <stdint.h>\n\nenum {\n  CAPFIT_SPHERE_COUNT = ", upright.sphere_count(),
-      ",\n  CAPFIT_CAPSULE_COUNT = ", upright.capsule_count(), "\n};\n");
-  absl::StrAppend(&text, "\n/* x, y, z, radius of each sphere, in metres. */\n",
-                  "static const float capfit_spheres[",
-                  4 * std::max<std::size_t>(1, upright.sphere_count()), "] = {\n",
-                  upright.sphere_count() == 0 ? "  0.0f\n" : SphereLines(upright), "};\n");
-  absl::StrAppend(
-      &text, "\n/* The two spheres of each capsule. */\n", "static const uint32_t capfit_capsules[",
-      2 * std::max<std::size_t>(1, upright.capsule_count()), "] = {\n",
-      upright.capsule_count() == 0 ? "  0u\n" : CapsuleLines(upright), "};\n\n#endif\n");
-  return text;
+      "*/\n#include <stdint.h>\n\nenum {\n  CAPFIT_SPHERE_COUNT = ", spheres,
+      ",\n  CAPFIT_CAPSULE_COUNT = ", capsules, ",\n  CAPFIT_JOINT_COUNT = ", joints, "\n};\n",
+      Array("x, y, z, radius of each sphere, in metres.", "float capfit_spheres", spheres, 4,
+            SphereLines(upright), "0.0f"),
+      Array("The two spheres of each capsule.", "uint32_t capfit_capsules", capsules, 2,
+            CapsuleLines(upright), "0u"),
+      Array("The skeleton's joints.", "char* const capfit_joint_names", joints, 1,
+            JointLines(upright), "\"\""),
+      Array("The joint that carries each sphere; -1: none.", "int32_t capfit_sphere_joints",
+            spheres, 1, SphereJointLines(upright), "-1"),
+      Array("x, y, z of each sphere in its joint's own frame (turned and moved, not scaled), in "
+            "metres.",
+            "float capfit_sphere_offsets", spheres, 3, OffsetLines(upright), "0.0f"),
+      "\n#endif\n");
 }
 
 void WarnOfLimit(const std::string& what, std::size_t count, std::vector<Warning>& warnings) {
@@ -108,11 +148,6 @@ Exported WriteNvCloth(const ColliderSet& set) {
   WarnOfLimit("spheres", upright.sphere_count(), exported.warnings);
   WarnOfLimit("capsules", upright.capsule_count(), exported.warnings);
   WarnOfSkipped(upright, exported.warnings);
-  if (!upright.joints.empty()) {
-    exported.warnings.push_back({"RIG_LEFT_OUT",
-                                 "the header holds the spheres as the body stood; the joint that "
-                                 "carries each is a comment: move them with it"});
-  }
   return exported;
 }
 

@@ -9,6 +9,7 @@
 #include "core/body/anatomy.h"
 #include "core/export/file_text.h"
 #include "core/export/frame.h"
+#include "core/export/joint_frame.h"
 
 namespace capfit::exports {
 namespace {
@@ -33,16 +34,19 @@ std::string Head(const ColliderSet& set, const std::string& format) {
 std::string SphereTable(const ColliderSet& upright) {
   const std::vector<std::size_t> lone = LoneSpheres(upright);
   const std::vector<std::string> joints = JointNames(upright);
-  std::string table =
-      Head(upright, "capfit-spheres") + "index,name,part,joint,x_m,y_m,z_m,radius_m,is_lone\n";
+  std::string table = Head(upright, "capfit-spheres") +
+                      "index,name,part,joint,x_m,y_m,z_m,radius_m,is_lone,"
+                      "joint_x_m,joint_y_m,joint_z_m\n";
+  const std::vector<Eigen::Vector3d> in_joints = CentersInJoints(upright);
   for (std::size_t i = 0; i < upright.sphere_count(); ++i) {
     const geometry::Sphere& sphere = upright.primitives.spheres[i];
-    table += Line({absl::StrCat(i), CsvText(upright.sphere_names[i]),
-                   NameOf(upright.primitives.origins[i].part),
-                   JointName(joints, upright.sphere_joints, i), NumberText(sphere.center_m.x()),
-                   NumberText(sphere.center_m.y()), NumberText(sphere.center_m.z()),
-                   NumberText(sphere.radius_m),
-                   std::binary_search(lone.begin(), lone.end(), i) ? "1" : "0"});
+    table += Line(
+        {absl::StrCat(i), CsvText(upright.sphere_names[i]),
+         NameOf(upright.primitives.origins[i].part), JointName(joints, upright.sphere_joints, i),
+         NumberText(sphere.center_m.x()), NumberText(sphere.center_m.y()),
+         NumberText(sphere.center_m.z()), NumberText(sphere.radius_m),
+         std::binary_search(lone.begin(), lone.end(), i) ? "1" : "0", NumberText(in_joints[i].x()),
+         NumberText(in_joints[i].y()), NumberText(in_joints[i].z())});
   }
   return table;
 }

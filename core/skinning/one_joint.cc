@@ -1,6 +1,8 @@
 #include "core/skinning/one_joint.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <set>
 
@@ -102,6 +104,26 @@ OneJoint ChooseJoints(const BoneWeights& weights, std::span<const NamedJoint> jo
       least = drift;
     }
     result.of_capsule.push_back(best);
+  }
+  return result;
+}
+
+BoneWeights OnOneJoint(std::span<const Eigen::Vector3d> centers,
+                       std::span<const std::int32_t> of_center,
+                       std::span<const NamedJoint> joints) {
+  assert(centers.size() == of_center.size());
+  BoneWeights result;
+  result.joint_count = joints.size();
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    const formats::Placing& to_mesh = joints[static_cast<std::size_t>(of_center[i])].to_mesh;
+    Eigen::Matrix3d from_mesh;
+    bool has_inverse = false;
+    to_mesh.leftCols<3>().computeInverseWithCheck(from_mesh, has_inverse, 0.0);
+    if (!has_inverse) from_mesh.setZero();
+    result.joints.push_back(static_cast<std::uint16_t>(of_center[i]));
+    result.weights.push_back(1.0F);
+    result.offsets.emplace_back(from_mesh * (centers[i] - to_mesh.col(3)));
+    result.row_ends.push_back(static_cast<std::uint32_t>(i + 1));
   }
   return result;
 }

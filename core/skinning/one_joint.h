@@ -3,6 +3,7 @@
 #ifndef CAPFIT_CORE_SKINNING_ONE_JOINT_H_
 #define CAPFIT_CORE_SKINNING_ONE_JOINT_H_
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -33,6 +34,13 @@ struct OneJoint {
 // The drift of one sphere on one joint.
 [[nodiscard]] double DriftOn(std::int32_t joint, std::size_t sphere, const BoneWeights& weights,
                              std::span<const formats::NamedJoint> joints);
+
+// `centers` (mesh's frame), each carried by its one joint alone: where an engine has it that hangs
+// each collider on one. `of_center` are indices into `joints`, as long as `centers`; a joint
+// without an inverse (it has no volume) leaves its centres at the joint itself.
+[[nodiscard]] BoneWeights OnOneJoint(std::span<const Eigen::Vector3d> centers,
+                                     std::span<const std::int32_t> of_center,
+                                     std::span<const formats::NamedJoint> joints);
 
 }  // namespace capfit::skinning
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/e2e/processes.h"
+#include "tests/support/avatars.h"
 
 namespace capfit::e2e {
 namespace {
@@ -177,6 +178,51 @@ TEST_F(CommandLine, AnimateMovesTheCentresWithTheBody) {
   }
   EXPECT_THAT(pictures[0], testing::StartsWith("\x89PNG"));
   EXPECT_EQ(pictures[0], pictures[1]);
+}
+
+// All joints one step to the side: spheres and capsules go with them, and at rest stand as fitted.
+TEST_F(CommandLine, AnimateHangsEachSphereAndCapsuleOnOneJoint) {
+  CAPFIT_REQUIRE_AVATARS();
+  const std::string body = (test_support::AvatarsFolder() / "skirt_woman.glb").string();
+  ASSERT_EQ(RunCapfit({"approximate", body, "-o", Path("result.json"), "--local"}).exit_code, 0);
+  const ordered_json result = ordered_json::parse(ReadText(Path("result.json")));
+  std::string frames;
+  for (const float shift : {0.0F, 1.0F}) {
+    for (const ordered_json& joint : result["joints"]) {
+      for (std::size_t k = 0; k < 12; ++k) {
+        const float number = joint["to_mesh"][k].get<float>() + (k == 3 ? shift : 0.0F);
+        frames.append(reinterpret_cast<const char*>(&number), sizeof(number));
+      }
+    }
+  }
+  WriteText(Path("joints.bin"), frames);
+  const Outcome outcome =
+      RunCapfit({"animate", body, Path("result.json"), "--joints", Path("joints.bin"),
+                 "--one-joint", "-o", Path("c.json"), "--capsule-ends", Path("e.json")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto centers = ordered_json::parse(ReadText(Path("c.json")))["frames"];
+  const auto ends = ordered_json::parse(ReadText(Path("e.json")))["frames"];
+  const auto same = [&](const ordered_json& point, std::size_t sphere, double shift) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double rest = result["spheres"][sphere][axis].get<double>();
+      EXPECT_NEAR(point[axis].get<double>(), rest + (axis == 0 ? shift : 0.0), 3e-6);
+    }
+  };
+  for (std::size_t f = 0; f < 2; ++f) {
+    const auto shift = static_cast<double>(f);
+    ASSERT_EQ(centers[f].size(), result["spheres"].size());
+    ASSERT_EQ(ends[f].size(), 2 * result["capsules"].size());
+    for (std::size_t i = 0; i < centers[f].size(); ++i) same(centers[f][i], i, shift);
+    for (std::size_t k = 0; k < ends[f].size(); ++k) {
+      same(ends[f][k], result["capsules"][k / 2][k % 2].get<std::size_t>(), shift);
+    }
+  }
+  // Without a skeleton there is no joint to hang on.
+  static_cast<void>(Approximate({"--local"}));
+  const Outcome refused = RunCapfit({"animate", Body(), Path("result.json"), "--joints",
+                                     Path("joints.bin"), "--one-joint", "-o", Path("c.json")});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("came with a skeleton"));
 }
 
 TEST_F(CommandLine, ResultsGapsAndWeightsOfAnotherBodyAreRefused) {

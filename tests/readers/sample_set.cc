@@ -2,14 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <span>
 
 #include "core/base/status.h"
 #include "core/export/frame.h"
 #include "core/formats/read_mesh.h"
 #include "core/pipeline/engines.h"
+#include "core/skinning/one_joint.h"
 
 namespace capfit::readers {
 namespace {
@@ -17,49 +16,49 @@ namespace {
 using exports::ColliderSet;
 using nlohmann::json;
 
-double DistanceToSegment(const Eigen::Vector3d& point, const Eigen::Vector3d& a,
-                         const Eigen::Vector3d& b) {
-  const Eigen::Vector3d along = b - a;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((point - a).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (point - a - t * along).norm();
-}
-
-// Of the bones (a joint and one below it) the nearest; a joint with none below it is a point.
-std::int32_t NearestJoint(const std::vector<formats::NamedJoint>& joints,
-                          const Eigen::Vector3d& point) {
-  std::int32_t nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto own = static_cast<std::int32_t>(j);
-    const std::int32_t parent = joints[j].parent;
-    const Eigen::Vector3d& start =
-        parent < 0 ? joints[j].position : joints[static_cast<std::size_t>(parent)].position;
-    const double distance = DistanceToSegment(point, start, joints[j].position);
-    const double to_end = (point - joints[j].position).norm();
-    // Where its own end is the nearest place, the joint at that end carries the point.
-    const std::int32_t carrier = parent < 0 || to_end <= distance ? own : parent;
-    if (distance >= least) continue;
-    least = distance;
-    nearest = carrier;
-  }
-  return nearest;
-}
-
-void Hang(ColliderSet& set) {
-  if (set.joints.empty()) return;
-  const auto& spheres = set.primitives.spheres;
-  for (const geometry::Sphere& sphere : spheres) {
-    set.sphere_joints.push_back(NearestJoint(set.joints, sphere.center_m));
-  }
-  for (const capsule::CapsuleEnds& ends : set.primitives.capsules) {
-    const Eigen::Vector3d middle = 0.5 * (spheres[static_cast<std::size_t>(ends[0])].center_m +
-                                          spheres[static_cast<std::size_t>(ends[1])].center_m);
-    set.capsule_joints.push_back(NearestJoint(set.joints, middle));
-  }
-}
-
 json Numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+using Moves = Eigen::Isometry3d;
+
+// Turns of the joints about their own places, by an angle that differs from joint to joint, each
+// with all that hangs below it.
+class Pose {
+ public:
+  explicit Pose(const std::vector<formats::NamedJoint>& joints) : joints_(joints) {
+    for (std::size_t j = 0; j < joints.size(); ++j) moves_.push_back(MovesOf(j));
+  }
+
+  // What the joint has done since rest, in the mesh's frame.
+  [[nodiscard]] const Moves& Of(std::size_t joint) const { return moves_[joint]; }
+  [[nodiscard]] formats::Placing Posed(std::size_t joint) const {
+    formats::Placing posed = moves_[joint].linear() * joints_[joint].to_mesh;
+    posed.col(3) += moves_[joint].translation();
+    return posed;
+  }
+  [[nodiscard]] std::vector<formats::Placing> AllPosed() const {
+    std::vector<formats::Placing> posed;
+    for (std::size_t j = 0; j < moves_.size(); ++j) posed.push_back(Posed(j));
+    return posed;
+  }
+
+ private:
+  [[nodiscard]] Moves MovesOf(std::size_t joint) const {
+    Moves moves = Moves::Identity();
+    std::int32_t index = static_cast<std::int32_t>(joint);
+    for (std::size_t depth = 0; index >= 0 && depth < joints_.size(); ++depth) {
+      const formats::NamedJoint& at = joints_[static_cast<std::size_t>(index)];
+      const Eigen::Vector3d axis(1.0, index % 3 - 1.0, (index * 7) % 5 - 2.0);
+      const Eigen::AngleAxisd turn(0.3 + 0.1 * (index % 7), axis.normalized());
+      const Eigen::Translation3d place(at.to_mesh.col(3));
+      moves = Moves(place * turn * place.inverse()) * moves;
+      index = at.parent;
+    }
+    return moves;
+  }
+
+  const std::vector<formats::NamedJoint>& joints_;
+  std::vector<Moves> moves_;
+};
 
 json Rows(const formats::Placing& placing) {
   json rows = json::array();
@@ -73,13 +72,29 @@ std::int32_t JointAt(const std::vector<std::int32_t>& joints, std::size_t index)
   return joints.empty() ? -1 : joints[index];
 }
 
-json ExpectedSpheres(const ColliderSet& set) {
+// Where `points`, each on its joint alone, are in the pose.
+json Posed(const ColliderSet& set, const Pose& pose, const std::vector<Eigen::Vector3d>& points,
+           const std::vector<std::int32_t>& joints) {
+  std::vector<Eigen::Vector3d> posed = points;
+  if (!set.sphere_joints.empty()) {
+    posed = skinning::Apply(skinning::OnOneJoint(points, joints, set.joints), pose.AllPosed());
+  }
+  json numbers = json::array();
+  for (const Eigen::Vector3d& point : posed) numbers.push_back(Numbers(point));
+  return numbers;
+}
+
+json ExpectedSpheres(const ColliderSet& set, const Pose& pose) {
+  std::vector<Eigen::Vector3d> centers;
+  for (const geometry::Sphere& sphere : set.primitives.spheres) centers.push_back(sphere.center_m);
+  const json posed = Posed(set, pose, centers, set.sphere_joints);
   const std::vector<std::size_t> lone = LoneSpheres(set);
   json spheres = json::array();
   for (std::size_t i = 0; i < set.sphere_count(); ++i) {
     const geometry::Sphere& sphere = set.primitives.spheres[i];
     spheres.push_back({{"name", set.sphere_names[i]},
                        {"center", Numbers(sphere.center_m)},
+                       {"posed_center", posed[i]},
                        {"radius", sphere.radius_m},
                        {"joint", JointAt(set.sphere_joints, i)},
                        {"lone", std::binary_search(lone.begin(), lone.end(), i)}});
@@ -87,15 +102,33 @@ json ExpectedSpheres(const ColliderSet& set) {
   return spheres;
 }
 
-json ExpectedCapsules(const ColliderSet& set) {
+json ExpectedCapsules(const ColliderSet& set, const Pose& pose) {
+  std::vector<Eigen::Vector3d> ends;
+  std::vector<std::int32_t> joints;
+  for (std::size_t k = 0; k < set.capsule_count(); ++k) {
+    for (const int end : set.primitives.capsules[k]) {
+      ends.push_back(set.primitives.spheres[static_cast<std::size_t>(end)].center_m);
+      joints.push_back(JointAt(set.capsule_joints, k));
+    }
+  }
+  const json posed = Posed(set, pose, ends, joints);
   const std::vector<std::string> names = CapsuleNames(set);
   json capsules = json::array();
   for (std::size_t i = 0; i < set.capsule_count(); ++i) {
     capsules.push_back({{"name", names[i]},
                         {"spheres", set.primitives.capsules[i]},
+                        {"posed_centers", {posed[2 * i], posed[2 * i + 1]}},
                         {"joint", JointAt(set.capsule_joints, i)}});
   }
   return capsules;
+}
+
+// The same movement seen in the upright frame, metres.
+json MovedUpright(const Moves& moves, const geometry::Similarity& upright) {
+  const Eigen::Matrix3d turn = upright.rotation * moves.linear() * upright.rotation.transpose();
+  const Eigen::Quaterniond q(turn);
+  return {{"position", Numbers(upright.Apply(moves.translation()) - turn * upright.translation)},
+          {"rotation", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
 }  // namespace
@@ -111,11 +144,12 @@ absl::StatusOr<ColliderSet> SampleSet(const std::string& bytes, const std::strin
   set.primitives = result.primitives;
   set.sphere_names = result.sphere_names;
   set.body_from_mesh = result.body_from_caller;
-  set.joints = std::move(soup.joints);
+  set.joints = result.joints;
+  set.sphere_joints = result.sphere_joints;
+  set.capsule_joints = result.capsule_joints;
   set.profile = pipeline::ProfileOf(options);
   set.source = source;
   set.version = result.version;
-  Hang(set);
   CAPFIT_RETURN_IF_ERROR(CheckColliderSet(set));
   return set;
 }
@@ -124,16 +158,20 @@ json Expected(const ColliderSet& set) {
   const geometry::Similarity upright = exports::UprightFromMesh(set);
   formats::Placing upright_from_mesh;
   upright_from_mesh << upright.scale * upright.rotation, upright.translation;
+  const Pose pose(set.joints);
   json joints = json::array();
-  for (const formats::NamedJoint& joint : set.joints) {
+  for (std::size_t j = 0; j < set.joints.size(); ++j) {
+    const formats::NamedJoint& joint = set.joints[j];
     joints.push_back({{"name", joint.name},
                       {"parent", joint.parent},
                       {"node", joint.node},
-                      {"to_mesh", Rows(joint.to_mesh)}});
+                      {"to_mesh", Rows(joint.to_mesh)},
+                      {"posed", Rows(pose.Posed(j))},
+                      {"moved_upright", MovedUpright(pose.Of(j), upright)}});
   }
   return {{"source", set.source},
-          {"spheres", ExpectedSpheres(set)},
-          {"capsules", ExpectedCapsules(set)},
+          {"spheres", ExpectedSpheres(set, pose)},
+          {"capsules", ExpectedCapsules(set, pose)},
           {"joints", joints},
           {"upright_from_mesh", Rows(upright_from_mesh)},
           {"metres_per_unit", upright.scale}};

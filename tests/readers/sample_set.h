@@ -1,4 +1,4 @@
-// A fitted body as a collider set, with joints chosen by where they lie: for tests of exports.
+// A fitted body as a collider set, and what readers of its exports must find: for tests of exports.
 #ifndef CAPFIT_TESTS_READERS_SAMPLE_SET_H_
 #define CAPFIT_TESTS_READERS_SAMPLE_SET_H_
 
@@ -11,8 +11,7 @@
 
 namespace capfit::readers {
 
-// Fits the file's bytes. Each sphere hangs on the joint whose bone (from it to a joint below it) is
-// nearest to its centre, each capsule on the one nearest to its middle; without a rig on none.
+// Fits the file's bytes. Joints are those that the result names; without a rig there are none.
 [[nodiscard]] absl::StatusOr<exports::ColliderSet> SampleSet(const std::string& bytes,
                                                              const std::string& source,
                                                              const pipeline::FitOptions& options);
@@ -21,6 +20,10 @@ namespace capfit::readers {
 //   spheres   name, center [x, y, z], radius, joint (-1: none), lone (no capsule uses it)
 //   capsules  name, spheres [a, b], joint
 //   joints    name, parent, node, to_mesh (three rows of four)
+// In a pose that turns every joint about its own place, and with it all that hangs below:
+//   joints    posed (to_mesh, then), moved_upright (position and rotation x, y, z, w: the joint's
+//             movement since rest, in the frame below)
+//   spheres   posed_center; capsules posed_centers: where `animate --one-joint` has them
 // and `upright_from_mesh`, the same three rows of four, which leads to the frame of frame.h
 // (metres, +Y up): radii there are times `metres_per_unit`.
 [[nodiscard]] nlohmann::json Expected(const exports::ColliderSet& set);

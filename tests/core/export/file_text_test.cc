@@ -94,5 +94,10 @@ TEST(JsonText, ReadsBackWhateverTheNames) {
   EXPECT_THAT(JsonText(json), HasSubstr("\\u00e9"));  // ASCII
 }
 
+TEST(CStringText, IsReadBackByACompiler) {
+  EXPECT_EQ(CStringText("left_arm"), "\"left_arm\"");
+  EXPECT_EQ(CStringText("a\"b\\ \n\xc3\xa9 1??/"), R"("a\042b\134 \012\303\251 1\077\077/")");
+}
+
 }  // namespace
 }  // namespace capfit::exports

@@ -126,5 +126,36 @@ TEST(ChooseJointsTest, TakesTheJointOfLeastDriftAndForACapsuleOfTheWorseEnd) {
   EXPECT_EQ(chosen.of_capsule[0], worse(1) < worse(2) ? 1 : 2);
 }
 
+TEST(OnOneJointTest, HoldsAtRestAndMovesAsTheJointDoes) {
+  std::vector<formats::NamedJoint> joints = Chain();
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(1.1, Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  joints[2].to_mesh.leftCols<3>() = 0.01 * turn;  // a bone in centimetres, in axes of its own
+  const std::vector<Vector3d> centers = {{2.5, 0.1, 0}, {0.2, -0.3, 4}, {2, 1, 1}};
+  const std::vector<std::int32_t> of_center = {2, 0, 2};
+  const BoneWeights weights = OnOneJoint(centers, of_center, joints);
+  std::vector<Placing> now;
+  for (const formats::NamedJoint& joint : joints) now.push_back(joint.to_mesh);
+  const std::vector<Vector3d> rest = Apply(weights, now);
+  Eigen::Affine3d moves(Eigen::Translation3d(3, -1, 2) *
+                        Eigen::AngleAxisd(-0.7, Vector3d(0, 1, 1).normalized()));
+  now[2].leftCols<3>() = moves.linear() * now[2].leftCols<3>();
+  now[2].col(3) = moves * joints[2].to_mesh.col(3);
+  const std::vector<Vector3d> moved = Apply(weights, now);
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    EXPECT_LE((rest[i] - centers[i]).norm(), 1e-12) << i;
+    const Vector3d wanted = of_center[i] == 2 ? Vector3d(moves * centers[i]) : centers[i];
+    EXPECT_LE((moved[i] - wanted).norm(), 1e-12) << i;
+  }
+}
+
+TEST(OnOneJointTest, AJointWithoutVolumeKeepsItsCentresAtItself) {
+  std::vector<formats::NamedJoint> joints = Chain();
+  joints[1].to_mesh.col(0).setZero();
+  const std::vector<Vector3d> centers = {{1.5, 0.1, 0}};
+  const std::vector<std::int32_t> of_center = {1};
+  EXPECT_EQ(OnOneJoint(centers, of_center, joints).offsets[0], Vector3d::Zero());
+}
+
 }  // namespace
 }  // namespace capfit::skinning

@@ -1,5 +1,5 @@
 // Builds the shapes of bullet_colliders.json in Bullet (double precision) and compares its
-// distances with the result's own, outside, where Bullet's are exact.
+// distances with the result's own, outside, where Bullet's are exact: at rest and posed.
 //
 //   check_bullet FOLDER
 #include <BulletCollision/CollisionShapes/btMultiSphereShape.h>
@@ -43,31 +43,36 @@ std::unique_ptr<btConvexInternalShape> ShapeOf(const json& shape) {
   return made;
 }
 
+btTransform BulletTransform(const Eigen::Isometry3d& place) {
+  const Eigen::Quaterniond q(place.linear());
+  const Eigen::Vector3d& p = place.translation();
+  return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), btVector3(p.x(), p.y(), p.z()));
+}
+
 // Where the joint carries the shape.
-btTransform PlaceOf(const json& root, const json& shape) {
+btTransform PlaceOf(const json& root, const json& shape, const capfit::readers::JointMoves& moves) {
   const btTransform local = TransformOf(shape.at("joint_position"), shape.at("joint_rotation"));
   const int joint = shape.at("joint").get<int>();
   if (joint < 0) return local;
   const json& frame = root.at("joints").at(static_cast<std::size_t>(joint));
-  return TransformOf(frame.at("position"), frame.at("rotation")) * local;
+  return BulletTransform(moves.Of(joint)) *
+         TransformOf(frame.at("position"), frame.at("rotation")) * local;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 2) return 2;
-  const std::string folder = argv[1];
-  const json root = capfit::readers::FileJson(folder + "/bullet_colliders.json");
-  const auto solids = capfit::readers::ExpectedSolids(folder);
-  capfit::readers::Failures failures;
+// Returns the number of distances compared.
+int Compare(const std::string& folder, const json& root, capfit::readers::When when,
+            capfit::readers::Failures& failures) {
+  const auto solids = capfit::readers::ExpectedSolids(folder, when);
+  const capfit::readers::JointMoves moves(folder, when);
   failures.Check(root.at("shapes").size() == solids.size(), "the number of shapes");
   int points = 0;
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    const auto& [name, sphere_names, hull] = solids[i];
+    const std::string& name = solids[i].name;
+    const capfit::geometry::TaperedCapsule& hull = solids[i].hull;
     const json& shape = root.at("shapes").at(i);
     failures.Check(shape.at("name") == name, name + " is not at its place");
     const auto made = ShapeOf(shape);
-    const btTransform place = PlaceOf(root, shape);
+    const btTransform place = PlaceOf(root, shape, moves);
     for (const Eigen::Vector3d& surface : capfit::readers::SurfacePoints(hull, 60)) {
       const Eigen::Vector3d point = surface + 0.05 * hull.Locate(surface).normal;
       btGjkEpaSolver2::sResults results;
@@ -77,6 +82,18 @@ int main(int argc, char** argv) {
       ++points;
     }
   }
-  return failures.Finish(std::to_string(solids.size()) + " shapes in Bullet, " +
-                         std::to_string(points) + " distances");
+  return points;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const std::string folder = argv[1];
+  const json root = capfit::readers::FileJson(folder + "/bullet_colliders.json");
+  capfit::readers::Failures failures;
+  const int points = Compare(folder, root, capfit::readers::When::kAtRest, failures) +
+                     Compare(folder, root, capfit::readers::When::kPosed, failures);
+  return failures.Finish(std::to_string(root.at("shapes").size()) + " shapes in Bullet, " +
+                         std::to_string(points) + " distances at rest and posed");
 }

@@ -1,13 +1,13 @@
 // Loads mujoco_colliders.xml and mujoco_meshes.xml into MuJoCo and compares what it then has with the
 // result: balls and capsules of one radius are the same, pieces and meshes enclose their capsule and
-// reach out no further than stated; a mocap body carries its geoms along.
+// reach out no further than stated: at rest, and with the bodies moved as their joints.
 //
 //   node check_mujoco.mjs FOLDER
 import { readFileSync } from 'node:fs';
 import loadMujoco from 'mujoco-js';
 import { check, distance, finish, near } from '../gltf/files.mjs';
 import {
-  add, directions, dot, reach, signedDistance, surfacePoints, uprightSolids,
+  add, compose, directions, dot, jointMoves, reach, signedDistance, surfacePoints, uprightSolids,
 } from './geometry.mjs';
 
 const TOLERANCE = 1e-6;
@@ -89,38 +89,55 @@ function checkMesh(solid, geom) {
 const inXml = (name) => name.replace(/[\x00-\x1f\x7f]/g, '_');
 const isTapered = ({ ends }) => ends.length === 2 && ends[0].radius !== ends[1].radius;
 
-const file = load('mujoco_colliders.xml');
-const geoms = geomsOf(file);
-let counted = 0;
-for (const solid of solids) {
-  const own = geoms.filter(({ name }) =>
-    name.startsWith(inXml(solid.name)) && /^(_\d+)?$/.test(name.slice(inXml(solid.name).length)));
-  counted += own.length;
-  if (own.length === 0) check(false, `${solid.name} is missing`);
-  else if (isTapered(solid)) checkPieces(solid, own);
-  else checkSame(solid, own[0]);
-}
-check(counted === geoms.length, `${geoms.length} geoms, of which ${counted} are known`);
-
-const meshes = geomsOf(load('mujoco_meshes.xml'));
-check(meshes.length === solids.length, `${meshes.length} geoms for ${solids.length} solids`);
-for (const solid of solids) {
-  const geom = meshes.find(({ name }) => name === inXml(solid.name));
-  if (!geom) check(false, `${solid.name} is missing`);
-  else if (geom.points) checkMesh(solid, geom);
-  else checkSame(solid, geom);
-}
-
-// Every body moves by its mocap pose, and its geoms with it.
-const shift = [0.1, -0.2, 0.3];
-for (let i = 0; i < file.model.nmocap; ++i) {
-  shift.forEach((x, k) => { file.data.mocap_pos[3 * i + k] += x; });
-}
-mujoco.mj_forward(file.model, file.data);
-geomsOf(file).forEach((geom, i) => {
-  geom.ends.forEach((end, k) => {
-    const moved = add(geoms[i].ends[k].center, upright(shift));
-    near(distance(end.center, moved), 0, TOLERANCE, `${geom.name} did not move with its body`);
+// Each body is a joint's, moved by its mocap pose; bodies are in the order of their joints.
+const inMujoco = ([x, y, z]) => [z, x, y];
+function moveBodies({ model, data }) {
+  const moves = jointMoves(folder);
+  const used = [...new Set(solids.map((solid) => solid.joint))].sort((a, b) => a - b);
+  check(model.nmocap === used.length, `${model.nmocap} mocap bodies for ${used.length} joints`);
+  used.forEach((joint, i) => {
+    const [w, x, y, z] = data.mocap_quat.slice(4 * i, 4 * i + 4);
+    const rest = { position: Array.from(data.mocap_pos.slice(3 * i, 3 * i + 3)), rotation: [x, y, z, w] };
+    const { position, rotation } = moves(joint);
+    const moved = compose({
+      position: inMujoco(position),
+      rotation: [...inMujoco(rotation.slice(0, 3)), rotation[3]],
+    }, rest);
+    moved.position.forEach((value, k) => { data.mocap_pos[3 * i + k] = value; });
+    [3, 0, 1, 2].forEach((from, k) => { data.mocap_quat[4 * i + k] = moved.rotation[from]; });
   });
-});
-finish(`${geoms.length} geoms and ${meshes.length} meshes in MuJoCo`);
+  mujoco.mj_forward(model, data);
+}
+
+function checkPiecesFile(geoms, wanted) {
+  let counted = 0;
+  for (const solid of wanted) {
+    const own = geoms.filter(({ name }) =>
+      name.startsWith(inXml(solid.name)) && /^(_\d+)?$/.test(name.slice(inXml(solid.name).length)));
+    counted += own.length;
+    if (own.length === 0) check(false, `${solid.name} is missing`);
+    else if (isTapered(solid)) checkPieces(solid, own);
+    else checkSame(solid, own[0]);
+  }
+  check(counted === geoms.length, `${geoms.length} geoms, of which ${counted} are known`);
+}
+function checkMeshesFile(geoms, wanted) {
+  check(geoms.length === wanted.length, `${geoms.length} geoms for ${wanted.length} solids`);
+  for (const solid of wanted) {
+    const geom = geoms.find(({ name }) => name === inXml(solid.name));
+    if (!geom) check(false, `${solid.name} is missing`);
+    else if (geom.points) checkMesh(solid, geom);
+    else checkSame(solid, geom);
+  }
+}
+
+const posed = uprightSolids(folder, true);
+const counts = [['mujoco_colliders.xml', checkPiecesFile], ['mujoco_meshes.xml', checkMeshesFile]]
+  .map(([name, checkFile]) => {
+    const file = load(name);
+    checkFile(geomsOf(file), solids);
+    moveBodies(file);
+    checkFile(geomsOf(file), posed);
+    return file.model.ngeom;
+  });
+finish(`${counts[0]} geoms and ${counts[1]} meshes in MuJoCo, at rest and posed`);

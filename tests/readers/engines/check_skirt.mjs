@@ -8,7 +8,7 @@ import { check, finish, readJson } from '../gltf/files.mjs';
 import {
   add, between, multiply, rotate, signedDistance, subtract, turnAboutX, uprightSolids,
 } from './geometry.mjs';
-import { Jolt, addBody, makeWorld } from './jolt_world.mjs';
+import { addBody, makeWorld, moveBody } from './jolt_world.mjs';
 import { COLUMNS, FACES, ROWS, STEPS, VERTEX_RADIUS, addSkirt, skirtPoints } from './skirt.mjs';
 
 const FRAME = 1 / 60;
@@ -57,9 +57,7 @@ function swung(frame, side, angle) {
 function pose(angle) {
   for (const part of parts) {
     if (!part.side) continue;
-    const { position, rotation } = swung(part.place, part.side, angle);
-    world.bodies.MoveKinematic(part.id, new Jolt.RVec3(...position),
-      new Jolt.Quat(...rotation).Normalized(), FRAME);
+    moveBody(world, part.id, swung(part.place, part.side, angle), FRAME);
   }
 }
 function posedEnds(angle) {

@@ -1,6 +1,6 @@
 // Reads colliders.urdf with urdfdom and compares it with the result: nothing dropped (urdfdom
 // leaves out what it does not know and goes on), spheres where they are, and cylinders that enclose
-// the cones.
+// the cones; the same with the links moved to a pose.
 //
 //   check_urdf FOLDER
 #include <urdf_model/model.h>
@@ -11,8 +11,10 @@
 #include <cctype>
 #include <limits>
 #include <map>
+#include <set>
 #include <vector>
 
+#include "core/export/file_text.h"
 #include "tests/readers/engines/expected_solids.h"
 
 namespace {
@@ -75,12 +77,46 @@ void Add(const urdf::Collision& collision, const Eigen::Isometry3d& link, Found&
   }
 }
 
-// All links hang on the root, each by one joint.
-Found Read(const urdf::ModelInterface& model) {
+// A movement of the upright frame, in the file's.
+Eigen::Isometry3d InFile(const Eigen::Isometry3d& upright) {
+  Eigen::Matrix3d turn;
+  turn << 0, 1, 0, 0, 0, 1, 1, 0, 0;  // as Upright
+  const Eigen::Isometry3d to_upright(turn);
+  return to_upright.inverse() * upright * to_upright;
+}
+
+// The result's joint of each link: those that carry something, in the file's order of links.
+std::map<std::string, int> JointsOfLinks(
+    const urdf::ModelInterface& model, const std::string& text,
+    const std::vector<capfit::readers::ExpectedSolid>& solids) {
+  std::map<std::size_t, std::string> in_order;
+  for (const auto& [name, link] : model.links_) {
+    if (!link->parent_joint) continue;
+    const std::string tag = "<link name=\"" + capfit::exports::XmlText(name) + "\"";
+    in_order.emplace(text.find(tag), name);
+  }
+  std::set<int> joints;
+  for (const auto& solid : solids) joints.insert(solid.joint);
+  joints.erase(-1);
+  std::map<std::string, int> joint_of;
+  auto joint = joints.begin();
+  for (const auto& [at, name] : in_order) {
+    if (joint != joints.end()) joint_of[name] = *joint++;
+  }
+  return joint_of;
+}
+
+// All links hang on the root, each by one floating joint, which the pose moves.
+Found Read(const urdf::ModelInterface& model, const std::map<std::string, int>& joint_of,
+           const capfit::readers::JointMoves& moves) {
   Found found;
   for (const auto& [name, link] : model.links_) {
     Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-    if (link->parent_joint) place = Isometry(link->parent_joint->parent_to_joint_origin_transform);
+    if (link->parent_joint) {
+      const auto joint = joint_of.find(name);
+      place = InFile(moves.Of(joint == joint_of.end() ? -1 : joint->second)) *
+              Isometry(link->parent_joint->parent_to_joint_origin_transform);
+    }
     for (const auto& collision : link->collision_array) Add(*collision, place, found);
   }
   return found;
@@ -127,6 +163,35 @@ std::size_t CountOf(const std::string& text, const std::string& word) {
   return count;
 }
 
+// A sphere that ends capsules on several joints stands in the link of each.
+void CheckSphere(const Found& found, const std::string& name,
+                 const capfit::geometry::Sphere& wanted, capfit::readers::Failures& failures) {
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto [first, last] = found.spheres.equal_range(InXml(name));
+  for (auto it = first; it != last; ++it) {
+    nearest = std::min(nearest, (it->second.center_m - wanted.center_m).norm());
+    failures.Near(it->second.radius_m, wanted.radius_m, kTolerance, name);
+  }
+  failures.Near(nearest, 0.0, kTolerance, name + " has no sphere there");
+}
+
+void CheckSolids(const Found& found, const std::vector<capfit::readers::ExpectedSolid>& solids,
+                 capfit::readers::Failures& failures) {
+  std::size_t known = 0;
+  for (const auto& solid : solids) {
+    for (std::size_t k = 0; k < solid.sphere_names.size(); ++k) {
+      CheckSphere(found, solid.sphere_names[k], k == 0 ? solid.hull.a() : solid.hull.b(), failures);
+    }
+    std::vector<Cylinder> cylinders;
+    for (const auto& [name, cylinder] : found.cylinders) {
+      if (IsPieceOf(name, InXml(solid.name))) cylinders.push_back(cylinder);
+    }
+    known += cylinders.size();
+    if (solid.sphere_names.size() == 2) CheckCylinders(solid, cylinders, failures);
+  }
+  failures.Check(known == found.cylinders.size(), "cylinders of no capsule");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -137,29 +202,17 @@ int main(int argc, char** argv) {
   capfit::readers::Failures failures;
   failures.Check(model != nullptr, "urdfdom refuses the file");
   if (!model) return failures.Finish("URDF");
-  const Found found = Read(*model);
-  failures.Check(found.spheres.size() + found.cylinders.size() == CountOf(text, "<collision "),
-                 "urdfdom dropped collisions");
   failures.Check(model->links_.size() == CountOf(text, "<link "), "urdfdom dropped links");
-  std::size_t known = 0;
-  for (const auto& solid : capfit::readers::ExpectedSolids(folder)) {
-    for (std::size_t k = 0; k < solid.sphere_names.size(); ++k) {
-      const capfit::geometry::Sphere& end = k == 0 ? solid.hull.a() : solid.hull.b();
-      const auto [first, last] = found.spheres.equal_range(InXml(solid.sphere_names[k]));
-      failures.Check(first != last, solid.sphere_names[k] + " is missing");
-      for (auto it = first; it != last; ++it) {
-        failures.Near((it->second.center_m - end.center_m).norm(), 0.0, kTolerance, solid.name);
-        failures.Near(it->second.radius_m, end.radius_m, kTolerance, solid.name);
-      }
-    }
-    std::vector<Cylinder> cylinders;
-    for (const auto& [name, cylinder] : found.cylinders) {
-      if (IsPieceOf(name, InXml(solid.name))) cylinders.push_back(cylinder);
-    }
-    known += cylinders.size();
-    if (solid.sphere_names.size() == 2) CheckCylinders(solid, cylinders, failures);
+  Found found;
+  for (const auto when : {capfit::readers::When::kAtRest, capfit::readers::When::kPosed}) {
+    const auto solids = capfit::readers::ExpectedSolids(folder, when);
+    found = Read(*model, JointsOfLinks(*model, text, solids),
+                 capfit::readers::JointMoves(folder, when));
+    failures.Check(found.spheres.size() + found.cylinders.size() == CountOf(text, "<collision "),
+                   "urdfdom dropped collisions");
+    CheckSolids(found, solids, failures);
   }
-  failures.Check(known == found.cylinders.size(), "cylinders of no capsule");
   return failures.Finish(std::to_string(found.spheres.size()) + " spheres and " +
-                         std::to_string(found.cylinders.size()) + " cylinders in urdfdom");
+                         std::to_string(found.cylinders.size()) +
+                         " cylinders in urdfdom, at rest and posed");
 }

@@ -16,9 +16,10 @@ Eigen::Vector3d PointOf(const json& numbers) {
   return {numbers.at(0).get<double>(), numbers.at(1).get<double>(), numbers.at(2).get<double>()};
 }
 
-geometry::Sphere SphereOf(const json& root, const json& sphere) {
+// `place`: of its centre, in the mesh's frame.
+geometry::Sphere SphereOf(const json& root, const json& sphere, const json& place) {
   const json& rows = root.at("upright_from_mesh");
-  const Eigen::Vector3d center = PointOf(sphere.at("center"));
+  const Eigen::Vector3d center = PointOf(place);
   Eigen::Vector3d upright;
   for (int row = 0; row < 3; ++row) {
     const json& numbers = rows.at(static_cast<std::size_t>(row));
@@ -29,24 +30,49 @@ geometry::Sphere SphereOf(const json& root, const json& sphere) {
 
 }  // namespace
 
-std::vector<ExpectedSolid> ExpectedSolids(const std::string& folder) {
+std::vector<ExpectedSolid> ExpectedSolids(const std::string& folder, When when) {
+  const bool is_posed = when == When::kPosed;
   const json root = FileJson(folder + "/expected.json");
   const json& spheres = root.at("spheres");
   const auto name = [&](std::size_t i) { return spheres.at(i).at("name").get<std::string>(); };
   std::vector<ExpectedSolid> solids;
   for (const json& capsule : root.at("capsules")) {
-    const std::size_t a = capsule.at("spheres").at(0).get<std::size_t>();
-    const std::size_t b = capsule.at("spheres").at(1).get<std::size_t>();
+    const auto end = [&](std::size_t k) {
+      const json& sphere = spheres.at(capsule.at("spheres").at(k).get<std::size_t>());
+      const json& place = is_posed ? capsule.at("posed_centers").at(k) : sphere.at("center");
+      return SphereOf(root, sphere, place);
+    };
     solids.push_back({capsule.at("name").get<std::string>(),
-                      {name(a), name(b)},
-                      {SphereOf(root, spheres.at(a)), SphereOf(root, spheres.at(b))}});
+                      {name(capsule.at("spheres").at(0).get<std::size_t>()),
+                       name(capsule.at("spheres").at(1).get<std::size_t>())},
+                      {end(0), end(1)},
+                      capsule.at("joint").get<int>()});
   }
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    if (!spheres.at(i).at("lone").get<bool>()) continue;
-    const geometry::Sphere sphere = SphereOf(root, spheres.at(i));
-    solids.push_back({name(i), {name(i)}, {sphere, sphere}});
+    const json& lone = spheres.at(i);
+    if (!lone.at("lone").get<bool>()) continue;
+    const geometry::Sphere sphere =
+        SphereOf(root, lone, lone.at(is_posed ? "posed_center" : "center"));
+    solids.push_back({name(i), {name(i)}, {sphere, sphere}, lone.at("joint").get<int>()});
   }
   return solids;
+}
+
+JointMoves::JointMoves(const std::string& folder, When when) {
+  const json root = FileJson(folder + "/expected.json");
+  for (const json& joint : root.at("joints")) {
+    Eigen::Isometry3d& moves = moves_.emplace_back(Eigen::Isometry3d::Identity());
+    if (when == When::kAtRest) continue;
+    const json& moved = joint.at("moved_upright");
+    const json& q = moved.at("rotation");
+    moves = Eigen::Translation3d(PointOf(moved.at("position"))) *
+            Eigen::Quaterniond(q.at(3).get<double>(), q.at(0).get<double>(), q.at(1).get<double>(),
+                               q.at(2).get<double>());
+  }
+}
+
+Eigen::Isometry3d JointMoves::Of(int joint) const {
+  return joint < 0 ? Eigen::Isometry3d::Identity() : moves_.at(static_cast<std::size_t>(joint));
 }
 
 std::string FileText(const std::string& path) {

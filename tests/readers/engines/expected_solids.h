@@ -2,7 +2,7 @@
 #ifndef CAPFIT_TESTS_READERS_ENGINES_EXPECTED_SOLIDS_H_
 #define CAPFIT_TESTS_READERS_ENGINES_EXPECTED_SOLIDS_H_
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,10 +15,24 @@ struct ExpectedSolid {
   std::string name;
   std::vector<std::string> sphere_names;  // two, or one
   geometry::TaperedCapsule hull;          // metres, Y up; a lone sphere twice
+  int joint = -1;                         // -1: none
 };
 
+enum class When { kAtRest, kPosed };
+
 // Of FOLDER/expected.json. Ends the program with what is wrong where it cannot be read.
-[[nodiscard]] std::vector<ExpectedSolid> ExpectedSolids(const std::string& folder);
+[[nodiscard]] std::vector<ExpectedSolid> ExpectedSolids(const std::string& folder,
+                                                        When when = When::kAtRest);
+
+// How a joint has moved in the pose since rest, metres, Y up; of -1, or at rest, not at all.
+class JointMoves {
+ public:
+  JointMoves(const std::string& folder, When when);
+  [[nodiscard]] Eigen::Isometry3d Of(int joint) const;
+
+ private:
+  std::vector<Eigen::Isometry3d> moves_;
+};
 
 // The bytes of a file, and JSON of them; end the program where it cannot be read.
 [[nodiscard]] std::string FileText(const std::string& path);

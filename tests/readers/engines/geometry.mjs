@@ -27,15 +27,22 @@ export const compose = (outer, inner) => ({
   rotation: multiply(outer.rotation, inner.rotation),
 });
 
-// What the result has, in metres with Y up: each solid with one sphere or two { center, radius }.
-export function uprightSolids(folder) {
+// What the result has, in metres with Y up, at rest or in the pose: each solid with one sphere or two
+// { center, radius }.
+export function uprightSolids(folder, isPosed = false) {
   const expected = readJson(`${folder}/expected.json`);
-  return expectedSolids(expected, expected.upright_from_mesh, expected.metres_per_unit);
+  return expectedSolids(expected, expected.upright_from_mesh, expected.metres_per_unit, isPosed);
+}
+
+const AT_REST = { position: [0, 0, 0], rotation: [0, 0, 0, 1] };
+// How each joint has moved in the pose: frames { position, rotation }, by index; of -1 not at all.
+export function jointMoves(folder) {
+  const { joints } = readJson(`${folder}/expected.json`);
+  return (index) => (index < 0 ? AT_REST : joints[index].moved_upright);
 }
 
 // The frame of a joint as the files of shapes have it; of -1 the one that all is in.
-export const jointOf = (file, index) =>
-  (index < 0 ? { position: [0, 0, 0], rotation: [0, 0, 0, 1] } : file.joints[index]);
+export const jointOf = (file, index) => (index < 0 ? AT_REST : file.joints[index]);
 
 // (Math.hypot takes ten times as long.)
 const norm = (v) => Math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);

@@ -45,6 +45,12 @@ export function addBody(world, file, shape) {
   return { body, id: body.GetID(), place };
 }
 
+// Moves a kinematic body to a frame in one step of `seconds`.
+export function moveBody(world, id, { position, rotation }, seconds) {
+  world.bodies.MoveKinematic(id, new Jolt.RVec3(...position),
+    new Jolt.Quat(...rotation).Normalized(), seconds);
+}
+
 // The spheres that Jolt has for a body: bottom and top, or one.
 export function spheresOf(body) {
   const shape = body.GetShape();

@@ -8,7 +8,7 @@ import { readFileSync } from 'node:fs';
 import validator from 'gltf-validator';
 import { colliderProblems } from './collider_schema.mjs';
 import { check, distance, expectedSolids, finish, near, readJson, same, splitGlb } from './files.mjs';
-import { THREE, loadScene, turn, vector } from './three_scene.mjs';
+import { THREE, loadScene, pose } from './three_scene.mjs';
 
 const [path, expectedPath, originalPath, frame] = process.argv.slice(2);
 const bytes = readFileSync(path);
@@ -69,9 +69,9 @@ function findColliders(gltf) {
   return found;
 }
 
-function checkColliders(found) {
-  check(found.size === solids.length, `${found.size} colliders for ${solids.length}`);
-  for (const solid of solids) {
+function checkColliders(found, wanted, tolerance) {
+  check(found.size === wanted.length, `${found.size} colliders for ${wanted.length}`);
+  for (const solid of wanted) {
     const collider = found.get(solid.name);
     if (!collider) { check(false, `${solid.name} is missing`); continue; }
     check(collider.ends.length === solid.ends.length, `${solid.name} is another shape`);
@@ -84,26 +84,16 @@ function checkColliders(found) {
   }
 }
 
-// Poses each joint with the reader's own nodes: colliders move rigidly with their joint.
-async function checkPosed(gltf, found) {
-  const { parser } = gltf;
-  const nodes = await Promise.all(expected.joints.map((j) => parser.getDependency('node', j.node)));
-  const before = nodes.map((node) => node.matrixWorld.clone().invert());
-  const places = new Map([...found].map(([name, c]) => [name, c.ends.map((e) => vector(e.center))]));
-  nodes.forEach(turn);
-  gltf.scene.updateMatrixWorld(true);
-  let furthest = 0;
-  const now = findColliders(gltf);
-  for (const solid of solids) {
-    const moved = nodes[solid.joint].matrixWorld.clone().multiply(before[solid.joint]);
-    now.get(solid.name).ends.forEach((end, i) => {
-      const place = places.get(solid.name)[i].clone();
-      furthest = Math.max(furthest, distance(place.toArray(), end.center));
-      near(place.applyMatrix4(moved).distanceTo(vector(end.center)), 0, 10 * tolerance,
-        `${solid.name} after posing`);
-    });
-  }
+// Poses each joint by the reader's own nodes: colliders are where `animate` has them, and have moved.
+async function checkPosed(gltf) {
+  const nodes = await Promise.all(
+    expected.joints.map((j) => gltf.parser.getDependency('node', j.node)));
+  pose(gltf.scene, nodes, expected.joints);
+  const posed = expectedSolids(expected, null, 1, true);
+  const furthest = Math.max(...posed.map((solid, i) =>
+    distance(solid.ends[0].center, solids[i].ends[0].center)));
   check(furthest > 0.1 / expected.metres_per_unit, 'posing moved next to nothing');
+  checkColliders(findColliders(gltf), posed, 10 * tolerance);
 }
 
 const { description, binary } = splitGlb(bytes);
@@ -118,6 +108,6 @@ for (const problem of colliderProblems(description)) check(false, problem);
 if (originalPath !== '-') checkOriginal(description, binary);
 const gltf = await loadScene(bytes);
 const found = findColliders(gltf);
-checkColliders(found);
-if (frame === 'rigged') await checkPosed(gltf, found);
+checkColliders(found, solids, tolerance);
+if (frame === 'rigged') await checkPosed(gltf);
 finish(`${path}: ${found.size} colliders`);

@@ -12,7 +12,8 @@ import { THREE } from './three_scene.mjs';
 
 const [path, expectedPath, profile] = process.argv.slice(2);
 const expected = readJson(expectedPath);
-const solids = expectedSolids(expected, expected.upright_from_mesh, expected.metres_per_unit);
+const [solids, posed] = [false, true].map((isPosed) =>
+  expectedSolids(expected, expected.upright_from_mesh, expected.metres_per_unit, isPosed));
 
 // The package is made for browsers: it wants to be a module, and not to know where it is.
 async function readLayer(text) {
@@ -61,8 +62,17 @@ function primsOf(text) {
   return prims;
 }
 
-function endsOf(prim) {
-  const at = (y) => new THREE.Vector3(0, y, 0).applyMatrix4(prim.place).toArray();
+// The Xform that a joint's prims are below, moved as the joint moves in the pose.
+function movedBy(joint) {
+  if (!joint) return new THREE.Matrix4();
+  const { position, rotation } = joint.moved_upright;
+  return new THREE.Matrix4().compose(new THREE.Vector3(...position),
+    new THREE.Quaternion(...rotation), new THREE.Vector3(1, 1, 1));
+}
+
+function endsOf(prim, moved = new THREE.Matrix4()) {
+  const place = moved.clone().multiply(prim.place);
+  const at = (y) => new THREE.Vector3(0, y, 0).applyMatrix4(place).toArray();
   const of = (key) => Number(prim[key]);
   if (prim.type === 'Sphere') return [{ center: at(0), radius: of('radius') }];
   check(prim.axis === '"Y"' && of('height') > 0, `${prim.name}: ${prim.axis}, ${prim.height}`);
@@ -92,21 +102,24 @@ const schemas = bytes.toString().match(/prepend apiSchemas = \["PhysicsCollision
 check(schemas.length === colliders.length, `${schemas.length} colliders of ${colliders.length}`);
 const known = profile === 'tapered' ? ['Sphere', 'Capsule_1'] : ['Sphere', 'Capsule'];
 colliders.forEach(checkExtent);
-for (const solid of solids) {
+for (const [s, solid] of solids.entries()) {
   const own = colliders.filter((prim) => prim['capfit:name'] === JSON.stringify(solid.name));
   const joint = expected.joints[solid.joint]?.name;
   for (const prim of own) {
     check(known.includes(prim.type), `${prim.name} is a ${prim.type}`);
     check(prim.parent['capfit:joint'] === (joint && JSON.stringify(joint)), `${prim.name} hangs wrong`);
   }
-  if (profile === 'uniform') {
-    for (const problem of coverageProblems(solid, own.map(endsOf), 0.005, 1)) check(false, problem);
-    continue;
+  for (const [isPosed, wanted] of [[false, solid], [true, posed[s]]]) {
+    const ends = own.map((prim) => endsOf(prim, isPosed ? movedBy(expected.joints[solid.joint]) : undefined));
+    if (profile === 'uniform') {
+      for (const problem of coverageProblems(wanted, ends, 0.005, 1)) check(false, problem);
+      continue;
+    }
+    check(ends.length === 1, `${ends.length} prims for ${solid.name}`);
+    ends[0].forEach((end, i) => {
+      near(distance(end.center, wanted.ends[i].center), 0, 1e-6, `${solid.name} centre ${i}`);
+      near(end.radius, wanted.ends[i].radius, 1e-6, `${solid.name} radius ${i}`);
+    });
   }
-  check(own.length === 1, `${own.length} prims for ${solid.name}`);
-  endsOf(own[0]).forEach((end, i) => {
-    near(distance(end.center, solid.ends[i].center), 0, 1e-6, `${solid.name} centre ${i}`);
-    near(end.radius, solid.ends[i].radius, 1e-6, `${solid.name} radius ${i}`);
-  });
 }
 finish(`${path}: ${colliders.length} colliders`);

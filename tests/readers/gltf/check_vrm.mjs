@@ -8,7 +8,7 @@ import validator from 'gltf-validator';
 import { VRMLoaderPlugin } from '@pixiv/three-vrm';
 import { check, distance, expectedSolids, finish, near, readJson, same, splitGlb } from './files.mjs';
 import { coverageProblems } from './hulls.mjs';
-import { THREE, loadScene, turn, vector } from './three_scene.mjs';
+import { THREE, loadScene, pose, vector } from './three_scene.mjs';
 
 const OVERSHOOT_M = 0.005;
 const [path, expectedPath, originalPath] = process.argv.slice(2);
@@ -86,23 +86,29 @@ function checkSprings(vrm, own) {
   });
 }
 
+// Each piece moves as `animate` moves its joint.
 async function checkPosed(gltf, own) {
   const nodes = await Promise.all(
     expected.joints.map((j) => gltf.parser.getDependency('node', j.node)));
-  const before = nodes.map((node) => node.matrixWorld.clone().invert());
   const rest = new Map([...own].map(([name, colliders]) => [name, colliders.map(endsOf)]));
-  nodes.forEach(turn);
-  gltf.scene.updateMatrixWorld(true);
+  pose(gltf.scene, nodes, expected.joints);
+  const matrix = ([x, y, z]) => new THREE.Matrix4().set(...x, ...y, ...z, 0, 0, 0, 1);
+  const posed = expectedSolids(expected, null, 1, true);
   let furthest = 0;
-  for (const solid of solids) {
-    const moved = nodes[solid.joint].matrixWorld.clone().multiply(before[solid.joint]);
-    own.get(solid.name).map(endsOf).flat().forEach((end, i) => {
+  solids.forEach((solid, s) => {
+    const { to_mesh: before, posed: after } = expected.joints[solid.joint];
+    const moved = matrix(after).multiply(matrix(before).invert());
+    const now = own.get(solid.name).map(endsOf);
+    now.flat().forEach((end, i) => {
       const place = vector(rest.get(solid.name).flat()[i].center);
       furthest = Math.max(furthest, distance(place.toArray(), end.center));
       near(place.applyMatrix4(moved).distanceTo(vector(end.center)), 0, 10 * tolerance,
         `${solid.name} after posing`);
     });
-  }
+    for (const problem of coverageProblems(posed[s], now, OVERSHOOT_M * unit, unit)) {
+      check(false, `after posing: ${problem}`);
+    }
+  });
   check(furthest > 0.1 * unit, 'posing moved next to nothing');
 }
 

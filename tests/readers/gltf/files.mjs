@@ -34,16 +34,19 @@ export const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[
 export const applyRows = (rows, p) =>
   rows.map((r) => r[0] * p[0] + r[1] * p[1] + r[2] * p[2] + r[3]);
 
-// What is expected in a frame that `rows` lead to, which scale by `scale`: each solid with its name,
-// joint, and one sphere or two. A capsule of which one end contains the other is a sphere.
-export function expectedSolids(expected, rows, scale) {
+// What is expected in a frame that `rows` lead to, which scale by `scale`, at rest or in the pose:
+// each solid with its name, joint, and one sphere or two. A capsule of which one end contains the
+// other is a sphere.
+export function expectedSolids(expected, rows, scale, isPosed = false) {
+  const to = (p) => (rows ? applyRows(rows, p) : p);
   const spheres = expected.spheres.map((s) => ({
     ...s,
-    center: rows ? applyRows(rows, s.center) : s.center,
+    center: to(isPosed ? s.posed_center : s.center),
     radius: s.radius * scale,
   }));
   const solids = expected.capsules.map((c) => {
-    const [a, b] = c.spheres.map((i) => spheres[i]);
+    const [a, b] = c.spheres.map((i, k) => (
+      isPosed ? { ...spheres[i], center: to(c.posed_centers[k]) } : spheres[i]));
     const ends = distance(a.center, b.center) <= Math.abs(a.radius - b.radius)
       ? [a.radius >= b.radius ? a : b] : [a, b];
     return { name: c.name, joint: c.joint, ends };

@@ -18,11 +18,19 @@ export async function loadScene(bytes, plugins = []) {
 
 export const vector = (p) => new THREE.Vector3(p[0], p[1], p[2]);
 
-// Turns a joint about its own place, by an angle that differs from joint to joint.
-export function turn(object, index) {
-  const axis = new THREE.Vector3(1, (index % 3) - 1, ((index * 7) % 5) - 2).normalize();
-  const angle = 0.3 + 0.1 * (index % 7);
-  object.quaternion.multiply(new THREE.Quaternion().setFromAxisAngle(axis, angle));
+// Puts the nodes of the joints where they are in the pose; parents first, whatever their order. What
+// hangs below follows by the scene's own matrices.
+export function pose(scene, nodes, joints) {
+  const depthOf = (j) => (joints[j].parent < 0 ? 0 : 1 + depthOf(joints[j].parent));
+  const order = joints.map((_, j) => j).sort((a, b) => depthOf(a) - depthOf(b));
+  for (const j of order) {
+    const [x, y, z] = joints[j].posed;
+    const node = nodes[j];
+    node.matrix.set(...x, ...y, ...z, 0, 0, 0, 1)
+      .premultiply(node.parent.matrixWorld.clone().invert());
+    node.matrixAutoUpdate = false;
+    scene.updateMatrixWorld(true);
+  }
 }
 
 export { THREE };

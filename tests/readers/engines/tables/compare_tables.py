@@ -25,6 +25,9 @@ expected_set.compare_spheres(
     expected, [[float(row[key]) for key in ("x_m", "y_m", "z_m", "radius_m")] for row in spheres])
 for row, want in zip(spheres, expected["spheres"]):
     assert row["name"] == want["name"] and bool(int(row["is_lone"])) == want["lone"], row
+expected_set.compare_offsets(folder, [
+    [want["joint"], *(float(row[key]) for key in ("joint_x_m", "joint_y_m", "joint_z_m"))]
+    for row, want in zip(spheres, expected["spheres"])])
 capsules = rows_of(folder, "capsules.csv")
 assert [[int(r["first_sphere"]), int(r["second_sphere"])] for r in capsules] == expected["capsules"]
 for row, solid in zip(capsules, expected["solids"]):

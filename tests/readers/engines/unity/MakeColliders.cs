@@ -1,5 +1,6 @@
 // Builds the bones of a file below a character that is moved, turned and scaled, makes the colliders in
-// both placements, and says where they are in the character's frame:
+// both placements, and says where they are in the character's frame; those on the bones once more with
+// the bones posed (PLACEMENT "Posed"):
 //
 //   sphere PLACEMENT name x y z radius        name in hexadecimal
 //   pair PLACEMENT first second               names; second "-" for a lone sphere
@@ -15,7 +16,7 @@ using MagicaCloth2;
 using UnityEngine;
 
 [Serializable]
-public class BoneFile { public BonePlace[] bones = new BonePlace[0]; }
+public class BoneFile { public BonePlace[] bones = new BonePlace[0], posed = new BonePlace[0]; }
 
 [Serializable]
 public class BonePlace
@@ -31,20 +32,31 @@ public static class Program
 {
     static Transform root;
 
+    static Transform[] made;
+
     static GameObject MakeCharacter(BonePlace[] bones)
     {
         GameObject character = new GameObject("character");
         root = character.transform;
-        Transform[] made = new Transform[bones.Length];
+        made = new Transform[bones.Length];
         for (int i = 0; i < bones.Length; ++i) made[i] = new GameObject(bones[i].name).transform;
         for (int i = 0; i < bones.Length; ++i)
             made[i].SetParent(bones[i].parent < 0 ? root : made[bones[i].parent], false);
+        PlaceAll(bones);
+        return character;
+    }
+
+    // Below a character at the origin, which then is moved, turned and scaled.
+    static void PlaceAll(BonePlace[] bones)
+    {
+        root.localPosition = new Vector3();
+        root.localRotation = Quaternion.identity;
+        root.localScale = 1;
         HashSet<int> placed = new HashSet<int>();
         for (int i = 0; i < bones.Length; ++i) Place(bones, made, placed, i);
         root.localPosition = new Vector3(1, 2, 3);
         root.localRotation = new Quaternion(0.5f, -0.5f, 0.5f, 0.5f);
         root.localScale = 2;
-        return character;
     }
 
     // Parents first, since places are the whole character's.
@@ -69,9 +81,8 @@ public static class Program
         return BitConverter.ToString(Encoding.UTF8.GetBytes(collider.name)).Replace("-", "");
     }
 
-    static void Say(CapfitColliders component, Cloth cloth)
+    static void Say(string placement, CapfitColliders component, Cloth cloth)
     {
-        string placement = component.placement.ToString();
         foreach (SphereCollider sphere in component.GetComponentsInChildren<SphereCollider>(true))
             Console.WriteLine("sphere {0} {1} {2}", placement, Name(sphere), At(sphere.transform, sphere.center, sphere.radius));
         foreach (ClothSphereColliderPair pair in cloth.sphereColliders)
@@ -102,7 +113,11 @@ public static class Program
             component.placement = placement;
             component.MakeColliders();
             component.MakeColliders();  // replaces the first ones
-            Say(component, cloth);
+            Say(placement.ToString(), component, cloth);
+            if (placement != CapfitColliders.Placement.BoneLocal) continue;
+            PlaceAll(file.posed);
+            Say("Posed", component, cloth);
+            PlaceAll(file.bones);
         }
         component.RemoveColliders();
         // A set may be too large for Unity Cloth; nothing else is to be said of it.

@@ -1,4 +1,5 @@
-"""compare_unity.py bones FOLDER: the bones as a glTF importer for Unity puts them, as JSON.
+"""compare_unity.py bones FOLDER: the bones as a glTF importer for Unity puts them, at rest and posed, as
+JSON.
 compare_unity.py compare FOLDER MADE: unity_colliders.json, and what MakeColliders.cs said of the colliders
 that the component made of it, against the result."""
 import json
@@ -106,11 +107,14 @@ def compare_made(made, expected, placement):
 mode, sample = sys.argv[1:3]
 result = expected_set.read(sample)
 if mode == "bones":
-    json.dump({"bones": [bone_place(joint) for joint in result["joints"]]}, sys.stdout)
+    posed = expected_set.read(sample, is_posed=True)
+    json.dump({"bones": [bone_place(joint) for joint in result["joints"]],
+               "posed": [bone_place(joint) for joint in posed["joints"]]}, sys.stdout)
 else:
     compare_file(sample, result)
     with open(sys.argv[3], encoding="ascii") as printed:
         text = printed.readlines()
     count = compare_made(text, result, "ModelSpace")
     compare_made(text, result, "BoneLocal")
+    compare_made(text, expected_set.read(sample, is_posed=True), "Posed")
     print(f"ok: {os.path.basename(sample)}: {count} spheres in the stand-in for Unity")

@@ -34,11 +34,28 @@ def bone_transform(index, joint, quarters):
 
 
 def rotate(q, v):
-    def cross(a, b):
-        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    axis = [q.x, q.y, q.z]
-    twice = [2.0 * x for x in cross(axis, v)]
-    return [a + q.w * b + c for a, b, c in zip(v, twice, cross(axis, twice))]
+    return expected_set.rotate([q.x, q.y, q.z, q.w], v)
+
+
+def times(a, b):
+    """The turn b, then the turn a; x, y, z, w."""
+    u, v = a[:3], b[:3]
+    return [a[3] * y + b[3] * x + z for x, y, z in zip(u, v, expected_set.cross(u, v))] + [
+        a[3] * b[3] - sum(x * y for x, y in zip(u, v))]
+
+
+def moved(transform, joint, quarters):
+    """The bone after its joint has moved in the pose, as animation moves it. (Seen in a mirror a turn goes the other way.)"""
+    shift, turn = joint["moved_upright"]["position"], joint["moved_upright"]["rotation"]
+    axis = quarter_turned([-turn[0], -turn[2], -turn[1]], quarters)
+    turn = editor.Quat(*axis, turn[3])
+    place = transform.translation
+    spot = rotate(turn, [place.x, place.y, place.z])
+    away = quarter_turned(unreal_point(shift), quarters)
+    old = transform.rotation
+    return editor.Transform(
+        editor.Vector(*(a + b for a, b in zip(spot, away))),
+        editor.Quat(*times(axis + [turn.w], [old.x, old.y, old.z, old.w])), transform.scale3d)
 
 
 def to_component(transform, point):
@@ -62,6 +79,14 @@ def ends_of(element, transform):
 def plain(name):
     """An importer that writes some characters otherwise."""
     return name.replace(".", "_").replace(" ", "_")
+
+
+def compare(element, bone, solid, quarters):
+    ends = ends_of(element, bone)
+    assert len(ends) == len(solid["ends"]), solid["name"]
+    for end, want in zip(ends, solid["ends"]):
+        center = quarter_turned(unreal_point(want["center"]), quarters)
+        expected_set.near(end, center + [100.0 * want["radius"]], solid["name"], TOLERANCE_CM)
 
 
 def run(folder, quarters, missing_bodies):
@@ -93,19 +118,23 @@ def run(folder, quarters, missing_bodies):
             for element in geometry.get_editor_property(key):
                 name = element.get_editor_property("name")
                 assert name not in found, f"{name} twice"
-                found[name] = (bone, ends_of(element, bones[bone]))
+                found[name] = (bone, element)
     assert len(found) == len(expected["solids"]), "the number of shapes"
     for solid in expected["solids"]:
-        bone, ends = found[solid["name"]]
-        assert len(ends) == len(solid["ends"]), solid["name"]
-        for end, want in zip(ends, solid["ends"]):
-            center = quarter_turned(unreal_point(want["center"]), quarters)
-            expected_set.near(end, center + [100.0 * want["radius"]], solid["name"], TOLERANCE_CM)
-        if solid["joint"] >= 0:
-            carrier = names[solid["joint"]]
-            while carrier not in bodies:
-                carrier = parents[carrier]
-            assert bone == carrier, f"{solid['name']} hangs on {bone}, not {carrier}"
+        bone, element = found[solid["name"]]
+        compare(element, bones[bone], solid, quarters)
+        if solid["joint"] < 0:
+            continue
+        carrier = names[solid["joint"]]
+        while carrier not in bodies:
+            carrier = parents[carrier]
+        assert bone == carrier, f"{solid['name']} hangs on {bone}, not {carrier}"
+    for solid in expected_set.read(folder, is_posed=True)["solids"]:
+        bone, element = found[solid["name"]]
+        # What hangs on a bone above its own, or on another of the same name, moves with that.
+        if solid["joint"] >= 0 and bone == names[solid["joint"]] and names.count(bone) == 1:
+            joint = expected["joints"][solid["joint"]]
+            compare(element, moved(bones[bone], joint, quarters), solid, quarters)
     return len(found)
 
 
