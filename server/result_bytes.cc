@@ -9,7 +9,7 @@ namespace {
 constexpr std::int64_t kSmallParts = 256LL * 1024;
 // Where the budget is an error, which hardly any body meets with more.
 constexpr int kSpheresOfAnError = 128;
-// With sparse weights a sphere has some 70 vertices of one index and one weight each.
+// With sparse weights a sphere has some 100 vertices, each of a weight and a step to it.
 constexpr std::int64_t kSparseBytesOfASphere = 1024;
 constexpr std::int64_t kFloatBytes = sizeof(float);
 

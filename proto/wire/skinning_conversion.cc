@@ -68,13 +68,19 @@ absl::StatusOr<skinning::SparseWeights> SparseFromWire(const v1::SkinningChunk& 
     return Bad("skinning.total_vertex_count", "must not be negative");
   }
   weights.vertex_count = static_cast<std::size_t>(chunk.total_vertex_count());
-  CAPFIT_RETURN_IF_ERROR(RowsFromWire(wire, sphere_count, wire.vertices_size(), weights));
-  for (int i = 0; i < wire.vertices_size(); ++i) {
-    if (wire.vertices(i) < 0 || wire.vertices(i) >= chunk.total_vertex_count()) {
-      return IndexOutOfRange(absl::StrCat("skinning.sparse.vertices[", i, "]"), wire.vertices(i),
-                             chunk.total_vertex_count());
+  CAPFIT_RETURN_IF_ERROR(RowsFromWire(wire, sphere_count, wire.vertex_steps_size(), weights));
+  int i = 0;
+  for (const std::uint32_t end : weights.row_ends) {
+    std::int64_t vertex = 0;
+    for (bool is_first = true; i < static_cast<int>(end); ++i, is_first = false) {
+      const std::int64_t step = wire.vertex_steps(i);
+      vertex += step;
+      if (step < (is_first ? 0 : 1) || vertex >= chunk.total_vertex_count()) {
+        return IndexOutOfRange(absl::StrCat("skinning.sparse.vertex_steps[", i, "]"), step,
+                               chunk.total_vertex_count());
+      }
+      weights.vertices.push_back(static_cast<std::uint32_t>(vertex));
     }
-    weights.vertices.push_back(static_cast<std::uint32_t>(wire.vertices(i)));
   }
   return weights;
 }
@@ -135,8 +141,14 @@ std::optional<v1::SkinningChunk> FewWeightsToWire(const pipeline::FitResult& res
     const skinning::SparseWeights& weights = *result.sparse_weights;
     v1::SkinningChunk wire = ChunkOf(weights, weights.vertex_count);
     RowsToWire(weights, *wire.mutable_sparse());
-    wire.mutable_sparse()->mutable_vertices()->Add(weights.vertices.begin(),
-                                                   weights.vertices.end());
+    for (std::size_t s = 0; s < weights.sphere_count(); ++s) {
+      std::uint32_t before = 0;
+      for (std::size_t i = weights.RowBegin(s); i < weights.row_ends[s]; ++i) {
+        const std::uint32_t step = weights.vertices[i] - before;
+        wire.mutable_sparse()->add_vertex_steps(static_cast<std::int32_t>(step));
+        before = weights.vertices[i];
+      }
+    }
     return wire;
   }
   if (!result.bone_weights) return std::nullopt;

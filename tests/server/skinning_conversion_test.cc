@@ -140,8 +140,11 @@ TEST(SkinningConversion, NamesWhatDoesNotFitTogether) {
   const auto of_bones = [&](const std::function<void(v1::BoneWeights&)>& breaking) {
     return error(WithBones(), [&](auto& w) { breaking(*w.mutable_skinning()->mutable_bones()); });
   };
-  EXPECT_THAT(of_sparse([](auto& w) { w.set_vertices(0, 100); }), HasSubstr("sparse.vertices[0]"));
-  EXPECT_THAT(of_sparse([](auto& w) { w.set_vertices(0, -1); }), HasSubstr("sparse.vertices[0]"));
+  EXPECT_THAT(of_sparse([](auto& w) { w.set_vertex_steps(0, 100); }),
+              HasSubstr("sparse.vertex_steps[0]"));
+  EXPECT_THAT(of_sparse([](auto& w) { w.set_vertex_steps(0, -1); }),
+              HasSubstr("sparse.vertex_steps[0]"));
+  EXPECT_THAT(of_sparse([](auto& w) { w.set_vertex_steps(2, 0); }), HasSubstr("vertex_steps[2]"));
   EXPECT_THAT(of_sparse([](auto& w) { w.add_weights(1); }), HasSubstr("skinning.weights"));
   EXPECT_THAT(of_sparse([](auto& w) { w.add_row_sizes(0); }), HasSubstr("row_sizes"));
   EXPECT_THAT(of_sparse([](auto& w) { w.set_row_sizes(0, -1); }), HasSubstr("row_sizes[0]"));

@@ -142,10 +142,10 @@ class Answer:
 
     def _add_rows(self, form: str, block: Any) -> None:
         message = getattr(block, form)
-        names = {"sparse": ("vertices", block.total_vertex_count),
-                 "bones": ("joints", len(self._document.get("joints", ())))}
-        name, limit = names[form]
-        indices = numpy.array(getattr(message, name), numpy.int64)
+        names = {"sparse": ("vertices", "vertex_steps", block.total_vertex_count),
+                 "bones": ("joints", "joints", len(self._document.get("joints", ())))}
+        name, field, limit = names[form]
+        indices = numpy.array(getattr(message, field), numpy.int64)
         weights = _float_array(message, "weights")
         ends = numpy.cumsum(message.row_sizes)
         per_index = {"sparse": 0, "bones": 3}[form]
@@ -157,7 +157,12 @@ class Answer:
             raise contract_broken(f"{form} weights that do not fit together")
         rows = []
         for begin, end in zip([0, *ends[:-1]], ends):
-            row = {name: indices[begin:end].tolist(), "weights": weights[begin:end].tolist()}
+            members = indices[begin:end]
+            if form == "sparse":
+                members = numpy.cumsum(members)
+                if len(members) and members[-1] >= limit:
+                    raise contract_broken(f"sparse weights of a vertex beyond {limit}")
+            row = {name: members.tolist(), "weights": weights[begin:end].tolist()}
             if form == "bones":
                 numbers = numpy.array(message.offsets[3 * begin:3 * end])
                 row["offsets"] = numbers.reshape(-1, 3).tolist()

@@ -89,14 +89,16 @@ function rowsOf(sizes: readonly number[], count: number): [number, number][] {
 }
 
 export function sparseRowsOf(sparse: SparseWeights__Output, vertexCount: number): SparseRow[] {
-  const { rowSizes, vertices, weights } = sparse;
-  if (vertices.length !== weights.length || vertices.some((at) => at < 0 || at >= vertexCount)) {
+  const { rowSizes, vertexSteps, weights } = sparse;
+  if (vertexSteps.length !== weights.length || vertexSteps.some((step) => step < 0)) {
     throw brokenContract("sparse weights that do not fit together");
   }
-  return rowsOf(rowSizes, weights.length).map(([begin, end]) => ({
-    vertices: vertices.slice(begin, end),
-    weights: weights.slice(begin, end),
-  }));
+  return rowsOf(rowSizes, weights.length).map(([begin, end]) => {
+    let vertex = 0;
+    const vertices = vertexSteps.slice(begin, end).map((step) => (vertex += step));
+    if (vertex >= vertexCount) throw brokenContract(`sparse weights of vertex ${vertex}`);
+    return { vertices, weights: weights.slice(begin, end) };
+  });
 }
 
 export function boneRowsOf(bones: BoneWeights__Output, jointCount: number): BoneRow[] {
