@@ -65,6 +65,7 @@ struct PartSelection {
   bool hands = false;
   bool feet = false;
   [[nodiscard]] bool Includes(Part part) const;
+  [[nodiscard]] friend bool operator==(const PartSelection&, const PartSelection&) = default;
 };
 
 enum class LandmarkId : std::uint8_t {

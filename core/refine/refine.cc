@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -16,7 +17,9 @@
 #include "core/refine/enclosing/enclosing_task.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/refine/internal.h"
+#include "core/refine/layouts/kept_layout.h"
 #include "core/refine/layouts/layout.h"
+#include "core/refine/layouts/standard_layouts.h"
 #include "core/refine/layouts/starting_graphs.h"
 
 namespace capfit::refine {
@@ -42,8 +45,12 @@ constexpr double kMostSpacing = 0.027;
 constexpr int kFineSteps = 8;
 constexpr double kFineLooseness = 0.5;  // the shape is found, it need not be found anew
 constexpr int kFineTakeInSteps = 2;
-constexpr int kHungSteps = 8;             // for a layout that is kept
-constexpr int kHungFineSteps = 4;         // coverage takes in what these leave out
+constexpr int kHungSteps = 8;      // for a layout that is kept
+constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
+// Of the enclosing search from layouts for its budget, and of all searches.
+constexpr double kSearchedOwn = 0.6;
+constexpr double kSearched = 0.92;
+constexpr double kFillingShare = 0.75;    // of the budget, that a standard layout must use
 constexpr double kHungShapeFound = 0.45;  // of its time, as measured
 // How much of the time of a best fit has gone by when it is done with each, as measured.
 constexpr double kSettled = 0.02;
@@ -202,6 +209,21 @@ Spacings SpacingsFor(int primitives) {
   return {usual, std::clamp(kFineSpacing * share, kLeastSpacing, usual)};
 }
 
+// Standard layouts that fill the budget. They come from long searches over many bodies, and a short
+// one seldom comes to them by itself.
+std::vector<CapsuleGraph> StandardStarts(const body::Body& body, const RefineOptions& options,
+                                         int primitives) {
+  std::vector<CapsuleGraph> starts;
+  for (const KeptLayout& layout : StandardLayouts()) {
+    const bool fills = options.budget.Allows(layout.count()) &&
+                       static_cast<double>(layout.count().total()) >= kFillingShare * primitives;
+    if (!fills || layout.parts() != options.parts) continue;
+    absl::StatusOr<CapsuleGraph> graph = HangLayout(layout, body);
+    if (graph.ok()) starts.push_back(*std::move(graph));
+  }
+  return starts;
+}
+
 std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const tighten::CoverTarget& target,
                                         const RefineOptions& options, const ThreadPool& pool,
                                         WorkMeter& meter) {
@@ -213,7 +235,15 @@ std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const tighten::C
   const int most_spared = primitives > kFewPrimitives ? 0 : primitives;
   const std::vector<CapsuleGraph> starts =
       StartingGraphs(Guise::kEnclose, body, options.parts, budget, /*sizes=*/2, most_spared);
-  const std::vector<CapsuleGraph> found = FindEnclosingGraphs(task, budget, starts, pool, meter);
+  const std::vector<CapsuleGraph> standard = StandardStarts(body, options, primitives);
+  // Two searches: which of the two kinds of starts leads further shows only at their ends.
+  const double until = standard.empty() ? kSearched : kSearchedOwn;
+  std::vector<CapsuleGraph> found = FindEnclosingGraphs(task, budget, starts, until, pool, meter);
+  if (!standard.empty()) {
+    std::vector<CapsuleGraph> more =
+        FindEnclosingGraphs(task, budget, standard, kSearched, pool, meter);
+    std::move(more.begin(), more.end(), std::back_inserter(found));
+  }
   const EnclosingTask fine(target, body.is_symmetric, options.tolerance_m, spacings.fine);
   std::vector<CapsuleGraph> finished = Finish(fine, found, pool, meter);
   // Few primitives are judged well enough by thinned points.

@@ -52,12 +52,10 @@ constexpr std::array<Renewal, 4> kRenewals = {{{0.06, 0.5}, {0.12, 1.0}, {0.12, 
 constexpr int kPrimitivesPerRound = 45;  // one round of renewals for each so many
 constexpr int kMostRounds = 5;
 
-// How much of the time of refining has gone by at the end of each part, as measured; the rest is
-// left to the last steps after the search.
+// How much of the search's time has gone by at the end of each part, as measured.
 constexpr double kStarted = 0.05;
-constexpr double kGrown = 0.4;
-constexpr double kExchanged = 0.85;
-constexpr double kTied = 0.92;
+constexpr double kGrown = 0.45;
+constexpr double kExchanged = 0.92;
 constexpr double kTieRound = 0.5;  // of what is left of its part
 constexpr int kStepsOfGrowth = kLooseSteps + kGrowthSteps + kTakeInSteps;
 
@@ -66,10 +64,12 @@ constexpr std::uint64_t kTrialSeeds = 1000;
 
 class Search {
  public:
-  Search(const EnclosingTask& task, const capsule::Budget& budget, const ThreadPool& pool,
-         WorkMeter& meter)
+  Search(const EnclosingTask& task, const capsule::Budget& budget, double until,
+         const ThreadPool& pool, WorkMeter& meter)
       : task_(task),
         budget_(budget),
+        from_(meter.until()),
+        until_(until),
         primitives_(budget.MostPrimitives()),
         usual_(budget.UsualPrimitives()),
         variants_(usual_ < kManyPrimitives ? kVariantsOfFew : kVariantsOfMany),
@@ -94,6 +94,12 @@ class Search {
   }
 
  private:
+  // `part`: of the search, that will have been done with the work.
+  void Expect(double part, std::int64_t work) {
+    part_ = part;
+    meter_.Expect(from_ + part * (until_ - from_), work);
+  }
+
   // A graph whose shape is found, and what it is worth with its points taken in.
   struct Attempt {
     CapsuleGraph graph;
@@ -112,7 +118,7 @@ class Search {
     for (const CapsuleGraph& start : starts) {
       work += (kStartSteps + kTakeInSteps) * start.primitive_count();
     }
-    meter_.Expect(kStarted, work);
+    Expect(kStarted, work);
     pool_.ForEach(starts.size(), [&](std::size_t i) {
       CapsuleGraph graph = starts[i];
       task_.FindShape(kStartSteps, 1.0, /*seed=*/1, alone_, meter_, graph);
@@ -128,7 +134,7 @@ class Search {
     std::vector<Attempt> small(attempts.begin(), large);
     attempts.erase(attempts.begin(), large);
     Sort(small);
-    for (std::uint64_t seed = 10; Grow(seed, small) && !meter_.IsCancelled();) {
+    for (std::uint64_t seed = 10; !small.empty() && Grow(seed, small) && !meter_.IsCancelled();) {
       seed += kMostGrown * variants_;
     }
     attempts.insert(attempts.end(), small.begin(), small.end());
@@ -150,13 +156,13 @@ class Search {
   }
 
   // One round of growth from the best of the attempts; whether there was any.
-  bool Grow(std::uint64_t seed, std::vector<Attempt>& attempts) const {
+  bool Grow(std::uint64_t seed, std::vector<Attempt>& attempts) {
     const int most = std::clamp(kGrownTimesPrimitives / std::max(1, usual_), 1, kMostGrown);
     attempts.resize(std::min(attempts.size(), static_cast<std::size_t>(most)));
     std::vector<Attempt> grown(attempts.size() * variants_);
     const double size = (1.0 + kGrowthShare) * attempts.front().graph.primitive_count();
-    meter_.Expect(kStarted + (kGrown - kStarted) * std::min(1.0, size / primitives_),
-                  WorkOf(kStepsOfGrowth * grown.size(), attempts.front().graph));
+    Expect(kStarted + (kGrown - kStarted) * std::min(1.0, size / primitives_),
+           WorkOf(kStepsOfGrowth * grown.size(), attempts.front().graph));
     pool_.ForEach(grown.size(), [&](std::size_t i) {
       CapsuleGraph graph = attempts[i / variants_].graph;
       if (!budget_.Allows(graph.count())) return;
@@ -261,11 +267,11 @@ class Search {
     return Settled(std::move(edited.graph), seed);
   }
 
-  // Tries some edits in parallel, work up to `until` of the meter; whether the best of them was
+  // Tries some edits in parallel, work up to `part` of the search; whether the best of them was
   // taken.
-  bool TryAll(const std::vector<Edit>& edits, double until, Attempt& best) {
+  bool TryAll(const std::vector<Edit>& edits, double part, Attempt& best) {
     std::vector<Attempt> attempts(edits.size());
-    meter_.Expect(until, WorkOf((kTrialSteps + kTakeInSteps) * edits.size(), best.graph));
+    Expect(part, WorkOf((kTrialSteps + kTakeInSteps) * edits.size(), best.graph));
     pool_.ForEach(edits.size(),
                   [&](std::size_t i) { attempts[i] = Try(best.graph, edits[i], seed_ + i); });
     seed_ += edits.size();
@@ -294,10 +300,10 @@ class Search {
     return Settled(std::move(graph), seed);
   }
 
-  void Renew(double until, Attempt& best) {
+  void Renew(double part, Attempt& best) {
     if (meter_.IsCancelled()) return;
     std::vector<Attempt> attempts(kRenewals.size());
-    meter_.Expect(until, WorkOf(kStepsOfGrowth * attempts.size(), best.graph));
+    Expect(part, WorkOf(kStepsOfGrowth * attempts.size(), best.graph));
     pool_.ForEach(attempts.size(), [&](std::size_t i) {
       attempts[i] = Renewed(best.graph, kRenewals[i], seed_ + i);
     });
@@ -331,15 +337,17 @@ class Search {
       task_.Loosen(kLooseSteps, seed_, pool_, meter_, loose);
       std::vector<Edit> ties = RankedAdditions(task_, loose, pool_);
       ties.resize(std::min(ties.size(), kTies));
-      const double left = kTied - meter_.until();
-      if (!TryAll(ties, meter_.until() + kTieRound * left, best)) return;
+      if (!TryAll(ties, part_ + kTieRound * (1.0 - part_), best)) return;
     }
   }
 
   const EnclosingTask& task_;
   const capsule::Budget& budget_;
-  int primitives_;  // at most
-  int usual_;       // about so many where only spheres or only capsules are limited
+  double from_;  // of the meter, when the search began
+  double until_;
+  double part_ = 0.0;  // of the search, where what is under way ends
+  int primitives_;     // at most
+  int usual_;          // about so many where only spheres or only capsules are limited
   std::size_t variants_;
   const ThreadPool& pool_;
   const ThreadPool alone_{1};  // inside what runs in parallel already
@@ -352,9 +360,9 @@ class Search {
 
 std::vector<CapsuleGraph> FindEnclosingGraphs(const EnclosingTask& task,
                                               const capsule::Budget& budget,
-                                              const std::vector<CapsuleGraph>& starts,
+                                              const std::vector<CapsuleGraph>& starts, double until,
                                               const ThreadPool& pool, WorkMeter& meter) {
-  return Search(task, budget, pool, meter).Run(starts);
+  return Search(task, budget, until, pool, meter).Run(starts);
 }
 
 }  // namespace capfit::refine

@@ -20,13 +20,14 @@ namespace capfit::refine {
 // of a few such trials is kept if it is better; of many, up to a quarter is given up and spent anew
 // at once. What is left of the budget then, too little for a cut, is tried on ties and leaves.
 //
-// `starts` must not be empty. Returns the best few graphs, best first, as far as the task's thinned
-// points tell; they fit the budget unless cancelled. Trials run in parallel; same bits for any
-// pool. About 0.1 s on two cores at 64 primitives, 0.25 s at 128, 1 s at 250.
+// `starts` must not be empty. `until`: of the meter, at the search's end. Returns the best few
+// graphs, best first, as far as the task's thinned points tell; they fit the budget unless
+// cancelled. Trials run in parallel; same bits for any pool. About 0.1 s on two cores at 64
+// primitives, 0.25 s at 128, 1 s at 250.
 [[nodiscard]] std::vector<CapsuleGraph> FindEnclosingGraphs(const EnclosingTask& task,
                                                             const capsule::Budget& budget,
                                                             const std::vector<CapsuleGraph>& starts,
-                                                            const ThreadPool& pool,
+                                                            double until, const ThreadPool& pool,
                                                             WorkMeter& meter);
 
 }  // namespace capfit::refine
