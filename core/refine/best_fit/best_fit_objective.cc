@@ -64,7 +64,7 @@ double MissPenalty(const CoverPoints& points, double miss_m) {
 class BestFitRound final : public Objective::Round {
  public:
   BestFitRound(const OccupancyGrid& grid, const OccupancyGrid& coarse, const CoverPoints& points,
-               std::uint64_t seed, const CapsuleGraph& graph)
+               std::uint64_t seed, const capsule::MirroredSet& graph)
       : grid_(grid),
         coarse_(coarse),
         points_(points),
@@ -90,9 +90,9 @@ class BestFitRound final : public Objective::Round {
     for (const int v : local.nodes) local_active.push_back(active[U(v)]);
     DescendBestFit(grid_, OptionsOf(glance, local_active), local.graph);
     for (std::size_t v = 0; v < local.nodes.size(); ++v) {
-      Node& node = edited.graph.nodes[U(local.nodes[v])];
-      node.center_m = local.graph.nodes[v].center_m;
-      node.radius_m = local.graph.nodes[v].radius_m;
+      geometry::Sphere& node = edited.graph.sphere(local.nodes[v]);
+      node.center_m = local.graph.spheres()[v].center_m;
+      node.radius_m = local.graph.spheres()[v].radius_m;
     }
     box.extend(ReachOf(local.graph, local_active));
     box = box.intersection(widest);
@@ -112,7 +112,7 @@ class BestFitRound final : public Objective::Round {
     return options;
   }
 
-  [[nodiscard]] double Gain(bool fine, const CapsuleGraph& after, const Box& cells) const {
+  [[nodiscard]] double Gain(bool fine, const capsule::MirroredSet& after, const Box& cells) const {
     const double less_error =
         fine ? FillError(grid_, before_, cells) - FillError(grid_, after, cells)
              : errors_before_.Over(cells) - FillError(coarse_, after, cells);
@@ -129,7 +129,7 @@ class BestFitRound final : public Objective::Round {
   const OccupancyGrid& coarse_;
   const CoverPoints& points_;
   std::uint64_t seed_;
-  CapsuleGraph before_;
+  capsule::MirroredSet before_;
   FillErrorMap errors_before_;
   std::vector<float> misses_before_m_;  // by point, beyond kFarMissM
 };
@@ -156,7 +156,7 @@ BestFitObjective::BestFitObjective(OccupancyGrid grid, CoverPoints points, std::
       points_(std::move(points)),
       seed_(seed) {}
 
-void BestFitObjective::Settle(Effort effort, CapsuleGraph& graph) const {
+void BestFitObjective::Settle(Effort effort, capsule::MirroredSet& graph) const {
   BestFitOptions options;
   options.seed = seed_;
   options.steps = StepsOf(effort, graph.primitive_count());
@@ -164,18 +164,19 @@ void BestFitObjective::Settle(Effort effort, CapsuleGraph& graph) const {
   DescendBestFit(grid_, options, graph);
 }
 
-double BestFitObjective::Value(const CapsuleGraph& graph) const {
+double BestFitObjective::Value(const capsule::MirroredSet& graph) const {
   const Deepest deepest = FindDeepest(points_, ConesOf(graph));
   double missed_m = 0.0;
   for (const float excess : deepest.excess_m) missed_m += std::max(0.0f, excess - kFarMissM);
   return GridError(grid_, graph) + MissPenalty(points_, missed_m);
 }
 
-std::unique_ptr<Objective::Round> BestFitObjective::StartRound(const CapsuleGraph& graph) const {
+std::unique_ptr<Objective::Round> BestFitObjective::StartRound(
+    const capsule::MirroredSet& graph) const {
   return std::make_unique<BestFitRound>(grid_, coarse_, points_, seed_, graph);
 }
 
-std::vector<Eigen::Vector3d> BestFitObjective::WorstPoints(const CapsuleGraph& graph,
+std::vector<Eigen::Vector3d> BestFitObjective::WorstPoints(const capsule::MirroredSet& graph,
                                                            int count) const {
   const Deepest deepest = FindDeepest(points_, ConesOf(graph));
   std::vector<Eigen::Vector3d> positions;

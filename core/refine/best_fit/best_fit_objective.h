@@ -18,10 +18,10 @@ class BestFitObjective final : public Objective {
   // they stick out furthest.
   BestFitObjective(OccupancyGrid grid, CoverPoints points, std::uint64_t seed);
 
-  void Settle(Effort effort, CapsuleGraph& graph) const override;
-  [[nodiscard]] double Value(const CapsuleGraph& graph) const override;
-  [[nodiscard]] std::unique_ptr<Round> StartRound(const CapsuleGraph& graph) const override;
-  [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const CapsuleGraph& graph,
+  void Settle(Effort effort, capsule::MirroredSet& graph) const override;
+  [[nodiscard]] double Value(const capsule::MirroredSet& graph) const override;
+  [[nodiscard]] std::unique_ptr<Round> StartRound(const capsule::MirroredSet& graph) const override;
+  [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const capsule::MirroredSet& graph,
                                                          int count) const override;
 
  private:

@@ -27,21 +27,22 @@ std::vector<Eigen::Vector3d> BestApart(const std::vector<Eigen::Vector3d>& point
   return chosen;
 }
 
-Eigen::AlignedBox3d ReachOf(const CapsuleGraph& graph, const std::vector<char>& active) {
+Eigen::AlignedBox3d ReachOf(const capsule::MirroredSet& graph, const std::vector<char>& active) {
   constexpr double kMarginM = 0.02;
   Eigen::AlignedBox3d box;
   const auto add = [&](int v) {
-    const Node& node = graph.nodes[static_cast<std::size_t>(v)];
+    const geometry::Sphere& node = graph.sphere(v);
     Eigen::Vector3d center = node.center_m;
-    if (graph.symmetric) center.x() = std::abs(center.x());
+    if (graph.is_mirrored()) center.x() = std::abs(center.x());
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(node.radius_m + kMarginM);
     box.extend(center - reach);
     box.extend(center + reach);
   };
-  for (const Edge& e : graph.edges) {
-    if (!active[static_cast<std::size_t>(e.a)] && !active[static_cast<std::size_t>(e.b)]) continue;
-    add(e.a);
-    add(e.b);
+  for (const capsule::CapsuleEnds& e : graph.capsules()) {
+    if (!active[static_cast<std::size_t>(e[0])] && !active[static_cast<std::size_t>(e[1])])
+      continue;
+    add(e[0]);
+    add(e[1]);
   }
   for (int v = 0; v < graph.sphere_count(); ++v) {
     if (active[static_cast<std::size_t>(v)]) add(v);

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/refine/graph/capsule_graph.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/refine/graph/graph_edit.h"
 
 namespace capfit::refine {
@@ -29,10 +29,10 @@ class Objective {
   virtual ~Objective() = default;
 
   // Moves and grows all spheres.
-  virtual void Settle(Effort effort, CapsuleGraph& graph) const = 0;
+  virtual void Settle(Effort effort, capsule::MirroredSet& graph) const = 0;
 
   // E_r, plus a penalty for what the guise forbids.
-  [[nodiscard]] virtual double Value(const CapsuleGraph& graph) const = 0;
+  [[nodiscard]] virtual double Value(const capsule::MirroredSet& graph) const = 0;
 
   // What many edits of the same graph share: made once per round.
   class Round {
@@ -42,10 +42,11 @@ class Objective {
     // returns by how much the value falls against the graph without the edit.
     virtual double Try(Trial trial, EditedGraph& edited) const = 0;
   };
-  [[nodiscard]] virtual std::unique_ptr<Round> StartRound(const CapsuleGraph& graph) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Round> StartRound(
+      const capsule::MirroredSet& graph) const = 0;
 
   // Points of the surface where a new sphere would help most, best first, apart from each other.
-  [[nodiscard]] virtual std::vector<Eigen::Vector3d> WorstPoints(const CapsuleGraph& graph,
+  [[nodiscard]] virtual std::vector<Eigen::Vector3d> WorstPoints(const capsule::MirroredSet& graph,
                                                                  int count) const = 0;
 };
 
@@ -56,7 +57,7 @@ class Objective {
                                                      double apart_m, int count);
 
 // A box around everything that the nodes marked `active` shape, with a margin.
-[[nodiscard]] Eigen::AlignedBox3d ReachOf(const CapsuleGraph& graph,
+[[nodiscard]] Eigen::AlignedBox3d ReachOf(const capsule::MirroredSet& graph,
                                           const std::vector<char>& active);
 
 }  // namespace capfit::refine

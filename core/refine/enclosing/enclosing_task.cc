@@ -172,19 +172,12 @@ void AddPointsBetween(const tighten::CoverTarget& target, double longest_m,
 }
 
 // The capsule that takes the place of a sphere with two; nothing for other spheres.
-std::vector<std::optional<TaperedCapsule>> BridgesOf(const CapsuleGraph& graph) {
-  std::vector<std::vector<int>> neighbours(graph.nodes.size());
-  for (const Edge& e : graph.edges) {
-    neighbours[U(e.a)].push_back(e.b);
-    neighbours[U(e.b)].push_back(e.a);
-  }
-  const auto sphere = [&graph](int v) {
-    return geometry::Sphere{graph.nodes[U(v)].center_m, graph.nodes[U(v)].radius_m};
-  };
-  std::vector<std::optional<TaperedCapsule>> bridges(graph.nodes.size());
-  for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
-    if (neighbours[v].size() != 2) continue;
-    bridges[v].emplace(sphere(neighbours[v][0]), sphere(neighbours[v][1]));
+std::vector<std::optional<TaperedCapsule>> BridgesOf(const capsule::MirroredSet& graph) {
+  std::vector<std::optional<TaperedCapsule>> bridges(graph.spheres().size());
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    const std::vector<int> neighbours = graph.NeighboursOf(v);
+    if (neighbours.size() != 2) continue;
+    bridges[U(v)].emplace(graph.sphere(neighbours[0]), graph.sphere(neighbours[1]));
   }
   return bridges;
 }
@@ -192,14 +185,14 @@ std::vector<std::optional<TaperedCapsule>> BridgesOf(const CapsuleGraph& graph) 
 // Points against the solids of a graph: who covers each, and who would if that one were gone.
 class Weigher {
  public:
-  Weigher(const CapsuleGraph& graph, double furthest_m)
-      : furthest_m_(furthest_m), bridges_(BridgesOf(graph)) {
-    capsule::PrimitiveSet set = SetOf(graph);
-    solids_ = tighten::SetVariables(set).solids();
-    shapes_ = tighten::ShapesOf(solids_, set);
-    worth_.edge_gap.assign(graph.edges.size(), 0.0);
-    worth_.edge_loss.assign(graph.edges.size(), 0.0);
-    worth_.node_loss.assign(graph.nodes.size(), 0.0);
+  Weigher(const capsule::MirroredSet& graph, double furthest_m)
+      : furthest_m_(furthest_m),
+        bridges_(BridgesOf(graph)),
+        solids_(capsule::SolidEnds(graph.set())),
+        shapes_(capsule::Solids(graph.set())) {
+    worth_.edge_gap.assign(graph.capsules().size(), 0.0);
+    worth_.edge_loss.assign(graph.capsules().size(), 0.0);
+    worth_.node_loss.assign(graph.spheres().size(), 0.0);
   }
 
   // All points of a block of the grid. `areas_m2` by the caller's index.
@@ -248,7 +241,7 @@ class Weigher {
       worth_.edge_gap[solid] += area_m2 * std::max(0.0, -double{first_[i].distance_m});
       worth_.edge_loss[solid] += area_m2 * Missing(second_[i].distance_m);
     }
-    const std::array<int, 2> ends = solids_[solid].ends;
+    const std::array<int, 2> ends = solids_[solid];
     AddDissolved(ends[0], i, point, area_m2);
     if (ends[1] != ends[0]) AddDissolved(ends[1], i, point, area_m2);
   }
@@ -259,7 +252,7 @@ class Weigher {
   }
 
   [[nodiscard]] bool IsAt(std::size_t place, int node) const {
-    const std::array<int, 2>& ends = solids_[near_[place]].ends;
+    const std::array<int, 2>& ends = solids_[near_[place]];
     return ends[0] == node || ends[1] == node;
   }
 
@@ -292,7 +285,7 @@ class Weigher {
 
   double furthest_m_;
   std::vector<std::optional<TaperedCapsule>> bridges_;  // by node
-  std::vector<tighten::Solid> solids_;
+  std::vector<capsule::CapsuleEnds> solids_;
   std::vector<TaperedCapsule> shapes_;
   std::vector<double> at_center_;
   std::vector<std::size_t> near_;
@@ -303,19 +296,15 @@ class Weigher {
 };
 
 // Both of a pair get what the two have together.
-void AddUpPairs(const CapsuleGraph& graph, GraphWorth& worth) {
-  if (!graph.symmetric) return;
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    const std::size_t image = U(graph.edges[e].mirror);
-    if (image <= e) continue;
-    worth.edge_gap[e] = worth.edge_gap[image] = worth.edge_gap[e] + worth.edge_gap[image];
-    worth.edge_loss[e] = worth.edge_loss[image] = worth.edge_loss[e] + worth.edge_loss[image];
+void AddUpPairs(const capsule::MirroredSet& graph, GraphWorth& worth) {
+  const auto add_up = [](std::vector<double>& values, int index, int image) {
+    if (image > index) values[U(index)] = values[U(image)] = values[U(index)] + values[U(image)];
+  };
+  for (int e = 0; e < graph.capsule_count(); ++e) {
+    add_up(worth.edge_gap, e, graph.ImageOfCapsule(e));
+    add_up(worth.edge_loss, e, graph.ImageOfCapsule(e));
   }
-  for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
-    const std::size_t image = U(graph.nodes[v].mirror);
-    if (image <= v) continue;
-    worth.node_loss[v] = worth.node_loss[image] = worth.node_loss[v] + worth.node_loss[image];
-  }
+  for (int v = 0; v < graph.sphere_count(); ++v) add_up(worth.node_loss, v, graph.ImageOf(v));
 }
 
 }  // namespace
@@ -355,19 +344,16 @@ EnclosingTask::EnclosingTask(Thinned thinned, double tolerance_m)
 
 void EnclosingTask::Settle(const tighten::TightenPhase& phase, std::uint64_t seed,
                            const ThreadPool& pool, const WorkMeter& meter,
-                           CapsuleGraph& graph) const {
-  capsule::PrimitiveSet set = SetOf(graph);
+                           capsule::MirroredSet& graph) const {
+  capsule::PrimitiveSet set = graph.set();
   const std::array<tighten::PointsToHold, 1> points = {{{grid_, tolerance_m_, areas_m2_}}};
   tighten::Tighten(points, size_m_, phase, seed, pool, meter, set);
-  for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
-    graph.nodes[v].center_m = set.spheres[v].center_m;
-    graph.nodes[v].radius_m = set.spheres[v].radius_m;
-  }
+  graph.MoveTo(set.spheres);
 }
 
 void EnclosingTask::FindShape(int steps, double looseness, std::uint64_t seed,
                               const ThreadPool& pool, const WorkMeter& meter,
-                              CapsuleGraph& graph) const {
+                              capsule::MirroredSet& graph) const {
   tighten::TightenPhase phase = kShapePhase;
   phase.first_penalty /= looseness;
   phase.steps = steps;
@@ -375,14 +361,14 @@ void EnclosingTask::FindShape(int steps, double looseness, std::uint64_t seed,
 }
 
 void EnclosingTask::TakeIn(int steps, std::uint64_t seed, const ThreadPool& pool,
-                           const WorkMeter& meter, CapsuleGraph& graph) const {
+                           const WorkMeter& meter, capsule::MirroredSet& graph) const {
   tighten::TightenPhase phase = kInsidePhase;
   phase.steps = steps;
   Settle(phase, seed, pool, meter, graph);
 }
 
 void EnclosingTask::Loosen(int steps, std::uint64_t seed, const ThreadPool& pool,
-                           const WorkMeter& meter, CapsuleGraph& graph) const {
+                           const WorkMeter& meter, capsule::MirroredSet& graph) const {
   tighten::TightenPhase phase = kShapePhase;
   phase.first_penalty = phase.last_penalty = kLoosePenalty;
   phase.last_trust = 0.006;
@@ -390,13 +376,10 @@ void EnclosingTask::Loosen(int steps, std::uint64_t seed, const ThreadPool& pool
   Settle(phase, seed, pool, meter, graph);
 }
 
-std::vector<Vec3> EnclosingTask::WorstPoints(const CapsuleGraph& graph, int count,
+std::vector<Vec3> EnclosingTask::WorstPoints(const capsule::MirroredSet& graph, int count,
                                              const ThreadPool& pool) const {
-  capsule::PrimitiveSet set = SetOf(graph);
-  const std::vector<tighten::Solid> solids = tighten::SetVariables(set).solids();
   const std::vector<double> distances =
-      grid_.DistancesTo(tighten::ShapesOf(solids, set), -kFurthestGrowth * size_m_, pool)
-          .distance_m;
+      grid_.DistancesTo(capsule::Solids(graph.set()), -kFurthestGrowth * size_m_, pool).distance_m;
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < distances.size(); ++i) {
     if (distances[i] > tolerance_m_) order.push_back(i);
@@ -415,12 +398,10 @@ std::vector<Vec3> EnclosingTask::WorstPoints(const CapsuleGraph& graph, int coun
   return worst;
 }
 
-std::vector<double> EnclosingTask::GainsOf(const CapsuleGraph& graph,
+std::vector<double> EnclosingTask::GainsOf(const capsule::MirroredSet& graph,
                                            const std::vector<Edit>& additions,
                                            const ThreadPool& pool) const {
-  capsule::PrimitiveSet set = SetOf(graph);
-  const std::vector<tighten::Solid> solids = tighten::SetVariables(set).solids();
-  const std::vector<TaperedCapsule> shapes = tighten::ShapesOf(solids, set);
+  const std::vector<TaperedCapsule> shapes = capsule::Solids(graph.set());
   const tighten::UnionDistances at = grid_.DistancesTo(shapes, -kFurthestGrowth * size_m_, pool);
   const OutsidePoints outside(grid_, at.distance_m, areas_m2_, tolerance_m_);
   std::vector<double> gains(additions.size(), 0.0);
@@ -428,8 +409,8 @@ std::vector<double> EnclosingTask::GainsOf(const CapsuleGraph& graph,
     const Edit& edit = additions[k];
     const geometry::Sphere end = edit.kind == EditKind::kLeaf
                                      ? geometry::Sphere{edit.center_m, edit.radius_m}
-                                     : set.spheres[U(edit.second)];
-    const TaperedCapsule added(set.spheres[U(edit.first)], end);
+                                     : graph.sphere(edit.second);
+    const TaperedCapsule added(graph.sphere(edit.first), end);
     if (added.IsSphere()) return;
     const bool is_pair = HasImage(graph, edit);
     const double gain = kLoosePenalty * outside.TakenInBy(added, is_pair);
@@ -438,11 +419,11 @@ std::vector<double> EnclosingTask::GainsOf(const CapsuleGraph& graph,
   return gains;
 }
 
-double EnclosingTask::Value(const CapsuleGraph& graph, const ThreadPool& pool) const {
-  capsule::PrimitiveSet set = SetOf(graph);
+double EnclosingTask::Value(const capsule::MirroredSet& graph, const ThreadPool& pool) const {
+  capsule::PrimitiveSet set = graph.set();
   const tighten::SetVariables variables(set);
-  const tighten::UnionDistances at = grid_.DistancesTo(tighten::ShapesOf(variables.solids(), set),
-                                                       -kFurthestGrowth * size_m_, pool);
+  const tighten::UnionDistances at =
+      grid_.DistancesTo(capsule::Solids(set), -kFurthestGrowth * size_m_, pool);
   double outside = 0.0;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
     const std::uint32_t point = grid_.order()[i];
@@ -455,7 +436,7 @@ double EnclosingTask::Value(const CapsuleGraph& graph, const ThreadPool& pool) c
          kOutsidePrice * outside;
 }
 
-GraphWorth EnclosingTask::Weigh(const CapsuleGraph& graph) const {
+GraphWorth EnclosingTask::Weigh(const capsule::MirroredSet& graph) const {
   Weigher weigher(graph, kFurthestGrowth * size_m_);
   for (const tighten::PointGrid::Block& block : grid_.blocks()) {
     weigher.Add(grid_, block, areas_m2_);
@@ -463,16 +444,6 @@ GraphWorth EnclosingTask::Weigh(const CapsuleGraph& graph) const {
   GraphWorth worth = weigher.worth();
   AddUpPairs(graph, worth);
   return worth;
-}
-
-capsule::PrimitiveSet SetOf(const CapsuleGraph& graph) {
-  capsule::PrimitiveSet set;
-  for (const Node& node : graph.nodes) {
-    set.spheres.push_back({node.center_m, node.radius_m});
-    set.origins.push_back({body::Part::kTorso, -1, node.mirror});
-  }
-  for (const Edge& edge : graph.edges) set.capsules.push_back({edge.a, edge.b});
-  return set;
 }
 
 }  // namespace capfit::refine

@@ -8,8 +8,8 @@
 
 #include "core/base/thread_pool.h"
 #include "core/base/work_meter.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/capsule/primitive_set.h"
-#include "core/refine/graph/capsule_graph.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/tighten/cover_target.h"
 #include "core/tighten/point_grid.h"
@@ -38,28 +38,28 @@ class EnclosingTask {
   // finds the shape of a set whose spheres are guesses. Which of several shapes comes out of it is
   // a lottery; `looseness` around 1 is how cheap it begins.
   void FindShape(int steps, double looseness, std::uint64_t seed, const ThreadPool& pool,
-                 const WorkMeter& meter, CapsuleGraph& graph) const;
+                 const WorkMeter& meter, capsule::MirroredSet& graph) const;
   // The same with hardly anything left out.
   void TakeIn(int steps, std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
-              CapsuleGraph& graph) const;
+              capsule::MirroredSet& graph) const;
 
   // Settles at one low price of points outside, so that those which cost most to take in show.
   void Loosen(int steps, std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
-              CapsuleGraph& graph) const;
+              capsule::MirroredSet& graph) const;
   // The points that stick out furthest, some way from each other; body frame.
-  [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const CapsuleGraph& graph, int count,
-                                                         const ThreadPool& pool) const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const capsule::MirroredSet& graph,
+                                                         int count, const ThreadPool& pool) const;
   // What each tie (kLink) or leaf (kLeaf) would win at once in a loosened graph: the price of what
   // it takes in less the volume that it adds. Cubic metres; of a mirrored pair both together.
-  [[nodiscard]] std::vector<double> GainsOf(const CapsuleGraph& graph,
+  [[nodiscard]] std::vector<double> GainsOf(const capsule::MirroredSet& graph,
                                             const std::vector<Edit>& additions,
                                             const ThreadPool& pool) const;
 
   // The union's volume, to some thousandths, and what the points outside will still cost. Cubic
   // metres.
-  [[nodiscard]] double Value(const CapsuleGraph& graph, const ThreadPool& pool) const;
+  [[nodiscard]] double Value(const capsule::MirroredSet& graph, const ThreadPool& pool) const;
 
-  [[nodiscard]] GraphWorth Weigh(const CapsuleGraph& graph) const;
+  [[nodiscard]] GraphWorth Weigh(const capsule::MirroredSet& graph) const;
 
  private:
   struct Thinned {
@@ -71,16 +71,13 @@ class EnclosingTask {
                                     double spacing);
   EnclosingTask(Thinned thinned, double tolerance_m);
   void Settle(const tighten::TightenPhase& phase, std::uint64_t seed, const ThreadPool& pool,
-              const WorkMeter& meter, CapsuleGraph& graph) const;
+              const WorkMeter& meter, capsule::MirroredSet& graph) const;
 
   double size_m_ = 0.0;           // of the body, the square root of its surface area
   std::vector<double> areas_m2_;  // that each point stands for, both halves
   double tolerance_m_ = 0.0;      // how far each may stick out
   tighten::PointGrid grid_;
 };
-
-// The graph's spheres and capsules by the same indices; parts and polygons are left open.
-[[nodiscard]] capsule::PrimitiveSet SetOf(const CapsuleGraph& graph);
 
 }  // namespace capfit::refine
 

@@ -9,7 +9,7 @@ namespace {
 // Below this difference, in metres, a capsule counts as swallowed by its larger end.
 constexpr double kSwallowedM = 1e-6;
 
-Cone SphereCone(const Node& node, int index, int other) {
+Cone SphereCone(const geometry::Sphere& node, int index, int other) {
   Cone cone{};
   cone.ax = static_cast<float>(node.center_m.x());
   cone.ay = static_cast<float>(node.center_m.y());
@@ -24,9 +24,9 @@ Cone SphereCone(const Node& node, int index, int other) {
 
 }  // namespace
 
-Cone MakeCone(const CapsuleGraph& graph, int a, int b) {
-  const Node& first = graph.nodes[static_cast<std::size_t>(a)];
-  const Node& second = graph.nodes[static_cast<std::size_t>(b)];
+Cone MakeCone(const capsule::MirroredSet& graph, int a, int b) {
+  const geometry::Sphere& first = graph.sphere(a);
+  const geometry::Sphere& second = graph.sphere(b);
   const Eigen::Vector3d between = second.center_m - first.center_m;
   const double length = between.norm();
   if (length <= std::abs(first.radius_m - second.radius_m) + kSwallowedM) {
@@ -47,12 +47,12 @@ Cone MakeCone(const CapsuleGraph& graph, int a, int b) {
   return cone;
 }
 
-std::vector<Cone> ConesOf(const CapsuleGraph& graph) {
+std::vector<Cone> ConesOf(const capsule::MirroredSet& graph) {
   std::vector<Cone> cones;
-  std::vector<char> used(graph.nodes.size(), 0);
-  for (const Edge& e : graph.edges) {
-    cones.push_back(MakeCone(graph, e.a, e.b));
-    used[static_cast<std::size_t>(e.a)] = used[static_cast<std::size_t>(e.b)] = 1;
+  std::vector<char> used(graph.spheres().size(), 0);
+  for (const capsule::CapsuleEnds& e : graph.capsules()) {
+    cones.push_back(MakeCone(graph, e[0], e[1]));
+    used[static_cast<std::size_t>(e[0])] = used[static_cast<std::size_t>(e[1])] = 1;
   }
   for (int v = 0; v < graph.sphere_count(); ++v) {
     if (!used[static_cast<std::size_t>(v)]) cones.push_back(MakeCone(graph, v, v));

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/refine/graph/capsule_graph.h"
+#include "core/capsule/mirrored_set.h"
 
 namespace capfit::refine {
 
@@ -24,10 +24,10 @@ struct Cone {
   bool is_sphere;
 };
 
-[[nodiscard]] Cone MakeCone(const CapsuleGraph& graph, int a, int b);
+[[nodiscard]] Cone MakeCone(const capsule::MirroredSet& graph, int a, int b);
 
 // One cone for each edge, in order, then one for each node without an edge.
-[[nodiscard]] std::vector<Cone> ConesOf(const CapsuleGraph& graph);
+[[nodiscard]] std::vector<Cone> ConesOf(const capsule::MirroredSet& graph);
 
 // Signed distance of (x, y, z), negative inside; exact on both sides up to rounding.
 [[nodiscard]] inline float SignedDistance(const Cone& cone, float x, float y, float z) {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/body/body.h"
-#include "core/refine/graph/capsule_graph.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/refine/layouts/bones.h"
 
 namespace capfit::refine {
@@ -49,8 +49,8 @@ struct NamedLayout {
 // are left out with their capsules. Where the graph is symmetric the left side is mirrored. A
 // chain of the body that got no sphere at all gets some along its medial curve; a body without any
 // landmark gets one ball.
-[[nodiscard]] CapsuleGraph HangLayout(const Layout& layout, const body::Body& body,
-                                      const body::PartSelection& parts, bool symmetric);
+[[nodiscard]] capsule::MirroredSet HangLayout(const Layout& layout, const body::Body& body,
+                                              const body::PartSelection& parts, bool symmetric);
 
 }  // namespace capfit::refine
 

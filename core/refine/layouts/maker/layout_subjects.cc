@@ -100,11 +100,11 @@ capsule::Budget BudgetOf(const LayoutTask& task) {
 bool ApplyToAll(const Edit& edit, Graphs& graphs) {
   constexpr double kOffPlaneShare = 0.35;
   Graphs result;
-  for (const CapsuleGraph& graph : graphs) {
+  for (const capsule::MirroredSet& graph : graphs) {
     Edit own = edit;
     if (edit.kind == EditKind::kLeaf || edit.kind == EditKind::kBall) {
-      const Node& from = graphs[0].nodes[U(edit.first)];
-      const Node& to = graph.nodes[U(edit.first)];
+      const geometry::Sphere& from = graphs[0].sphere(edit.first);
+      const geometry::Sphere& to = graph.sphere(edit.first);
       const double scale = to.radius_m / from.radius_m;
       own.center_m = to.center_m + scale * (edit.center_m - from.center_m);
       own.radius_m = scale * edit.radius_m;
@@ -118,8 +118,8 @@ bool ApplyToAll(const Edit& edit, Graphs& graphs) {
     EditedGraph edited = Apply(graph, own);
     if (!edited.possible) return false;
     result.push_back(std::move(edited.graph));
-    if (result.back().nodes.size() != result[0].nodes.size()) return false;
-    if (result.back().edges.size() != result[0].edges.size()) return false;
+    if (result.back().spheres().size() != result[0].spheres().size()) return false;
+    if (result.back().capsules().size() != result[0].capsules().size()) return false;
   }
   graphs = std::move(result);
   return true;

@@ -18,7 +18,7 @@ std::vector<CoverPoint> RandomPoints(int count) {
 }
 
 TEST(CoverPointsTest, FindDeepestAgreesWithTryingEveryCone) {
-  const CapsuleGraph graph = LeggedGraph(true);
+  const capsule::MirroredSet graph = LeggedGraph(true);
   const std::vector<Cone> cones = ConesOf(graph);
   const CoverPoints points = MakeCoverPoints(RandomPoints(3000));
   ASSERT_EQ(points.size(), 3000);

@@ -59,10 +59,9 @@ body::PartSelection AllParts() {
   return parts;
 }
 
-CapsuleGraph Ball(const Eigen::Vector3d& center, double radius_m) {
-  CapsuleGraph graph;
-  graph.symmetric = true;
-  graph.AddNode(center, radius_m, true);
+capsule::MirroredSet Ball(const Eigen::Vector3d& center, double radius_m, bool is_mirrored) {
+  capsule::MirroredSet graph(is_mirrored);
+  graph.AddSphere({center, radius_m}, true);
   return graph;
 }
 
@@ -99,8 +98,7 @@ TEST_P(OccupancyGridTest, ACoarserGridHoldsTheSame) {
   for (const float share : grid.inside) fine_cells += share;
   for (const float share : coarse.inside) coarse_cells += share;
   EXPECT_NEAR(coarse_cells, fine_cells / 8.0, 1e-3 * fine_cells);
-  CapsuleGraph less = Ball(center, 0.16);
-  less.symmetric = GetParam();
+  capsule::MirroredSet less = Ball(center, 0.16, GetParam());
   EXPECT_NEAR(GridError(coarse, less), 1.0 - std::pow(0.8, 3), 0.02);
 }
 
@@ -108,8 +106,9 @@ TEST_P(OccupancyGridTest, ErrorIsNothingForTheBallItselfAndExactForOthers) {
   const Eigen::Vector3d center(0.0, 0.3, 0.05);
   const OccupancyGrid grid =
       MakeOccupancyGrid(BallBody(center, 0.2), AllParts(), 0.008, GetParam());
-  CapsuleGraph same = Ball(center, 0.2), less = Ball(center, 0.16), more = Ball(center, 0.22);
-  for (CapsuleGraph* graph : {&same, &less, &more}) graph->symmetric = GetParam();
+  const capsule::MirroredSet same = Ball(center, 0.2, GetParam());
+  const capsule::MirroredSet less = Ball(center, 0.16, GetParam());
+  const capsule::MirroredSet more = Ball(center, 0.22, GetParam());
   EXPECT_LT(GridError(grid, same), 0.02);
   EXPECT_NEAR(GridError(grid, less), 1.0 - std::pow(0.8, 3), 0.015);
   EXPECT_NEAR(GridError(grid, more), std::pow(1.1, 3) - 1.0, 0.015);
@@ -125,25 +124,12 @@ TEST_P(OccupancyGridTest, PartsLeftOutCostNothingToFillAndNothingToLeave) {
   float cost = 1.0f;
   SampleCost(grid, &x, &y, &z, 1, &cost);
   EXPECT_FLOAT_EQ(cost, 0.0f);
-  CapsuleGraph same = Ball(center, 0.2);
-  same.symmetric = GetParam();
+  capsule::MirroredSet same = Ball(center, 0.2, GetParam());
   EXPECT_LT(GridError(grid, same), 0.03);
 }
 
 INSTANTIATE_TEST_SUITE_P(Folding, OccupancyGridTest, testing::Bool(),
                          [](const auto& info) { return info.param ? "Folded" : "Whole"; });
-
-TEST(UnionVolumeTest, MatchesClosedForms) {
-  CapsuleGraph graph = Ball({0.0, 0.3, 0.0}, 0.1);
-  const double ball = 4.0 / 3.0 * std::numbers::pi * 1e-3;
-  EXPECT_NEAR(UnionVolume(graph, BoundsOf(graph, 0.01), 0.004), ball, 0.01 * ball);
-  const int top = graph.AddNode({0.0, 0.6, 0.0}, 0.1, true);
-  graph.AddEdge(0, top);
-  const double capsule = ball + std::numbers::pi * 0.01 * 0.3;
-  EXPECT_NEAR(UnionVolume(graph, BoundsOf(graph, 0.01), 0.004), capsule, 0.01 * capsule);
-  graph.symmetric = false;
-  EXPECT_NEAR(UnionVolume(graph, BoundsOf(graph, 0.01), 0.004), capsule, 0.01 * capsule);
-}
 
 }  // namespace
 }  // namespace capfit::refine

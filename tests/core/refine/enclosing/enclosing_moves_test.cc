@@ -41,10 +41,10 @@ const EnclosingTask& TubeTask() {
 }
 
 // Spheres of the tube's radius along it; nothing is tied.
-CapsuleGraph Beads(int count) {
-  CapsuleGraph graph;
+capsule::MirroredSet Beads(int count) {
+  capsule::MirroredSet graph;
   for (int i = 0; i < count; ++i) {
-    graph.AddNode({0.0, kLength * i / (count - 1), 0.0}, 1.02 * kRadius, false);
+    graph.AddSphere({{0.0, kLength * i / (count - 1), 0.0}, 1.02 * kRadius}, false);
   }
   return graph;
 }
@@ -57,26 +57,26 @@ TEST(EnclosingMovesTest, WhatSticksOutBetweenFarVerticesCounts) {
   square.point_parts.assign(4, body::Part::kTorso);
   const EnclosingTask task(square, /*symmetric=*/false, 0.0, /*spacing=*/0.1);
   const ThreadPool pool(1);
-  CapsuleGraph corners;
-  for (const Eigen::Vector3d& point : square.points_m) corners.AddNode(point, 0.06, false);
+  capsule::MirroredSet corners;
+  for (const Eigen::Vector3d& point : square.points_m) corners.AddSphere({point, 0.06}, false);
   const std::vector<Eigen::Vector3d> worst = task.WorstPoints(corners, 100, pool);
   ASSERT_GE(worst.size(), 10u);
   EXPECT_LT((worst[0] - Eigen::Vector3d(0.2, 0.2, 0)).norm(), 0.05);
-  CapsuleGraph ball;
-  ball.AddNode({0.2, 0.2, 0}, 0.285, false);
+  capsule::MirroredSet ball;
+  ball.AddSphere({{0.2, 0.2, 0}, 0.285}, false);
   EXPECT_TRUE(task.WorstPoints(ball, 100, pool).empty());
 }
 
 TEST(EnclosingMovesTest, WhatTakesInWhatSticksOutWins) {
   const ThreadPool pool(1);
-  const CapsuleGraph beads = Beads(3);
+  const capsule::MirroredSet beads = Beads(3);
   const std::vector<Edit> ties = {EditOf(EditKind::kLink, 0, 1), EditOf(EditKind::kLink, 0, 2)};
   const std::vector<double> gains = TubeTask().GainsOf(beads, ties, pool);
   EXPECT_GT(gains[0], 0.0);
   EXPECT_GT(gains[1], 1.5 * gains[0]);  // twice as long
   EXPECT_EQ(gains, TubeTask().GainsOf(beads, ties, ThreadPool(3)));
-  CapsuleGraph full = beads;
-  full.AddEdge(0, 2);
+  capsule::MirroredSet full = beads;
+  full.AddCapsule(0, 2);
   EXPECT_LE(TubeTask().GainsOf(full, ties, pool)[0], 0.0);  // all is inside
   EXPECT_TRUE(TubeTask().WorstPoints(full, 5, pool).empty());
 }
@@ -101,11 +101,11 @@ TEST(EnclosingMovesTest, AdditionsAreRankedByWhatTheyWinForAPrimitive) {
 }
 
 TEST(EnclosingMovesTest, WhatOthersCoverIsLeastMissed) {
-  CapsuleGraph graph = Beads(3);
-  graph.AddEdge(0, 1);
-  graph.AddEdge(1, 2);
-  graph.AddNode({0.0, 0.25, 0.0}, 0.5 * kRadius, false);
-  graph.AddEdge(0, 3);  // inside the first capsule
+  capsule::MirroredSet graph = Beads(3);
+  graph.AddCapsule(0, 1);
+  graph.AddCapsule(1, 2);
+  graph.AddSphere({{0.0, 0.25, 0.0}, 0.5 * kRadius}, false);
+  graph.AddCapsule(0, 3);  // inside the first capsule
   const std::vector<Removal> removals = RemovalsOf(graph, TubeTask().Weigh(graph));
   ASSERT_FALSE(removals.empty());
   EXPECT_EQ(removals[0].loss_per_primitive, 0.0);
@@ -115,14 +115,14 @@ TEST(EnclosingMovesTest, WhatOthersCoverIsLeastMissed) {
 }
 
 TEST(EnclosingMovesTest, CuttingChangesNoShapeAndKeepsToTheBudget) {
-  CapsuleGraph graph = LeggedGraph(true);
-  const CapsuleGraph before = graph;
+  capsule::MirroredSet graph = LeggedGraph(true);
+  const capsule::MirroredSet before = graph;
   const std::vector<double> gaps = {1.0, 2.0, 4.0, 5.0, 4.0, 5.0};
   CutLoosest({17, 9, 1000}, 1000, {gaps.begin(), gaps.begin() + graph.capsule_count()}, graph);
   EXPECT_GT(graph.primitive_count(), before.primitive_count());
   EXPECT_LE(graph.primitive_count(), 17);
   EXPECT_LE(graph.sphere_count(), 9);
-  EXPECT_TRUE(IsExactlyMirrored(graph));
+  EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
   Random random(3);
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d p = RandomPoint(random);
