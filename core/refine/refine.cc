@@ -12,6 +12,7 @@
 #include "core/refine/best_fit/best_fit_objective.h"
 #include "core/refine/best_fit/growth.h"
 #include "core/refine/best_fit/occupancy_grid.h"
+#include "core/refine/best_fit/thin_out.h"
 #include "core/refine/enclosing/enclosing_search.h"
 #include "core/refine/enclosing/enclosing_task.h"
 #include "core/refine/graph/graph_edit.h"
@@ -51,26 +52,24 @@ constexpr double kGrown = 0.5;
 constexpr double kExchanged = 0.75;
 constexpr double kFinished = 0.78;
 
-// The vertices of the selected parts; folded to x >= 0, copies dropped, where
-// symmetric.
-std::vector<CoverPoint> SelectedPoints(const body::Body& body, const RefineOptions& options,
-                                       bool symmetric) {
-  std::vector<CoverPoint> points;
+// The vertices of the selected parts; folded to x >= 0, copies dropped, where symmetric.
+std::vector<Eigen::Vector3f> SelectedPoints(const body::Body& body, const RefineOptions& options,
+                                            bool symmetric) {
+  std::vector<Eigen::Vector3f> points;
   for (std::size_t v = 0; v < body.mesh.vertices().size(); ++v) {
     if (!options.parts.Includes(body::PartOf(body.vertex_segments[v]))) continue;
-    Eigen::Vector3f p = body.mesh.vertices()[v].cast<float>();
-    if (symmetric) p.x() = std::abs(p.x());
-    points.push_back({p, static_cast<float>(options.tolerance_m)});
+    points.push_back(body.mesh.vertices()[v].cast<float>());
+    if (symmetric) points.back().x() = std::abs(points.back().x());
   }
   if (!symmetric) return points;
-  const auto key = [](const CoverPoint& p) {
-    const Eigen::Vector3f q = p.position_m / static_cast<float>(kFoldCellM);
+  const auto key = [](const Eigen::Vector3f& p) {
+    const Eigen::Vector3f q = p / static_cast<float>(kFoldCellM);
     return std::array<long, 3>{std::lround(q.x()), std::lround(q.y()), std::lround(q.z())};
   };
   std::vector<std::pair<std::array<long, 3>, std::size_t>> order(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) order[i] = {key(points[i]), i};
   std::sort(order.begin(), order.end());
-  std::vector<CoverPoint> kept;
+  std::vector<Eigen::Vector3f> kept;
   for (std::size_t i = 0; i < order.size(); ++i) {
     // Rounding may part equal points or join points up to 20 um apart; both are harmless.
     if (i == 0 || order[i].first != order[i - 1].first) kept.push_back(points[order[i].second]);
@@ -95,7 +94,7 @@ void RemoveUseless(capsule::MirroredSet& graph) {
 }
 
 // Settles the start and brings it up to the budget.
-capsule::MirroredSet FindSet(const Objective& objective, const capsule::Budget& budget,
+capsule::MirroredSet FindSet(const BestFitObjective& objective, const capsule::Budget& budget,
                              const ThreadPool& pool, double until, WorkMeter& meter,
                              capsule::MirroredSet graph) {
   const double begin = meter.until();
@@ -127,7 +126,7 @@ capsule::MirroredSet FindSet(const Objective& objective, const capsule::Budget& 
 }
 
 // The best set that one of the starts leads to.
-capsule::MirroredSet FindBestSet(const Objective& objective, const capsule::Budget& budget,
+capsule::MirroredSet FindBestSet(const BestFitObjective& objective, const capsule::Budget& budget,
                                  const ThreadPool& pool, WorkMeter& meter,
                                  std::vector<capsule::MirroredSet> starts) {
   capsule::MirroredSet best;
@@ -149,16 +148,20 @@ capsule::MirroredSet FindBestSet(const Objective& objective, const capsule::Budg
 BestFitObjective MakeBestFitObjective(const body::Body& body, const RefineOptions& options,
                                       bool symmetric) {
   OccupancyGrid grid = MakeOccupancyGrid(body, options.parts, kCellM, symmetric);
-  CoverPoints thinned =
-      MakeCoverPoints(ThinOut(SelectedPoints(body, options, symmetric), kThinnedCellM));
-  return {std::move(grid), std::move(thinned), options.seed};
+  std::vector<Vec3> thinned;
+  for (const Eigen::Vector3f& p :
+       ThinOut(SelectedPoints(body, options, symmetric), kThinnedCellM)) {
+    thinned.push_back(p.cast<double>());
+  }
+  SurfacePoints points{tighten::PointGrid(thinned), options.tolerance_m};
+  return {std::move(grid), std::move(points), options.seed};
 }
 
 capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& options,
                                  const ThreadPool& pool, WorkMeter& meter) {
   const capsule::Budget& budget = options.budget;
   std::vector<capsule::MirroredSet> starts =
-      StartingGraphs(Guise::kBestFit, body, options.parts, budget, /*sizes=*/1, kMostSpared);
+      StartingGraphs(FitKind::kBestFit, body, options.parts, budget, /*sizes=*/1, kMostSpared);
   return FindBestSet(MakeBestFitObjective(body, options, body.is_symmetric), budget, pool, meter,
                      std::move(starts));
 }
@@ -216,7 +219,7 @@ std::vector<capsule::MirroredSet> FindEnclosing(const body::Body& body,
   // Up to twice as many: what is spared in a good layout leaves a better one than growth finds.
   const int most_spared = primitives > kFewPrimitives ? 0 : primitives;
   const std::vector<capsule::MirroredSet> starts =
-      StartingGraphs(Guise::kEnclose, body, options.parts, budget, /*sizes=*/2, most_spared);
+      StartingGraphs(FitKind::kEnclose, body, options.parts, budget, /*sizes=*/2, most_spared);
   const std::vector<capsule::MirroredSet> found =
       FindEnclosingGraphs(task, budget, starts, pool, meter);
   const EnclosingTask fine(target, body.is_symmetric, options.tolerance_m, spacings.fine);

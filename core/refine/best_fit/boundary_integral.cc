@@ -69,7 +69,7 @@ class Integrator {
     for (std::size_t j = 0; j < cones_.size(); ++j) {
       if (j != U(e) && Overlap(boxes_[j], boxes_[U(e)])) near_.push_back(static_cast<int>(j));
     }
-    const double side_m = static_cast<double>(cone.cos_half) * cone.length;
+    const double side_m = static_cast<double>(cone.cos_half) * cone.length();
     const int rings = std::max(1, static_cast<int>(side_m / options_.spacing_m + 0.5));
     const double images = graph_.is_mirrored() && graph_.ImageOfCapsule(e) != e ? 2.0 : 1.0;
     for (int k = 0; k < rings; ++k) {
@@ -177,7 +177,7 @@ class Integrator {
     const Eigen::Vector3f c = center.cast<float>();
     const auto r = static_cast<float>(radius);
     for (const int j : near_) {
-      const float distance = SignedDistance(cones_[U(j)], c.x(), c.y(), c.z());
+      const float distance = cones_[U(j)].SignedDistance(c.x(), c.y(), c.z());
       if (distance <= -r) return false;
       if (distance < r) occluders_.push_back(j);
     }
@@ -190,7 +190,7 @@ class Integrator {
     for (const int j : occluders_) {
       const Cone cone = cones_[U(j)];
       for (int i = 0; i < count; ++i) {
-        const float d = SignedDistance(cone, patch_.x[U(i)], patch_.y[U(i)], patch_.z[U(i)]);
+        const float d = cone.SignedDistance(patch_.x[U(i)], patch_.y[U(i)], patch_.z[U(i)]);
         patch_.depth[U(i)] = d < patch_.depth[U(i)] ? d : patch_.depth[U(i)];
       }
     }

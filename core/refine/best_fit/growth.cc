@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -87,7 +86,7 @@ void ProposeLinks(const capsule::MirroredSet& graph, std::vector<Edit>& edits) {
   }
 }
 
-std::vector<Edit> Additions(const Objective& objective, const GrowthOptions& options,
+std::vector<Edit> Additions(const BestFitObjective& objective, const GrowthOptions& options,
                             const capsule::MirroredSet& graph) {
   std::vector<Edit> edits;
   for (int e = 0; e < graph.capsule_count(); ++e) {
@@ -130,11 +129,11 @@ void SortByScore(std::vector<Candidate>& candidates) {
 // Applies and settles all edits in parallel: a glance at each, then the better ones in earnest.
 // `score` turns a gain into a score. Best first.
 template <class Admit, class Score>
-std::vector<Candidate> TryAll(const Objective& objective, const capsule::MirroredSet& graph,
+std::vector<Candidate> TryAll(const BestFitObjective& objective, const capsule::MirroredSet& graph,
                               const std::vector<Edit>& edits, const ThreadPool& pool,
                               WorkMeter& meter, double until, double thorough_share,
                               const Admit& admit, const Score& score) {
-  const std::unique_ptr<Objective::Round> round = objective.StartRound(graph);
+  const BestFitRound round = objective.StartRound(graph);
   std::vector<Candidate> candidates(edits.size());
   const auto attempt = [&](Trial trial) {
     pool.ForEach(candidates.size(), [&](std::size_t i) {
@@ -148,7 +147,7 @@ std::vector<Candidate> TryAll(const Objective& objective, const capsule::Mirrore
         c.result = Apply(graph, edits[i]);
         c.result.possible = c.result.possible && admit(c.result.graph);
       }
-      if (c.result.possible) c.score = score(c.result.graph, round->Try(trial, c.result));
+      if (c.result.possible) c.score = score(c.result.graph, round.Try(trial, c.result));
       meter.Add(trial == Trial::kGlance ? 1 : kGlancesPerThorough);
     });
     std::erase_if(candidates, [](const Candidate& c) { return !c.result.possible; });
@@ -223,7 +222,7 @@ capsule::MirroredSet KeepBest(const capsule::MirroredSet& graph,
   return grown;
 }
 
-bool GrowOnce(const Objective& objective, const capsule::Budget& budget,
+bool GrowOnce(const BestFitObjective& objective, const capsule::Budget& budget,
               const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
               capsule::MirroredSet& graph) {
   const std::vector<Candidate> candidates = TryAll(
@@ -247,7 +246,7 @@ bool GrowOnce(const Objective& objective, const capsule::Budget& budget,
 }
 
 // Capsules and spheres that could go, least loss first.
-std::vector<Candidate> RankRemovals(const Objective& objective, const GrowthOptions& options,
+std::vector<Candidate> RankRemovals(const BestFitObjective& objective, const GrowthOptions& options,
                                     const ThreadPool& pool, WorkMeter& meter,
                                     const capsule::MirroredSet& graph) {
   return TryAll(
@@ -284,8 +283,9 @@ capsule::MirroredSet TakeAway(const std::vector<Candidate>& candidates, std::siz
   return spared;
 }
 
-void Fill(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
-          const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph) {
+void Fill(const BestFitObjective& objective, const capsule::Budget& budget,
+          const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
+          capsule::MirroredSet& graph) {
   const int room = budget.Unused(graph.count());
   const double begin = meter.until();
   for (int i = 0; i < 4 + room && budget.Unused(graph.count()) > 0; ++i) {
@@ -298,7 +298,7 @@ void Fill(const Objective& objective, const capsule::Budget& budget, const Growt
 
 // Gives up the least and spends it elsewhere, as long as that pays. Where it does not, the next
 // least is given up instead.
-void Exchange(const Objective& objective, const capsule::Budget& budget,
+void Exchange(const BestFitObjective& objective, const capsule::Budget& budget,
               const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
               capsule::MirroredSet& graph) {
   objective.Settle(Effort::kTighten, graph);
@@ -332,8 +332,8 @@ double OutlineOfHalf(const capsule::MirroredSet& set, int half, double /*whole*/
 
 }  // namespace
 
-void SpendByCutting(const Objective& objective, const capsule::Budget& budget, WorkMeter& meter,
-                    capsule::MirroredSet& graph) {
+void SpendByCutting(const BestFitObjective& objective, const capsule::Budget& budget,
+                    WorkMeter& meter, capsule::MirroredSet& graph) {
   double value = objective.Value(graph);
   for (int round = 0; round < kCuttingRounds && !meter.IsCancelled(); ++round) {
     capsule::MirroredSet cut = graph;
@@ -349,8 +349,9 @@ void SpendByCutting(const Objective& objective, const capsule::Budget& budget, W
   }
 }
 
-void Spare(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
-           const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph) {
+void Spare(const BestFitObjective& objective, const capsule::Budget& budget,
+           const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
+           capsule::MirroredSet& graph) {
   while (!budget.Allows(graph.count()) && !meter.IsCancelled()) {
     const int excess = budget.Excess(graph.count());
     const std::vector<Candidate> removals = RankRemovals(objective, options, pool, meter, graph);
@@ -360,8 +361,9 @@ void Spare(const Objective& objective, const capsule::Budget& budget, const Grow
   }
 }
 
-void Grow(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
-          const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph) {
+void Grow(const BestFitObjective& objective, const capsule::Budget& budget,
+          const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
+          capsule::MirroredSet& graph) {
   Fill(objective, budget, options, pool, meter, graph);
   if (options.exchanges > 0) Exchange(objective, budget, options, pool, meter, graph);
 }

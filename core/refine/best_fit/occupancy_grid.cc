@@ -222,7 +222,7 @@ class SoftUnion {
         float* row = share_.data() + RowOf(i, j);
         for (int k = low[2]; k < high[2]; ++k) {
           const float z = z0 + static_cast<float>(k) * cell_;
-          const float share = 0.5f - SignedDistance(cone, x, y, z) * inverse;
+          const float share = 0.5f - cone.SignedDistance(x, y, z) * inverse;
           row[k] = row[k] > share ? row[k] : share;
         }
       }

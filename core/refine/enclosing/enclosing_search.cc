@@ -29,7 +29,7 @@ constexpr int kLooseSteps = 3;  // that show where ties would win
 constexpr int kGrownTimesPrimitives = 120;
 constexpr int kMostGrown = 4;
 constexpr std::size_t kVariantsOfFew = 2;
-constexpr std::size_t kVariantsOfMany = 4;  // single exchanges no longer make up for bad luck
+constexpr std::size_t kVariantsOfMany = 4;  // single exchanges no longer make up for a bad start
 constexpr int kManyPrimitives = 160;
 constexpr double kTieShare = 0.5;  // of what growth spends, into ties and leaves
 // A round of growth or sparing goes so far.

@@ -145,6 +145,29 @@ std::vector<char> Neighbourhood(const capsule::MirroredSet& graph, const std::ve
   return in;
 }
 
+Eigen::AlignedBox3d ReachOf(const capsule::MirroredSet& graph, const std::vector<char>& active) {
+  constexpr double kMarginM = 0.02;
+  Eigen::AlignedBox3d box;
+  const auto add = [&](int v) {
+    const geometry::Sphere& node = graph.sphere(v);
+    Eigen::Vector3d center = node.center_m;
+    if (graph.is_mirrored()) center.x() = std::abs(center.x());
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(node.radius_m + kMarginM);
+    box.extend(center - reach);
+    box.extend(center + reach);
+  };
+  for (const capsule::CapsuleEnds& e : graph.capsules()) {
+    if (!active[static_cast<std::size_t>(e[0])] && !active[static_cast<std::size_t>(e[1])])
+      continue;
+    add(e[0]);
+    add(e[1]);
+  }
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (active[static_cast<std::size_t>(v)]) add(v);
+  }
+  return box;
+}
+
 LocalGraph LocalGraphIn(const capsule::MirroredSet& graph, const Eigen::AlignedBox3d& box) {
   const auto ball = [&graph](int v) {
     const geometry::Sphere& sphere = graph.sphere(v);
@@ -178,7 +201,7 @@ std::vector<Edit> LeavesAt(const capsule::MirroredSet& graph, const Eigen::Vecto
   float least = std::numeric_limits<float>::max();
   const Cone* nearest = nullptr;
   for (const Cone& cone : cones) {
-    const float distance = SignedDistance(cone, p.x(), p.y(), p.z());
+    const float distance = cone.SignedDistance(p.x(), p.y(), p.z());
     if (distance < least) least = distance, nearest = &cone;
   }
   if (nearest == nullptr) return {};
@@ -250,7 +273,7 @@ std::vector<int> RemoveSwallowed(capsule::MirroredSet& graph) {
       // Of two equal balls the first one stays.
       const float margin = k < graph.capsules().size() || k < j ? 0.0f : -1e-6f;
       if (k == j || removed[U(cones[k].node_a)]) continue;
-      if (SignedDistance(cones[k], ball.ax, ball.ay, ball.az) <= -ball.radius_a + margin) {
+      if (cones[k].SignedDistance(ball.ax, ball.ay, ball.az) <= -ball.radius + margin) {
         removed[U(ball.node_a)] = 1;
         if (graph.is_mirrored()) removed[U(graph.ImageOf(ball.node_a))] = 1;
         break;

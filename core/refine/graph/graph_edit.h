@@ -54,6 +54,10 @@ struct EditedGraph {
 [[nodiscard]] std::vector<char> Neighbourhood(const capsule::MirroredSet& graph,
                                               const std::vector<int>& nodes, int radius);
 
+// A box around everything that the nodes marked `active` shape, with a margin.
+[[nodiscard]] Eigen::AlignedBox3d ReachOf(const capsule::MirroredSet& graph,
+                                          const std::vector<char>& active);
+
 // The part of a graph that reaches into a box, with the images of what does.
 struct LocalGraph {
   capsule::MirroredSet graph;

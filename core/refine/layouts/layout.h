@@ -32,17 +32,17 @@ struct Layout {
 };
 
 // What a layout is made for.
-enum class Guise { kBestFit, kEnclose };
+enum class FitKind { kBestFit, kEnclose };
 
 struct NamedLayout {
   const char* name;
-  Guise guise;
+  FitKind kind;
   int primitives;  // that it has on a body with all parts, about; several may share a number
   bool with_ends;  // spheres for head, hands and feet; those for trunk and limbs are fewer for it
   Layout layout;
 };
 
-// All of them; of each guise and kind those of fewer primitives first.
+// All of them; of each kind, with and without ends, those of fewer primitives first.
 [[nodiscard]] std::span<const NamedLayout> Layouts();
 
 // Hangs the layout on the body's bones. Spheres on missing bones or of parts that are not selected

@@ -19,7 +19,7 @@ bool HasEnds(const body::Body& body, const body::PartSelection& parts) {
 
 }  // namespace
 
-std::vector<capsule::MirroredSet> StartingGraphs(Guise guise, const body::Body& body,
+std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body& body,
                                                  const body::PartSelection& parts,
                                                  const capsule::Budget& budget, int sizes,
                                                  int most_spared) {
@@ -30,7 +30,7 @@ std::vector<capsule::MirroredSet> StartingGraphs(Guise guise, const body::Body& 
   int last = 0;
   int first_beyond = 0;
   for (const NamedLayout& named : Layouts()) {
-    if (named.guise != guise || named.with_ends != with_ends) continue;
+    if (named.kind != kind || named.with_ends != with_ends) continue;
     if (first_beyond > 0 && named.primitives > first_beyond) break;
     capsule::MirroredSet graph = HangLayout(named.layout, body, parts, body.is_symmetric);
     const int excess = budget.Excess(graph.count());

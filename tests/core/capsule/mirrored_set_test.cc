@@ -33,7 +33,7 @@ bool AreDistinct(const std::vector<CapsuleEnds>& capsules) {
   return true;
 }
 
-double Distance(const PrimitiveSet& set, const Eigen::Vector3d& point) {
+double UnionDistance(const PrimitiveSet& set, const Eigen::Vector3d& point) {
   double least = 1e9;
   for (const auto& solid : Solids(set)) least = std::min(least, solid.SignedDistance(point));
   return least;
@@ -165,7 +165,7 @@ TEST(MirroredSetTest, CuttingChangesNoShape) {
   for (int i = 0; i < 300; ++i) {
     const Eigen::Vector3d p(random.NextIn(-0.4, 0.4), random.NextIn(0, 1.4),
                             random.NextIn(-0.2, 0.2));
-    EXPECT_NEAR(Distance(after.set(), p), Distance(before.set(), p), 1e-12);
+    EXPECT_NEAR(UnionDistance(after.set(), p), UnionDistance(before.set(), p), 1e-12);
   }
 }
 

@@ -33,7 +33,7 @@ inline float UnionDistance(const capsule::MirroredSet& graph, const Eigen::Vecto
   const Eigen::Vector3f p = point.cast<float>();
   float least = std::numeric_limits<float>::max();
   for (const Cone& cone : ConesOf(graph)) {
-    least = std::min(least, SignedDistance(cone, p.x(), p.y(), p.z()));
+    least = std::min(least, cone.SignedDistance(p.x(), p.y(), p.z()));
   }
   return least;
 }

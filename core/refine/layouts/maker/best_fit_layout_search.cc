@@ -80,8 +80,9 @@ class BestFitLayoutSearch {
     for (std::size_t k = 0; k < graphs.size(); ++k) {
       const Subject& s = subjects_[k];
       sum += s.objective->Value(graphs[k]);
-      const double mean_m =
-          FindDeepest(s.points, ConesOf(graphs[k])).SumOutside() / s.points.size();
+      double sum_m = 0.0;
+      for (const double excess : ExcessOf(s.points, graphs[k])) sum_m += std::max(0.0, excess);
+      const double mean_m = sum_m / static_cast<double>(s.points.grid.size());
       // About half of the surface lies outside of a best fit.
       sum += kDistanceWeight * 100.0 * 2.0 * mean_m / (kDiagonalsPerHeight * s.body.height_m);
     }

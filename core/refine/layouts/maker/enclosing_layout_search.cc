@@ -78,7 +78,7 @@ class EnclosingLayoutSearch {
     Attempt start;
     for (std::size_t k = 0; k < subjects_.size(); ++k) {
       const Subject& s = subjects_[k];
-      start.graphs.push_back(StartingGraphs(Guise::kEnclose, s.body, s.parts, BudgetOf(first),
+      start.graphs.push_back(StartingGraphs(FitKind::kEnclose, s.body, s.parts, BudgetOf(first),
                                             /*sizes=*/1, /*most_spared=*/0)
                                  .front());
       Settle(k, kFirstSteps, start.graphs[k]);

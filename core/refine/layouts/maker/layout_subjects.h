@@ -37,8 +37,8 @@ struct Subject {
   Skeleton skeleton;
   body::PartSelection parts;
   OccupancyGrid grid;
-  CoverPoints points;
-  std::unique_ptr<Objective> objective;  // of the best fit
+  SurfacePoints points;
+  std::unique_ptr<BestFitObjective> objective;  // of the best fit
   std::unique_ptr<EnclosingTask> enclosing;
 };
 

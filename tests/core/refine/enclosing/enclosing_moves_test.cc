@@ -3,58 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "tests/core/refine/enclosing/tube.h"
 #include "tests/core/refine/graphs.h"
 
 namespace capfit::refine {
 namespace {
-
-constexpr double kRadius = 0.1;
-constexpr double kLength = 1.0;
-
-// A tube along y from 0 to kLength, open at both ends.
-tighten::CoverTarget Tube() {
-  constexpr int kRings = 41;
-  constexpr int kAround = 24;
-  tighten::CoverTarget target;
-  for (int ring = 0; ring < kRings; ++ring) {
-    for (int i = 0; i < kAround; ++i) {
-      const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kAround;
-      target.points_m.emplace_back(kRadius * std::cos(angle), kLength * ring / (kRings - 1),
-                                   kRadius * std::sin(angle));
-      if (ring == 0) continue;
-      const auto at = [&](int r, int k) {
-        return static_cast<std::uint32_t>(r * kAround + k % kAround);
-      };
-      target.triangles.push_back({at(ring - 1, i), at(ring, i), at(ring, i + 1)});
-      target.triangles.push_back({at(ring - 1, i), at(ring, i + 1), at(ring - 1, i + 1)});
-    }
-  }
-  target.point_parts.assign(target.points_m.size(), body::Part::kTorso);
-  return target;
-}
-
-const EnclosingTask& TubeTask() {
-  static const EnclosingTask task(Tube(), /*symmetric=*/false, 0.0, 0.03);
-  return task;
-}
-
-// Spheres of the tube's radius along it; nothing is tied.
-capsule::MirroredSet Beads(int count) {
-  capsule::MirroredSet graph;
-  for (int i = 0; i < count; ++i) {
-    graph.AddSphere({{0.0, kLength * i / (count - 1), 0.0}, 1.02 * kRadius}, false);
-  }
-  return graph;
-}
 
 // Two large triangles whose corners are in small balls.
 TEST(EnclosingMovesTest, WhatSticksOutBetweenFarVerticesCounts) {
   tighten::CoverTarget square;
   square.points_m = {{0, 0, 0}, {0.4, 0, 0}, {0.4, 0.4, 0}, {0, 0.4, 0}};
   square.triangles = {{0, 1, 2}, {0, 2, 3}};
-  square.point_parts.assign(4, body::Part::kTorso);
   const EnclosingTask task(square, /*symmetric=*/false, 0.0, /*spacing=*/0.1);
   const ThreadPool pool(1);
   capsule::MirroredSet corners;

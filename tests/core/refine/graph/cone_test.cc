@@ -20,7 +20,7 @@ TEST(ConeTest, DistanceAndNormalAreThoseOfTheExactCapsule) {
     const Cone cone = MakeCone(graph, 0, 1);
     const Eigen::Vector3d p = RandomPoint(random);
     const Eigen::Vector3f f = p.cast<float>();
-    EXPECT_NEAR(SignedDistance(cone, f.x(), f.y(), f.z()), exact.SignedDistance(p), 2e-6);
+    EXPECT_NEAR(cone.SignedDistance(f.x(), f.y(), f.z()), exact.SignedDistance(p), 2e-6);
     EXPECT_NEAR((Locate(cone, p).normal - exact.Locate(p).normal).norm(), 0.0, 1e-3);
     EXPECT_EQ(cone.is_sphere, exact.IsSphere());
   }
@@ -33,7 +33,7 @@ TEST(ConeTest, ASwallowedEndLeavesTheLargerSphere) {
   const Cone cone = MakeCone(graph, 0, 1);
   EXPECT_TRUE(cone.is_sphere);
   EXPECT_EQ(cone.node_a, 1);
-  EXPECT_NEAR(SignedDistance(cone, 0.03f, 0.2f, 0.0f), 0.1f, 1e-6f);
+  EXPECT_NEAR(cone.SignedDistance(0.03f, 0.2f, 0.0f), 0.1f, 1e-6f);
 }
 
 TEST(ConeTest, SpheresWithoutACapsuleGetAConeOfTheirOwn) {
