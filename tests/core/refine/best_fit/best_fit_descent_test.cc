@@ -8,25 +8,25 @@
 namespace capfit::refine {
 namespace {
 
-const Eigen::Vector3d kCenter(0.0, 0.3, 0.05);
-constexpr double kRadius = 0.2;
+const Eigen::Vector3d kBodyCenter(0.0, 0.3, 0.05);
+constexpr double kBodyRadius = 0.2;
 
 const OccupancyGrid& Grid() {
   static const OccupancyGrid grid =
-      MakeOccupancyGrid(BallBody(kCenter, kRadius), AllParts(), 0.008, /*folded=*/true);
+      MakeOccupancyGrid(BallBody(kBodyCenter, kBodyRadius), AllParts(), 0.008, /*folded=*/true);
   return grid;
 }
 
 capsule::MirroredSet Off(bool is_mirrored) {
   capsule::MirroredSet graph(is_mirrored);
-  graph.AddSphere({kCenter + Eigen::Vector3d(0.0, 0.04, -0.03), 0.15}, true);
+  graph.AddSphere({kBodyCenter + Eigen::Vector3d(0.0, 0.04, -0.03), 0.15}, true);
   return graph;
 }
 
 // A mirrored pair, each half as large as the ball.
 capsule::MirroredSet Pair() {
   capsule::MirroredSet graph(true);
-  graph.AddSphere({kCenter + Eigen::Vector3d(0.05, 0.01, 0.0), 0.1}, false);
+  graph.AddSphere({kBodyCenter + Eigen::Vector3d(0.05, 0.01, 0.0), 0.1}, false);
   return graph;
 }
 
@@ -36,8 +36,8 @@ TEST(BestFitDescentTest, FindsTheBallFromBesideIt) {
     BestFitOptions options;
     options.steps = 150;
     DescendBestFit(Grid(), options, graph);
-    EXPECT_LT((graph.sphere(0).center_m - kCenter).norm(), 0.003);
-    EXPECT_NEAR(graph.sphere(0).radius_m, kRadius, 0.003);
+    EXPECT_LT((graph.sphere(0).center_m - kBodyCenter).norm(), 0.003);
+    EXPECT_NEAR(graph.sphere(0).radius_m, kBodyRadius, 0.003);
     EXPECT_LT(GridError(Grid(), graph), 0.03);
   }
 }

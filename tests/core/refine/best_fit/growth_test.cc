@@ -9,10 +9,10 @@
 namespace capfit::refine {
 namespace {
 
-const Eigen::Vector3d kCenter(0.0, 0.3, 0.05);
+const Eigen::Vector3d kBallCenter(0.0, 0.3, 0.05);
 
 const body::Body& Ball() {
-  static const body::Body body = BallBody(kCenter, 0.2);
+  static const body::Body body = BallBody(kBallCenter, 0.2);
   return body;
 }
 
@@ -29,8 +29,8 @@ const BestFitObjective& Objective() {
 // Two spheres on the plane, far too small for the ball.
 capsule::MirroredSet Small() {
   capsule::MirroredSet graph(true);
-  const int low = graph.AddSphere({kCenter - Eigen::Vector3d(0, 0.1, 0), 0.05}, true);
-  const int high = graph.AddSphere({kCenter + Eigen::Vector3d(0, 0.1, 0), 0.05}, true);
+  const int low = graph.AddSphere({kBallCenter - Eigen::Vector3d(0, 0.1, 0), 0.05}, true);
+  const int high = graph.AddSphere({kBallCenter + Eigen::Vector3d(0, 0.1, 0), 0.05}, true);
   graph.AddCapsule(low, high);
   return graph;
 }
@@ -51,7 +51,7 @@ capsule::MirroredSet Grown(int primitives, int threads) {
 TEST(BestFitRoundTest, TheGainIsTheFallOfTheObjective) {
   const capsule::MirroredSet graph = Small();
   const BestFitRound round = Objective().StartRound(graph);
-  const Edit ball{EditKind::kBall, -1, -1, kCenter + Eigen::Vector3d(0.1, 0, 0), 0.06};
+  const Edit ball{EditKind::kBall, -1, -1, kBallCenter + Eigen::Vector3d(0.1, 0, 0), 0.06};
   for (const Edit& edit : {ball, EditOf(EditKind::kSplit, 0), EditOf(EditKind::kUnlink, 0)}) {
     for (const Trial trial : {Trial::kGlance, Trial::kThorough}) {
       EditedGraph edited = Apply(graph, edit);
@@ -70,8 +70,8 @@ TEST(BestFitObjectiveTest, SettlingLowersTheValueAndWorstPointsAreOutsideAndApar
   for (std::size_t i = 0; i < worst.size(); ++i) {
     EXPECT_GE(worst[i].x(), 0.0);
     EXPECT_GT(UnionDistance(graph, worst[i]), 0.0f);
-    if (i > 0)
-      EXPECT_LE(UnionDistance(graph, worst[i]), UnionDistance(graph, worst[i - 1]) + 1e-5f);
+    const std::size_t before_i = i > 0 ? i - 1 : 0;
+    EXPECT_LE(UnionDistance(graph, worst[i]), UnionDistance(graph, worst[before_i]) + 1e-5f);
     for (std::size_t k = 0; k < i; ++k) EXPECT_GE((worst[i] - worst[k]).norm(), 0.04);
   }
   const double before = Objective().Value(graph);
@@ -108,7 +108,8 @@ TEST(GrowthTest, SparingEndsWithinTheBudget) {
   for (const int primitives : {11, 8, 4}) {
     capsule::MirroredSet graph(true);
     for (int i = 0; i < 4; ++i) {
-      graph.AddSphere({kCenter + Eigen::Vector3d(0.05 * i, 0.03 * i - 0.05, 0.02), 0.1}, i == 0);
+      graph.AddSphere({kBallCenter + Eigen::Vector3d(0.05 * i, 0.03 * i - 0.05, 0.02), 0.1},
+                      i == 0);
       if (i > 0) graph.AddCapsule(2 * i - 1, std::max(0, 2 * i - 3));
     }
     Spare(Objective(), {primitives, capsule::kNoLimit, capsule::kNoLimit}, {}, pool, meter, graph);

@@ -11,6 +11,7 @@
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
 #include "core/refine/layouts/standard_layouts.h"
+#include "tests/core/capsule/mirrored.h"
 
 namespace capfit::refine {
 namespace {
