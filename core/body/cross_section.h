@@ -65,7 +65,7 @@ class CutSurface {
   std::span<const Eigen::Vector3d> points_;
   std::span<const mesh::Triangle> triangles_;
   std::vector<Box> groups_;  // of triangles
-  std::vector<Box> clans_;   // of groups
+  std::vector<Box> blocks_;  // of groups
 };
 
 }  // namespace capfit::body

@@ -25,6 +25,7 @@
 #include "core/body/surface_graph.h"
 #include "core/body/told_landmarks.h"
 #include "core/body/working_copy.h"
+#include "core/mesh/surface_sums.h"
 
 namespace capfit::body {
 namespace {
@@ -114,11 +115,11 @@ double StatureWithoutLegs(const Extremities& extremities) {
 }
 
 double VolumeOf(const WorkingCopy& copy) {
-  double six_fold = 0.0;
+  double volume = 0.0;
   for (const mesh::Triangle& t : copy.triangles) {
-    six_fold += copy.points[t[0]].dot(copy.points[t[1]].cross(copy.points[t[2]]));
+    volume += mesh::SignedVolume(copy.points[t[0]], copy.points[t[1]], copy.points[t[2]]);
   }
-  return std::abs(six_fold) / 6.0;
+  return std::abs(volume);
 }
 
 // The way to the body's frame (upright, in metres, standing at y = 0) from the caller's and from

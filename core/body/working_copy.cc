@@ -11,6 +11,7 @@
 
 #include "core/base/chunk_sums.h"
 #include "core/body/snap.h"
+#include "core/mesh/surface_sums.h"
 
 namespace capfit::body {
 namespace {
@@ -258,9 +259,7 @@ void AddAreas(const ThreadPool& pool, WorkingCopy& copy) {
   std::vector<double> thirds(copy.triangles.size());
   pool.ForChunks(thirds.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const mesh::Triangle& t = copy.triangles[i];
-      const Eigen::Vector3d& a = copy.points[t[0]];
-      thirds[i] = (copy.points[t[1]] - a).cross(copy.points[t[2]] - a).norm() / 6.0;
+      thirds[i] = mesh::Area(copy.points, copy.triangles[i]) / 3.0;
     }
   });
   copy.vertex_areas.assign(copy.points.size(), 0.0);

@@ -51,7 +51,7 @@ void AddPair(body::Part part, std::vector<Eigen::Vector3d> points,
   const geometry::Sphere ball = geometry::SmallestEnclosingBall(points);
   const int index = static_cast<int>(set.spheres.size());
   Add(part, index + 1, ball, set);
-  Add(body::MirrorPart(part), index, {Mirrored(ball.center_m), ball.radius_m}, set);
+  Add(body::MirrorPart(part), index, MirrorImage(ball), set);
 }
 
 }  // namespace

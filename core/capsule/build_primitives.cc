@@ -16,13 +16,8 @@ using geometry::Sphere;
 // near.
 constexpr double kMirrorTolerance = 1e-4;
 
-Sphere Mirrored(Sphere sphere) {
-  sphere.center_m.x() = -sphere.center_m.x();
-  return sphere;
-}
-
 double MirrorError(const Sphere& a, const Sphere& b) {
-  const Sphere image = Mirrored(a);
+  const Sphere image = MirrorImage(a);
   return ((image.center_m - b.center_m).norm() + std::abs(a.radius_m - b.radius_m)) / a.radius_m;
 }
 
@@ -85,7 +80,7 @@ class Builder {
   void AddImagesOf(int source, int p) {
     for (const int i : SpheresOf(source)) {
       set_.origins[static_cast<std::size_t>(i)].mirror = static_cast<int>(set_.spheres.size());
-      set_.spheres.push_back(Mirrored(set_.spheres[static_cast<std::size_t>(i)]));
+      set_.spheres.push_back(MirrorImage(set_.spheres[static_cast<std::size_t>(i)]));
       set_.origins.push_back({polygons_[static_cast<std::size_t>(p)].chain, p, i});
     }
   }
@@ -115,7 +110,7 @@ class Builder {
     if (i == j) {
       At(i).center_m.x() = 0.0;
     } else {
-      At(j) = Mirrored(At(i));
+      At(j) = MirrorImage(At(i));
     }
   }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 
 namespace capfit::capsule {
 namespace {
@@ -12,21 +11,10 @@ constexpr double kMaxLerpedSin = 0.5;
 
 std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
-std::vector<bool> UsedSpheres(const PrimitiveSet& set) {
-  std::vector<bool> is_used(set.spheres.size(), false);
-  for (const CapsuleEnds& ends : set.capsules) {
-    for (const int end : ends) is_used[At(end)] = true;
-  }
-  return is_used;
-}
-
 // The copy of a capsule's end is at 2 * capsule + side; copies of lone spheres follow.
 class OwnEnds {
  public:
-  explicit OwnEnds(const PrimitiveSet& set) : set_(set) {
-    for (std::size_t k = 0; k < set.capsules.size(); ++k) {
-      capsule_of_[set.capsules[k]] = static_cast<int>(k);
-    }
+  explicit OwnEnds(const PrimitiveSet& set) : set_(set), images_(ImagesOf(set)) {
     const std::vector<bool> is_used = UsedSpheres(set);
     for (std::size_t i = 0; i < is_used.size(); ++i) {
       if (!is_used[i]) lone_.push_back(static_cast<int>(i));
@@ -51,22 +39,20 @@ class OwnEnds {
   }
 
   int ImageOf(std::size_t capsule, int side) const {
-    const CapsuleEnds& ends = set_.capsules[capsule];
-    const int image = set_.origins[At(ends[At(side)])].mirror;
-    const int other = set_.origins[At(ends[At(1 - side)])].mirror;
-    const auto found = capsule_of_.find({std::min(image, other), std::max(image, other)});
-    if (image < 0 || other < 0 || found == capsule_of_.end()) return -1;
-    return 2 * found->second + (set_.capsules[At(found->second)][0] == image ? 0 : 1);
+    const int image = images_.capsules[capsule];
+    if (image < 0) return -1;
+    const int end = images_.spheres[At(set_.capsules[capsule][At(side)])];
+    return 2 * image + (set_.capsules[At(image)][0] == end ? 0 : 1);
   }
 
   int ImageOfLone(int sphere) const {
-    const auto found = std::find(lone_.begin(), lone_.end(), set_.origins[At(sphere)].mirror);
+    const auto found = std::find(lone_.begin(), lone_.end(), images_.spheres[At(sphere)]);
     if (found == lone_.end()) return -1;
     return static_cast<int>(2 * set_.capsules.size()) + static_cast<int>(found - lone_.begin());
   }
 
   const PrimitiveSet& set_;
-  std::map<CapsuleEnds, int> capsule_of_;
+  Images images_;
   std::vector<int> lone_;
 };
 

@@ -38,12 +38,28 @@ struct PrimitiveSet {
   }
 };
 
+// Which sphere and which capsule is whose image in the mid-plane.
+struct Images {
+  std::vector<int> spheres;   // its own index on the mid-plane; -1 where the two do not agree
+  std::vector<int> capsules;  // -1 where an end has no image or the images are not joined
+  bool is_whole = false;      // every sphere and capsule has one
+};
+
+// From the spheres' own word (SphereOrigin::mirror); places are not looked at. O(n log n).
+[[nodiscard]] Images ImagesOf(const PrimitiveSet& set);
+
 // The part that a capsule counts to: that of its ends; between two parts the later in body::Part,
 // which is the one further out.
 [[nodiscard]] body::Part PartOfCapsule(const PrimitiveSet& set, std::size_t index);
 
-// The solid that the set stands for, ready to be asked: every capsule, and every sphere that no
-// capsule uses.
+// Whether a capsule uses it, for each sphere.
+[[nodiscard]] std::vector<bool> UsedSpheres(const PrimitiveSet& set);
+
+// What the set consists of as a solid, by end spheres: every capsule, in order, and every sphere
+// that no capsule uses, with both ends the same.
+[[nodiscard]] std::vector<CapsuleEnds> SolidEnds(const PrimitiveSet& set);
+
+// The same, ready to be asked.
 [[nodiscard]] std::vector<geometry::TaperedCapsule> Solids(const PrimitiveSet& set);
 
 }  // namespace capfit::capsule

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/capsule/build_primitives.h"
+#include "core/capsule/mirrored_set.h"
 
 namespace capfit::capsule {
 namespace {
@@ -151,7 +152,10 @@ struct Group {
 class Remover {
  public:
   Remover(PrimitiveSet& set, double tolerance_m)
-      : set_(set), tolerance_m_(tolerance_m), is_gone_(set.capsules.size(), false) {
+      : set_(set),
+        images_(ImagesOf(set)),
+        tolerance_m_(tolerance_m),
+        is_gone_(set.capsules.size(), false) {
     MakeGroups();
   }
 
@@ -174,20 +178,11 @@ class Remover {
 
   void MakeGroups() {
     for (int i = 0; i < static_cast<int>(set_.capsules.size()); ++i) {
-      const int image = ImageOf(i);
+      const int image = images_.capsules[static_cast<std::size_t>(i)];
       if (image >= 0 && image < i) continue;  // its group is there already
       groups_.push_back(
           {{i, image == i ? -1 : image}, set_.Capsule(static_cast<std::size_t>(i)).Volume_m3()});
     }
-  }
-
-  int ImageOf(int capsule) const {
-    const CapsuleEnds ends = set_.capsules[static_cast<std::size_t>(capsule)];
-    const int a = set_.origins[static_cast<std::size_t>(ends[0])].mirror;
-    const int b = set_.origins[static_cast<std::size_t>(ends[1])].mirror;
-    const CapsuleEnds image{std::min(a, b), std::max(a, b)};
-    const auto found = std::find(set_.capsules.begin(), set_.capsules.end(), image);
-    return found == set_.capsules.end() ? -1 : static_cast<int>(found - set_.capsules.begin());
   }
 
   void RemoveIf(const Group& group, Test is_covered) {
@@ -228,6 +223,7 @@ class Remover {
   }
 
   PrimitiveSet& set_;
+  Images images_;  // of the set as it came
   double tolerance_m_;
   std::vector<bool> is_gone_;
   std::vector<Group> groups_;
@@ -235,10 +231,8 @@ class Remover {
 
 // Spheres that no capsule uses and that one of the others contains.
 std::vector<bool> FindIdleSpheres(const PrimitiveSet& set) {
-  std::vector<bool> is_idle(set.spheres.size(), true);
-  for (const CapsuleEnds& ends : set.capsules) {
-    for (const int end : ends) is_idle[static_cast<std::size_t>(end)] = false;
-  }
+  std::vector<bool> is_idle = UsedSpheres(set);
+  is_idle.flip();
   for (std::size_t i = 0; i < set.spheres.size(); ++i) {
     if (!is_idle[i]) continue;
     bool is_covered = false;
@@ -256,23 +250,11 @@ std::vector<bool> FindIdleSpheres(const PrimitiveSet& set) {
 }
 
 void RemoveIdleSpheres(PrimitiveSet& set) {
-  const std::vector<bool> is_idle = FindIdleSpheres(set);
-  std::vector<int> new_index(set.spheres.size(), -1);
-  PrimitiveSet kept;
-  for (std::size_t i = 0; i < set.spheres.size(); ++i) {
-    if (is_idle[i]) continue;
-    new_index[i] = static_cast<int>(kept.spheres.size());
-    kept.spheres.push_back(set.spheres[i]);
-    kept.origins.push_back(set.origins[i]);
-  }
-  for (SphereOrigin& origin : kept.origins) {
-    if (origin.mirror >= 0) origin.mirror = new_index[static_cast<std::size_t>(origin.mirror)];
-  }
-  for (const CapsuleEnds& ends : set.capsules) {
-    kept.capsules.push_back({new_index[static_cast<std::size_t>(ends[0])],
-                             new_index[static_cast<std::size_t>(ends[1])]});
-  }
-  set = std::move(kept);
+  std::vector<char> kept;
+  for (const bool is_idle : FindIdleSpheres(set)) kept.push_back(!is_idle);
+  MirroredSet rest(std::move(set), /*is_mirrored=*/false);  // pairs go or stay together already
+  rest.KeepOnly(kept, std::vector<char>(rest.capsules().size(), 1));
+  set = rest.set();
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "core/character/find_character.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,67 +10,36 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "core/base/status.h"
 #include "core/character/callers_word.h"
 #include "core/character/character_report.h"
 #include "core/character/nearness.h"
-#include "core/character/shells.h"
-#include "core/character/surrounding.h"
+#include "core/character/shell_facts.h"
 #include "core/character/verdict.h"
-#include "core/formats/file_error.h"
 
 namespace capfit::character {
 namespace {
 
-// The height of a standing body over the standard deviation of its surface; between 3 and 4.
-constexpr double kHeightOfSpread = 3.6;
-// Shares of the height. Gaps between the parts of one character stay below the first; what is worn
-// close stays within the second (up to three times it, see CellSet).
-constexpr double kGapShare = 0.02;
+// What is worn close stays within this share of the height (up to three times it, see CellSet).
 constexpr double kWornShare = 0.015;
 // Pieces of one part, as those of a robot, that touch.
 constexpr double kTouchShare = 0.004;
-// A floor: thinner than the first by its standard deviation, wider than the second.
-constexpr double kSheetThickness = 0.01;
-constexpr double kSheetWidth = 0.1;
-
-// Winding numbers from which a shell goes around a point; a scalp or a hat has less than half.
-constexpr float kGoesAround = 0.6F;
-constexpr float kGoesAroundPartly = 0.15F;
+// The winding number around the space between the legs from which a shell is a skirt.
 constexpr float kGoesBetweenLegs = 0.5F;
-
-// Shares of the whole area: what is smaller is no clothing, hair or armour; and what makes up
-// nearly all of its part is the part.
+// Shares of the whole area: what is smaller is no clothing, hair or armour; what is larger is of
+// the body.
 constexpr double kSmallShare = 0.005;
 constexpr double kLargeShare = 0.1;
-constexpr double kWholePart = 0.85;
-// A group of shells this large beside the largest (box, area) is another person.
-constexpr double kPersonsBox = 0.6;
-constexpr double kPersonsArea = 0.3;
 // Of a shell's vertices: all but rims and a few loose threads.
 constexpr double kNearlyAll = 0.9;
 constexpr std::size_t kSamplesOfNearness = 500;
-// Beyond it a file has lost its shared vertices, or is no avatar; hair of cards has some thousands.
-constexpr std::size_t kMostShells = 20'000;
 
-class Judge {
+class Judge : private ShellFacts {
  public:
   Judge(const formats::PolygonSoup& soup, const CharacterOptions& options,
         const std::map<body::LandmarkId, Eigen::Vector3d>& joints, std::span<const char> is_floor,
         const ThreadPool& pool)
-      : options_(options), shells_(FindShells(soup, is_floor)) {
-    verdicts_.resize(shells_.shells.size());
-    parts_ = soup.parts;
-    if (parts_.empty()) parts_.push_back({"", "", 0, soup.face_count(), -1});
-    points_ = InnerPointsOf(joints);
-    for (const formats::SoupPart& part : parts_) {
-      const std::optional<PartKind> kind = KindFromName(part.name);
-      names_.push_back(kind ? kind : KindFromName(part.material));
-    }
-    MeasureSpread();
-    if (points_ && count() <= kMostShells) Surround(pool);
-  }
+      : ShellFacts(soup, joints, is_floor, pool), options_(options) {}
 
   absl::StatusOr<Character> Run() {
     CAPFIT_RETURN_IF_ERROR(CheckNames(options_, parts_));
@@ -82,9 +50,7 @@ class Judge {
                        " are looked at: do neighbouring faces share "
                        "vertices?"));
     }
-    FindSheets();
-    CAPFIT_RETURN_IF_ERROR(FindGroups());
-    MeasureParts();
+    CAPFIT_RETURN_IF_ERROR(FindWhatIsApart());
     if (points_) {
       JudgeByJoints();
     } else {
@@ -96,181 +62,6 @@ class Judge {
   }
 
  private:
-  [[nodiscard]] std::size_t count() const { return shells_.shells.size(); }
-  [[nodiscard]] const Shell& shell(std::size_t s) const { return shells_.shells[s]; }
-
-  // ---- what is measured
-
-  // Area, middle and spread of all shells; the height that they speak for.
-  void MeasureSpread() {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Facet& facet : shells_.facets) {
-      const double area = facet.AreaVector().norm();
-      area_ += area;
-      sum += area * facet.Middle();
-    }
-    const Eigen::Vector3d middle = area_ > 0.0 ? Eigen::Vector3d(sum / area_) : sum;
-    double squares = 0.0;
-    for (const Facet& facet : shells_.facets) {
-      squares += facet.AreaVector().norm() * facet.SecondMoment(middle).trace();
-    }
-    height_ = area_ > 0.0 ? kHeightOfSpread * std::sqrt(squares / area_) : 0.0;
-    if (points_) height_ = points_->height;
-  }
-
-  // Of what hangs together with the body.
-  void MeasureParts() {
-    part_area_.assign(parts_.size(), 0.0);
-    largest_of_part_.assign(parts_.size(), 0.0);
-    shells_of_part_.assign(parts_.size(), {});
-    for (std::size_t s = 0; s < count(); ++s) {
-      if (IsApart(s)) continue;
-      shells_of_part_[shell(s).part].push_back(s);
-      part_area_[shell(s).part] += shell(s).area;
-      largest_of_part_[shell(s).part] = std::max(largest_of_part_[shell(s).part], shell(s).area);
-    }
-  }
-
-  void Surround(const ThreadPool& pool) {
-    std::vector<Eigen::Vector3d> points = points_->trunk;
-    for (const auto* more : {&points_->limbs, &points_->head, &points_->between_legs}) {
-      points.insert(points.end(), more->begin(), more->end());
-    }
-    const std::size_t carried_points = points_->trunk.size() + points_->limbs.size();
-    const std::vector<std::vector<float>> windings = WindingNumbers(shells_, points, pool);
-    // Of all shells of the part together: shirts are sewn from a front and a back.
-    std::vector<std::vector<float>> of_part(parts_.size(),
-                                            std::vector<float>(carried_points, 0.0F));
-    for (std::size_t s = 0; s < count(); ++s) {
-      std::vector<float>& sum = of_part[shell(s).part];
-      for (std::size_t p = 0; p < carried_points; ++p) sum[p] += windings[s][p];
-    }
-    carried_.assign(count(), {});
-    for (std::size_t s = 0; s < count(); ++s) {
-      for (std::size_t p = 0; p < carried_points; ++p) {
-        const float own = windings[s][p];
-        if (own >= kGoesAround ||
-            (own >= kGoesAroundPartly && of_part[shell(s).part][p] >= kGoesAround)) {
-          carried_[s].push_back(p);
-        }
-      }
-    }
-    for (const std::vector<float>& w : windings) {
-      const auto head = w.begin() + static_cast<std::ptrdiff_t>(carried_points);
-      const auto legs = head + static_cast<std::ptrdiff_t>(points_->head.size());
-      around_head_.push_back(head == legs ? 0.0F : *std::max_element(head, legs));
-      between_legs_.push_back(legs == w.end() ? 0.0F : *std::min_element(legs, w.end()));
-    }
-  }
-
-  // ---- what lies apart
-
-  // Thin and wide in all: a floor. Those that carry a limb are none.
-  void FindSheets() {
-    is_sheet_.assign(count(), 0);
-    for (std::size_t s = 0; s < count(); ++s) {
-      if (shell(s).is_cut_off) {
-        is_sheet_[s] = 1;
-        verdicts_[s] = {PartKind::kFragment, false, "floor or stand"};
-      }
-      if (Carries(s) || shell(s).area < kSheetWidth * kSheetWidth * height_ * height_) continue;
-      const Eigen::Vector3d spread = SpreadOf(s);
-      if (spread[0] > kSheetThickness * height_ || spread[1] < kSheetWidth * height_) continue;
-      is_sheet_[s] = 1;
-      verdicts_[s] = {PartKind::kFragment, false, "a flat sheet, as a floor"};
-    }
-  }
-
-  // Standard deviations of the surface along its own axes, ascending.
-  [[nodiscard]] Eigen::Vector3d SpreadOf(std::size_t s) const {
-    const Eigen::Vector3d origin = 0.5 * (shell(s).box_min + shell(s).box_max);
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    for (std::size_t f = shells_.first_facet[s]; f < shells_.first_facet[s + 1]; ++f) {
-      const double area = shells_.facets[f].AreaVector().norm();
-      sum += area * (shells_.facets[f].Middle() - origin);
-      squares += area * shells_.facets[f].SecondMoment(origin);
-    }
-    const Eigen::Vector3d mean = sum / shell(s).area;
-    const Eigen::Matrix3d covariance = squares / shell(s).area - mean * mean.transpose();
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly)
-        .eigenvalues()
-        .cwiseMax(0.0)
-        .cwiseSqrt();
-  }
-
-  struct Group {
-    std::size_t carried = 0;  // inner points that its shells go around
-    double area = 0.0;
-    Eigen::Vector3d box_min = Eigen::Vector3d::Constant(1e300);
-    Eigen::Vector3d box_max = Eigen::Vector3d::Constant(-1e300);
-    std::size_t largest_shell = 0;
-
-    [[nodiscard]] double diagonal() const { return (box_max - box_min).norm(); }
-  };
-
-  absl::Status FindGroups() {
-    if (!(height_ > 0.0)) return absl::OkStatus();
-    std::vector<char> taken(count());
-    for (std::size_t s = 0; s < count(); ++s) taken[s] = is_sheet_[s] == 0 ? 1 : 0;
-    group_ = ClustersOf(shells_, kGapShare * height_, taken);
-    std::vector<Group> groups(count());
-    for (std::size_t s = 0; s < count(); ++s) {
-      if (is_sheet_[s] != 0) continue;
-      Group& group = groups[group_[s]];
-      if (group.area == 0.0 || shell(s).area > shell(group.largest_shell).area) {
-        group.largest_shell = s;
-      }
-      group.area += shell(s).area;
-      if (points_) group.carried += carried_[s].size();
-      group.box_min = group.box_min.cwiseMin(shell(s).box_min);
-      group.box_max = group.box_max.cwiseMax(shell(s).box_max);
-    }
-    // The body's own group, where joints tell it, may be smaller than what stands beside it.
-    const auto is_less = [](const Group& a, const Group& b) {
-      return std::pair(a.carried, a.area) < std::pair(b.carried, b.area);
-    };
-    main_ = static_cast<std::uint32_t>(std::max_element(groups.begin(), groups.end(), is_less) -
-                                       groups.begin());
-    for (std::uint32_t g = 0; g < groups.size(); ++g) {
-      if (g == main_ || groups[g].area < kPersonsArea * groups[main_].area) continue;
-      if (groups[g].diagonal() < kPersonsBox * groups[main_].diagonal()) continue;
-      return Refused(
-          ErrorReason::kTwoBodies,
-          absl::StrFormat("two separate bodies: %s and %s (%.0f %% of its area); send "
-                          "one body, or exclude the parts of the other",
-                          NameOf(groups[main_].largest_shell), NameOf(groups[g].largest_shell),
-                          100.0 * groups[g].area / groups[main_].area));
-    }
-    for (std::size_t s = 0; s < count(); ++s) {
-      if (is_sheet_[s] == 0 && IsApart(s)) {
-        verdicts_[s] = {PartKind::kFragment, false, "apart from the body"};
-      }
-    }
-    return absl::OkStatus();
-  }
-
-  [[nodiscard]] std::string NameOf(std::size_t s) const {
-    const std::string& name = parts_[shell(s).part].name;
-    if (!name.empty()) return absl::StrCat("\"", formats::Printable(name, kLongestNameTold), "\"");
-    const Eigen::Vector3d middle = 0.5 * (shell(s).box_min + shell(s).box_max);
-    return absl::StrFormat("%d faces around (%.4g, %.4g, %.4g)", shell(s).face_count, middle.x(),
-                           middle.y(), middle.z());
-  }
-
-  [[nodiscard]] bool IsApart(std::size_t s) const {
-    // What goes around the body's limbs is never apart: a wide skirt.
-    return is_sheet_[s] != 0 || (!group_.empty() && group_[s] != main_ && !Carries(s));
-  }
-
-  // ---- verdicts
-
-  [[nodiscard]] bool IsCrumb(std::size_t s) const {
-    const std::size_t part = shell(s).part;
-    return shell(s).area < largest_of_part_[part] &&
-           largest_of_part_[part] > kWholePart * part_area_[part];
-  }
-
   void JudgeByNames() {
     for (std::size_t s = 0; s < count(); ++s) {
       if (IsApart(s)) continue;
@@ -377,12 +168,6 @@ class Judge {
       return std::any_of(largest_carriers_[point].begin(), largest_carriers_[point].end(), larger);
     };
     return std::all_of(carried_[s].begin(), carried_[s].end(), is_anothers) && !IsPartWorn(part);
-  }
-
-  [[nodiscard]] bool Carries(std::size_t s) const { return points_ && !carried_[s].empty(); }
-  // (The trunk's points come first.)
-  [[nodiscard]] bool CarriesTrunk(std::size_t s) const {
-    return Carries(s) && carried_[s].front() < points_->trunk.size();
   }
 
   // A body's or a garment's name where it has one; others lie, for it goes around limbs.
@@ -510,7 +295,7 @@ class Judge {
     bool is_any = false;
     for (std::size_t s = 0; s < count(); ++s) {
       const std::size_t part = shell(s).part;
-      // For crumbs alone, as the eyeballs of a body, nobody gives up a surface that is one.
+      // For crumbs alone, as the eyeballs of a body, no surface that is one is given up.
       const bool may_join =
           !verdicts_[s].is_included && !IsApart(s) && (surfaces.size() > 1 || !IsCrumb(s)) &&
           verdicts_[s].kind != PartKind::kSkirt && taken_area[part] > 0.5 * part_area_[part];
@@ -531,21 +316,7 @@ class Judge {
   }
 
   const CharacterOptions& options_;
-  Shells shells_;
-  std::vector<formats::SoupPart> parts_;  // at least one
-  std::vector<std::optional<PartKind>> names_;
-  std::vector<double> part_area_;
-  std::vector<double> largest_of_part_;
-  std::vector<std::vector<std::size_t>> shells_of_part_;  // what hangs together with the body
-  std::vector<char> is_worn_part_;                        // 0: not asked yet, 1: no, 2: yes
-  std::optional<InnerPoints> points_;
-  double area_ = 0.0;
-  double height_ = 0.0;
-  // By shell.
-  std::vector<Verdict> verdicts_;
-  std::vector<char> is_sheet_;
-  std::vector<std::uint32_t> group_;
-  std::uint32_t main_ = 0;
+  std::vector<char> is_worn_part_;  // 0: not asked yet, 1: no, 2: yes
   struct Carrier {
     std::size_t part = static_cast<std::size_t>(-1);
     double area = 0.0;
@@ -553,9 +324,6 @@ class Judge {
   std::vector<std::array<Carrier, 2>> largest_carriers_;  // by inner point
   // By part: whether it alone goes around some inner point, or much of it goes around some.
   std::vector<char> is_of_the_body_;
-  std::vector<std::vector<std::size_t>> carried_;  // the inner points that it goes around
-  std::vector<float> around_head_;
-  std::vector<float> between_legs_;
   std::set<std::size_t> is_carrier_;
   std::map<std::size_t, CellSet> cells_;  // of carriers that are taken, by part
   std::vector<char> is_on_head_;          // by part

@@ -189,8 +189,7 @@ class Coverer {
 
   // Adds points between vertices where the surface sticks out; whether there were any.
   bool Collect() {
-    const std::vector<geometry::TaperedCapsule> shapes =
-        tighten::ShapesOf(variables_.solids(), set_);
+    const std::vector<geometry::TaperedCapsule> shapes = capsule::Solids(set_);
     const tighten::UnionDistances distances = AtVertices(shapes);
     const std::vector<Eigen::Vector3d> found =
         FindPointsOutside(target_, distances, shapes, AllowedBetween(), MaxGap(), pool_);
@@ -223,7 +222,7 @@ class Coverer {
 
   std::vector<Demand> OpenDemands() const {
     const tighten::UnionDistances distances =
-        grid_.DistancesTo(tighten::ShapesOf(variables_.solids(), set_), -options_.max_gap_m, pool_);
+        grid_.DistancesTo(capsule::Solids(set_), -options_.max_gap_m, pool_);
     std::vector<Demand> demands;
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       if (distances.distance_m[i] > AllowedAtVertices() - kVertexDepthM) {
@@ -235,8 +234,7 @@ class Coverer {
   }
 
   double MaxVertexDistance() const {
-    const std::vector<geometry::TaperedCapsule> shapes =
-        tighten::ShapesOf(variables_.solids(), set_);
+    const std::vector<geometry::TaperedCapsule> shapes = capsule::Solids(set_);
     const tighten::UnionDistances distances = grid_.DistancesTo(shapes, -options_.max_gap_m, pool_);
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < grid_.size(); ++i) {

@@ -29,7 +29,7 @@ void Lower(const std::vector<TaperedCapsule>& shapes, int solid, const Eigen::Ve
 class Grower {
  public:
   explicit Grower(capsule::PrimitiveSet& set)
-      : set_(set), variables_(set), shapes_(tighten::ShapesOf(variables_.solids(), set)) {}
+      : set_(set), variables_(set), shapes_(capsule::Solids(set)) {}
 
   Nearest Locate(const Eigen::Vector3d& point) const {
     Nearest nearest;
@@ -70,20 +70,20 @@ class Grower {
 
  private:
   TaperedCapsule ShapeOf(int solid) const {
-    const tighten::Solid& ends = variables_.solids()[static_cast<std::size_t>(solid)];
-    return {set_.spheres[static_cast<std::size_t>(ends.ends[0])],
-            set_.spheres[static_cast<std::size_t>(ends.ends[1])]};
+    const capsule::CapsuleEnds& ends = variables_.solids()[static_cast<std::size_t>(solid)];
+    return {set_.spheres[static_cast<std::size_t>(ends[0])],
+            set_.spheres[static_cast<std::size_t>(ends[1])]};
   }
 
   // Change of the variables per unit of growth. A move never exceeds the growth, so that every
   // sphere contains what it was.
   Eigen::VectorXd DirectionTo(const Eigen::Vector3d& point, int solid) const {
     const geometry::CapsuleDistance at = shapes_[static_cast<std::size_t>(solid)].Locate(point);
-    const tighten::Solid& ends = variables_.solids()[static_cast<std::size_t>(solid)];
+    const capsule::CapsuleEnds& ends = variables_.solids()[static_cast<std::size_t>(solid)];
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(variables_.count());
     std::vector<int> growing;
-    if (at.axis_parameter < 1.0) growing.push_back(ends.ends[0]);
-    if (at.axis_parameter > 0.0) growing.push_back(ends.ends[1]);
+    if (at.axis_parameter < 1.0) growing.push_back(ends[0]);
+    if (at.axis_parameter > 0.0) growing.push_back(ends[1]);
     if (growing.size() == 2 && variables_.of(growing[0]).first == variables_.of(growing[1]).first) {
       // A bar between two images: what one gains sideways the other loses.
       const Eigen::Vector4d common(0.0, at.normal.y(), at.normal.z(), 1.0);
@@ -98,7 +98,7 @@ class Grower {
   }
 
   std::vector<int> Refresh() {
-    const std::vector<TaperedCapsule> now = tighten::ShapesOf(variables_.solids(), set_);
+    const std::vector<TaperedCapsule> now = capsule::Solids(set_);
     std::vector<int> changed;
     for (std::size_t k = 0; k < now.size(); ++k) {
       const bool is_same = now[k].a().center_m == shapes_[k].a().center_m &&

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/chunk_sums.h"
+#include "core/mesh/surface_sums.h"
 
 namespace capfit::mesh {
 
@@ -47,7 +48,7 @@ void BodyMesh::Measure(const ThreadPool& pool) {
       const Eigen::Vector3d a = vertices_[t[0]] - middle;
       const Eigen::Vector3d b = vertices_[t[1]] - middle;
       const Eigen::Vector3d c = vertices_[t[2]] - middle;
-      sum.volume += a.dot(b.cross(c)) / 6.0;
+      sum.volume += SignedVolume(a, b, c);
       sum.area += (b - a).cross(c - a).norm() / 2.0;
     }
     return sum;

@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "core/mesh/open_loops.h"
+#include "core/mesh/surface_sums.h"
 #include "core/mesh/triangulate_loop.h"
 
 namespace capfit::mesh {
@@ -97,7 +98,7 @@ class HoleCloser {
   void Report(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& filling) {
     ++report_.holes;
     for (const Triangle& t : filling) {
-      report_.area += 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm();
+      report_.area += Area(points, t);
     }
     double perimeter = (points.front() - points.back()).norm();
     Eigen::Vector3d from_first = Eigen::Vector3d::Zero();

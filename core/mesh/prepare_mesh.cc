@@ -19,24 +19,20 @@
 #include "core/mesh/close_holes.h"
 #include "core/mesh/edge_mates.h"
 #include "core/mesh/join_triangles.h"
+#include "core/mesh/main_part.h"
 #include "core/mesh/mend_flat_triangles.h"
 #include "core/mesh/one_surface.h"
 #include "core/mesh/overlap.h"
 #include "core/mesh/split_vertices.h"
 #include "core/mesh/surface.h"
 #include "core/mesh/surface_parts.h"
+#include "core/mesh/surface_sums.h"
 #include "core/mesh/triangulate_faces.h"
+#include "core/mesh/used_vertices.h"
 
 namespace capfit::mesh {
 namespace {
 
-// Share of the diagonal within which open edges are joined: 0.02 mm on a body, far above the
-// rounding of float files, far below the gap between two fingers.
-constexpr double kWeldShare = 1e-5;
-// A second part of this share of the main part's volume is no accessory: it may be the body.
-constexpr double kRivalShare = 0.5;
-// A body has an inner wall or two; more large parts in each other are something else.
-constexpr std::size_t kMostInnerWalls = 4;
 // Holes whose filling exceeds this share of the surface leave too little of the body.
 constexpr double kLargestHoleShare = 1.0 / 3.0;
 // Volume below this share of the diagonal's cube is rounding, not a body (a cylinder 1000 times
@@ -49,22 +45,6 @@ constexpr double kFlatShare = 1e-9;
 
 // Overlap above this share of the volume is more than lips or armpits that touch.
 constexpr double kTellingOverlap = 1e-3;
-
-constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-
-struct Box {
-  Eigen::Vector3d min = Eigen::Vector3d::Constant(1e300);
-  Eigen::Vector3d max = Eigen::Vector3d::Constant(-1e300);
-
-  void Add(const Eigen::Vector3d& point) {
-    min = min.cwiseMin(point);
-    max = max.cwiseMax(point);
-  }
-  [[nodiscard]] double diagonal() const { return (max - min).norm(); }
-  [[nodiscard]] bool Holds(const Box& other) const {
-    return (other.min.array() >= min.array()).all() && (other.max.array() <= max.array()).all();
-  }
-};
 
 std::string PointText(const Eigen::Vector3d& p) {
   return absl::StrFormat("(%.4g, %.4g, %.4g)", p.x(), p.y(), p.z());
@@ -107,7 +87,8 @@ class MeshMender {
     MendFlat();
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     CAPFIT_RETURN_IF_ERROR(CheckManifold());
-    BodyMesh mesh = MeshOfUsed();
+    BodyMesh mesh =
+        MeshOfUsed(positions_, {stand_in_, copied_, merged_}, std::move(surface_), pool_);
     const Overlap overlap = MeasureOverlap(mesh);
     return Finish(std::move(mesh), overlap);
   }
@@ -164,9 +145,9 @@ class MeshMender {
   void MeasureUsed() {
     std::vector<char> used(positions_.size(), 0);
     for (const Triangle& t : surface_.triangles) used[t[0]] = used[t[1]] = used[t[2]] = 1;
-    Box box;
+    Eigen::AlignedBox3d box;
     for (std::size_t v = 0; v < used.size(); ++v) {
-      if (used[v] != 0) box.Add(positions_[v]);
+      if (used[v] != 0) box.extend(positions_[v]);
     }
     if (!is_left_out_.empty()) {  // what only the faces left out use is not unused
       for (const std::uint32_t v : formats::WithFaces(soup_, is_left_out_, 1).face_vertices) {
@@ -174,7 +155,7 @@ class MeshMender {
       }
     }
     unused_ = std::count(used.begin(), used.end(), 0);
-    diagonal_ = surface_.triangles.empty() ? 0.0 : box.diagonal();
+    diagonal_ = surface_.triangles.empty() ? 0.0 : box.diagonal().norm();
     if (unused_ > 0) {
       Warn("UNUSED_VERTICES", unused_, absl::StrCat(unused_, " vertices belong to no face"));
     }
@@ -200,25 +181,15 @@ class MeshMender {
   }
 
   absl::Status KeepMainPart() {
-    const SurfaceParts found = OrientParts(positions_, surface_);
-    const auto bigger = [](const SurfacePart& a, const SurfacePart& b) {
-      return std::abs(a.volume) < std::abs(b.volume);
-    };
-    const auto main = std::max_element(found.parts.begin(), found.parts.end(), bigger);
-    const auto main_index = static_cast<std::uint32_t>(main - found.parts.begin());
-    CAPFIT_RETURN_IF_ERROR(CheckVolume(main->volume, found.parts.size()));
-    if (found.parts.size() > 1) CAPFIT_RETURN_IF_ERROR(CheckRivals(found, main_index));
-    if (main->conflicts > 0) {
-      return Refused(ErrorReason::kNotOrientable,
-                     absl::StrCat("the surface has no inside: its faces cannot be turned the "
-                                  "same way round at ",
-                                  main->conflicts, " edges"));
+    CAPFIT_ASSIGN_OR_RETURN(const MainPart main,
+                            mesh::KeepMainPart(positions_, LeastVolume(), surface_));
+    turned_ = main.turned;
+    left_out_share_ = main.left_out_share;
+    if (main.parts_left_out > 0) {
+      Warn("PARTS_LEFT_OUT", static_cast<std::int64_t>(main.parts_left_out),
+           absl::StrCat(main.parts_left_out, " separate parts (", main.faces_left_out,
+                        " faces) were left out; the part with the largest volume was kept"));
     }
-    turned_ = main->turned;
-    if (found.parts.size() == 1) return absl::OkStatus();
-    const double all = Area();
-    KeepPart(found, main_index, surface_);
-    left_out_share_ = 1.0 - Area() / all;
     return absl::OkStatus();
   }
 
@@ -226,53 +197,12 @@ class MeshMender {
     return kLeastVolumeShare * diagonal_ * diagonal_ * diagonal_;
   }
 
-  absl::Status CheckVolume(double volume, std::size_t parts) const {
-    if (std::abs(volume) > LeastVolume()) return absl::OkStatus();
-    return Refused(ErrorReason::kNoVolume,
-                   absl::StrFormat("the surface encloses no volume; it has %d parts that share "
-                                   "no edge: do neighbouring faces have the same vertices, or "
-                                   "equal ones to within %g of the diagonal?",
-                                   parts, kWeldShare));
-  }
-
-  // A part of similar size is another body, unless it lies within the main part's box: then it is
-  // its inner wall.
-  absl::Status CheckRivals(const SurfaceParts& found, std::uint32_t main) {
-    const double main_volume = std::abs(found.parts[main].volume);
-    const Box main_box = BoxOf(found, main);
-    std::size_t rivals = 0;
-    for (std::uint32_t p = 0; p < found.parts.size(); ++p) {
-      const double share = std::abs(found.parts[p].volume) / main_volume;
-      if (p == main || share < kRivalShare) continue;
-      if (++rivals > kMostInnerWalls || !main_box.Holds(BoxOf(found, p))) {
-        return Refused(ErrorReason::kTwoBodies,
-                       absl::StrFormat("two separate parts are of similar size (the second has "
-                                       "%.0f %% of the first one's volume); send one body",
-                                       100.0 * share));
-      }
-    }
-    Warn("PARTS_LEFT_OUT", static_cast<std::int64_t>(found.parts.size() - 1),
-         absl::StrCat(found.parts.size() - 1, " separate parts (",
-                      surface_.triangles.size() - found.parts[main].triangles,
-                      " faces) were left out; the part with the largest volume was kept"));
-    return absl::OkStatus();
-  }
-
-  [[nodiscard]] Box BoxOf(const SurfaceParts& found, std::uint32_t part) const {
-    Box box;
-    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-      if (found.part_of_triangle[t] != part) continue;
-      for (const std::uint32_t v : surface_.triangles[t]) box.Add(positions_[v]);
-    }
-    return box;
-  }
-
   absl::Status CloseAllHoles() {
     if (std::find(surface_.mate.begin(), surface_.mate.end(), kNoMate) == surface_.mate.end()) {
       return absl::OkStatus();
     }
     own_triangles_ = surface_.triangles.size();
-    const double own_area = Area();
+    const double own_area = AreaOf(positions_, surface_.triangles);
     CAPFIT_ASSIGN_OR_RETURN(const ClosedHoles closed, CloseHoles(positions_, surface_));
     if (closed.holes == 0) return absl::OkStatus();
     const std::string what =
@@ -288,29 +218,19 @@ class MeshMender {
     return absl::OkStatus();
   }
 
-  [[nodiscard]] double Area() const {
-    double area = 0.0;
-    for (const Triangle& t : surface_.triangles) {
-      const Eigen::Vector3d b = positions_[t[1]] - positions_[t[0]];
-      area += 0.5 * b.cross(positions_[t[2]] - positions_[t[0]]).norm();
-    }
-    return area;
-  }
-
   [[nodiscard]] double Volume() const {
     const Eigen::Vector3d& origin = positions_[surface_.triangles.front()[0]];
     double volume = 0.0;
     for (const Triangle& t : surface_.triangles) {
-      const Eigen::Vector3d a = positions_[t[0]] - origin;
-      const Eigen::Vector3d b = positions_[t[1]] - origin;
-      volume += a.dot(b.cross(positions_[t[2]] - origin)) / 6.0;
+      volume += SignedVolume(positions_[t[0]] - origin, positions_[t[1]] - origin,
+                             positions_[t[2]] - origin);
     }
     return volume;
   }
 
   absl::Status TurnOutward() {
     const double volume = Volume();
-    CAPFIT_RETURN_IF_ERROR(CheckVolume(volume, 1));
+    CAPFIT_RETURN_IF_ERROR(CheckEnclosedVolume(volume, LeastVolume(), 1));
     const std::size_t own = own_triangles_ > 0 ? own_triangles_ : surface_.triangles.size();
     if (volume < 0.0) {
       TurnInsideOut(surface_);
@@ -342,11 +262,12 @@ class MeshMender {
       positions = with_copies;
     }
     // By the size of what was kept: a mended mesh that comes again is held against the same.
-    Box kept;
+    Eigen::AlignedBox3d kept;
     for (const Triangle& t : surface_.triangles) {
-      for (const std::uint32_t v : t) kept.Add(positions[v]);
+      for (const std::uint32_t v : t) kept.extend(positions[v]);
     }
-    MendedTriangles mended = MendFlatTriangles(positions, kFlatShare * kept.diagonal(), surface_);
+    MendedTriangles mended =
+        MendFlatTriangles(positions, kFlatShare * kept.diagonal().norm(), surface_);
     const std::size_t count = mended.flipped + mended.merged.size();
     if (count == 0) return;
     Warn("FLAT_FACES", static_cast<std::int64_t>(count),
@@ -372,36 +293,6 @@ class MeshMender {
     WarnOfDropped();
     WarnOfOverlap(overlap, mesh.volume());
     return {std::move(mesh), std::move(warnings_), left_out_share_};
-  }
-
-  BodyMesh MeshOfUsed() {
-    std::vector<std::uint32_t> new_index(positions_.size() + copied_.size(), kNone);
-    for (const Triangle& t : surface_.triangles) {
-      new_index[t[0]] = new_index[t[1]] = new_index[t[2]] = 0;
-    }
-    std::vector<Eigen::Vector3d> vertices;
-    vertices.reserve(new_index.size());
-    for (std::size_t v = 0; v < new_index.size(); ++v) {
-      if (new_index[v] == kNone) continue;
-      new_index[v] = static_cast<std::uint32_t>(vertices.size());
-      vertices.push_back(positions_[v < positions_.size() ? v : copied_[v - positions_.size()]]);
-    }
-    if (vertices.size() < new_index.size()) {
-      for (Triangle& t : surface_.triangles) {
-        for (std::uint32_t& v : t) v = new_index[v];
-      }
-    }
-    // A vertex may give way to one that gives way later, so the last come first.
-    for (auto merge = merged_.rbegin(); merge != merged_.rend(); ++merge) {
-      new_index[merge->first] = new_index[merge->second];
-    }
-    std::vector<std::int32_t> vertex_of_source(positions_.size());
-    for (std::size_t v = 0; v < positions_.size(); ++v) {
-      const std::uint32_t index = new_index[stand_in_.empty() ? v : stand_in_[v]];
-      vertex_of_source[v] = index == kNone ? -1 : static_cast<std::int32_t>(index);
-    }
-    return BodyMesh(std::move(vertices), std::move(surface_.triangles), std::move(vertex_of_source),
-                    std::move(surface_.mate), pool_);
   }
 
   void WarnOfOverlap(const Overlap& overlap, double volume) {

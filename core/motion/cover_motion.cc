@@ -217,8 +217,8 @@ class MotionCoverer {
   // Whether anything grew. One pass of points, each against the solid that was nearest. Not
   // coverage::GrowTo: it moves centres, and here they stay where they are carried to.
   bool GrowIn(std::size_t frame, capsule::PrimitiveSet& posed) const {
-    const std::vector<tighten::Solid> solids = tighten::SetVariables(posed).solids();
-    const std::vector<TaperedCapsule> shapes = tighten::ShapesOf(solids, posed);
+    const std::vector<capsule::CapsuleEnds> solids = capsule::SolidEnds(posed);
+    const std::vector<TaperedCapsule> shapes = capsule::Solids(posed);
     const tighten::UnionDistances at = grids_[frame].DistancesTo(shapes, -1.0, pool_);
     bool has_grown = false;
     for (std::size_t i = 0; i < grids_[frame].size(); ++i) {
@@ -228,9 +228,10 @@ class MotionCoverer {
     return has_grown;
   }
 
-  bool GrowTo(const Vec3& point, const tighten::Solid& solid, capsule::PrimitiveSet& posed) const {
-    geometry::Sphere& a = posed.spheres[U(solid.ends[0])];
-    geometry::Sphere& b = posed.spheres[U(solid.ends[1])];
+  bool GrowTo(const Vec3& point, const capsule::CapsuleEnds& solid,
+              capsule::PrimitiveSet& posed) const {
+    geometry::Sphere& a = posed.spheres[U(solid[0])];
+    geometry::Sphere& b = posed.spheres[U(solid[1])];
     const geometry::CapsuleDistance at = TaperedCapsule(a, b).Locate(point);
     const double missing = at.distance_m - allowed_;
     if (!(missing > 1e-12)) return false;

@@ -35,19 +35,17 @@ LocalTurns::LocalTurns(std::span<const Eigen::Vector3d> rest_m, const capsule::P
     : rest_m_(rest_m),
       weights_(set.spheres.size(), 0.0),
       middles_m_(set.spheres.size(), Eigen::Vector3d::Zero()) {
-  capsule::PrimitiveSet copy = set;
-  const std::vector<tighten::Solid> solids = tighten::SetVariables(copy).solids();
-  const std::vector<geometry::TaperedCapsule> shapes = tighten::ShapesOf(solids, copy);
+  const std::vector<capsule::CapsuleEnds> solids = capsule::SolidEnds(set);
+  const std::vector<geometry::TaperedCapsule> shapes = capsule::Solids(set);
   const tighten::PointGrid grid(rest_m);
   const tighten::UnionDistances at = grid.DistancesTo(shapes, -1.0, pool);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const auto nearest = static_cast<std::size_t>(at.solid[i]);
     const double t = shapes[nearest].Locate(grid.point(i)).axis_parameter;
     for (const int end : {0, 1}) {
-      const Share share{
-          grid.order()[i],
-          static_cast<std::uint32_t>(solids[nearest].ends[static_cast<std::size_t>(end)]),
-          end == 0 ? 1.0 - t : t};
+      const Share share{grid.order()[i],
+                        static_cast<std::uint32_t>(solids[nearest][static_cast<std::size_t>(end)]),
+                        end == 0 ? 1.0 - t : t};
       if (!(share.weight > 0.0)) continue;
       shares_.push_back(share);
       weights_[share.sphere] += share.weight;

@@ -13,6 +13,7 @@
 #include "core/refine/best_fit/best_fit_objective.h"
 #include "core/refine/best_fit/growth.h"
 #include "core/refine/best_fit/occupancy_grid.h"
+#include "core/refine/best_fit/thin_out.h"
 #include "core/refine/enclosing/enclosing_search.h"
 #include "core/refine/enclosing/enclosing_task.h"
 #include "core/refine/graph/graph_edit.h"
@@ -58,26 +59,24 @@ constexpr double kGrown = 0.5;
 constexpr double kExchanged = 0.75;
 constexpr double kFinished = 0.78;
 
-// The vertices of the selected parts; folded to x >= 0, copies dropped, where
-// symmetric.
-std::vector<CoverPoint> SelectedPoints(const body::Body& body, const RefineOptions& options,
-                                       bool symmetric) {
-  std::vector<CoverPoint> points;
+// The vertices of the selected parts; folded to x >= 0, copies dropped, where symmetric.
+std::vector<Eigen::Vector3f> SelectedPoints(const body::Body& body, const RefineOptions& options,
+                                            bool symmetric) {
+  std::vector<Eigen::Vector3f> points;
   for (std::size_t v = 0; v < body.mesh.vertices().size(); ++v) {
     if (!options.parts.Includes(body::PartOf(body.vertex_segments[v]))) continue;
-    Eigen::Vector3f p = body.mesh.vertices()[v].cast<float>();
-    if (symmetric) p.x() = std::abs(p.x());
-    points.push_back({p, static_cast<float>(options.tolerance_m)});
+    points.push_back(body.mesh.vertices()[v].cast<float>());
+    if (symmetric) points.back().x() = std::abs(points.back().x());
   }
   if (!symmetric) return points;
-  const auto key = [](const CoverPoint& p) {
-    const Eigen::Vector3f q = p.position_m / static_cast<float>(kFoldCellM);
+  const auto key = [](const Eigen::Vector3f& p) {
+    const Eigen::Vector3f q = p / static_cast<float>(kFoldCellM);
     return std::array<long, 3>{std::lround(q.x()), std::lround(q.y()), std::lround(q.z())};
   };
   std::vector<std::pair<std::array<long, 3>, std::size_t>> order(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) order[i] = {key(points[i]), i};
   std::sort(order.begin(), order.end());
-  std::vector<CoverPoint> kept;
+  std::vector<Eigen::Vector3f> kept;
   for (std::size_t i = 0; i < order.size(); ++i) {
     // Rounding may part equal points or join points up to 20 um apart; both are harmless.
     if (i == 0 || order[i].first != order[i - 1].first) kept.push_back(points[order[i].second]);
@@ -96,14 +95,15 @@ GrowthOptions PlanGrowth(const capsule::Budget& budget) {
   return plan;
 }
 
-void RemoveUseless(CapsuleGraph& graph) {
+void RemoveUseless(capsule::MirroredSet& graph) {
   MergeSwallowed(graph);
   RemoveSwallowed(graph);
 }
 
 // Settles the start and brings it up to the budget.
-CapsuleGraph FindSet(const Objective& objective, const capsule::Budget& budget,
-                     const ThreadPool& pool, double until, WorkMeter& meter, CapsuleGraph graph) {
+capsule::MirroredSet FindSet(const BestFitObjective& objective, const capsule::Budget& budget,
+                             const ThreadPool& pool, double until, WorkMeter& meter,
+                             capsule::MirroredSet graph) {
   const double begin = meter.until();
   const auto at = [&](double share) { return begin + share * (until - begin); };
   GrowthOptions plan = PlanGrowth(budget);
@@ -133,14 +133,15 @@ CapsuleGraph FindSet(const Objective& objective, const capsule::Budget& budget,
 }
 
 // The best set that one of the starts leads to.
-CapsuleGraph FindBestSet(const Objective& objective, const capsule::Budget& budget,
-                         const ThreadPool& pool, WorkMeter& meter,
-                         std::vector<CapsuleGraph> starts) {
-  CapsuleGraph best;
+capsule::MirroredSet FindBestSet(const BestFitObjective& objective, const capsule::Budget& budget,
+                                 const ThreadPool& pool, WorkMeter& meter,
+                                 std::vector<capsule::MirroredSet> starts) {
+  capsule::MirroredSet best;
   double least = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const double until = static_cast<double>(i + 1) / static_cast<double>(starts.size());
-    CapsuleGraph graph = FindSet(objective, budget, pool, until, meter, std::move(starts[i]));
+    capsule::MirroredSet graph =
+        FindSet(objective, budget, pool, until, meter, std::move(starts[i]));
     // Over the budget only where a cancellation cut the search short.
     const double value = objective.Value(graph) + budget.Excess(graph.count());
     if (value < least) {
@@ -154,37 +155,42 @@ CapsuleGraph FindBestSet(const Objective& objective, const capsule::Budget& budg
 BestFitObjective MakeBestFitObjective(const body::Body& body, const RefineOptions& options,
                                       bool symmetric) {
   OccupancyGrid grid = MakeOccupancyGrid(body, options.parts, kCellM, symmetric);
-  CoverPoints thinned =
-      MakeCoverPoints(ThinOut(SelectedPoints(body, options, symmetric), kThinnedCellM));
-  return {std::move(grid), std::move(thinned), options.seed};
+  std::vector<Vec3> thinned;
+  for (const Eigen::Vector3f& p :
+       ThinOut(SelectedPoints(body, options, symmetric), kThinnedCellM)) {
+    thinned.push_back(p.cast<double>());
+  }
+  SurfacePoints points{tighten::PointGrid(thinned), options.tolerance_m};
+  return {std::move(grid), std::move(points), options.seed};
 }
 
-CapsuleGraph FindBestFit(const body::Body& body, const RefineOptions& options,
-                         const ThreadPool& pool, WorkMeter& meter) {
+capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& options,
+                                 const ThreadPool& pool, WorkMeter& meter) {
   const capsule::Budget& budget = options.budget;
-  std::vector<CapsuleGraph> starts =
-      StartingGraphs(Guise::kBestFit, body, options.parts, budget, /*sizes=*/1, kMostSpared);
+  std::vector<capsule::MirroredSet> starts =
+      StartingGraphs(FitKind::kBestFit, body, options.parts, budget, /*sizes=*/1, kMostSpared);
   return FindBestSet(MakeBestFitObjective(body, options, body.is_symmetric), budget, pool, meter,
                      std::move(starts));
 }
 
 // Settles each of the graphs once more, with points enough to tell their values apart; the best
 // first.
-std::vector<CapsuleGraph> Finish(const EnclosingTask& task, const std::vector<CapsuleGraph>& graphs,
-                                 const ThreadPool& pool, WorkMeter& meter) {
+std::vector<capsule::MirroredSet> Finish(const EnclosingTask& task,
+                                         const std::vector<capsule::MirroredSet>& graphs,
+                                         const ThreadPool& pool, WorkMeter& meter) {
   std::int64_t work = 0;
-  for (const CapsuleGraph& graph : graphs) {
+  for (const capsule::MirroredSet& graph : graphs) {
     work += (kFineSteps + kFineTakeInSteps) * graph.primitive_count();
   }
   meter.Expect(1.0, work);
   struct Finished {
-    CapsuleGraph graph;
+    capsule::MirroredSet graph;
     double value;
   };
   const ThreadPool alone(1);
   std::vector<Finished> finished(graphs.size());
   pool.ForEach(graphs.size(), [&](std::size_t i) {
-    CapsuleGraph graph = graphs[i];
+    capsule::MirroredSet graph = graphs[i];
     task.FindShape(kFineSteps, kFineLooseness, /*seed=*/1, alone, meter, graph);
     task.TakeIn(kFineTakeInSteps, /*seed=*/2, alone, meter, graph);
     const double value = task.Value(graph, alone);
@@ -192,7 +198,7 @@ std::vector<CapsuleGraph> Finish(const EnclosingTask& task, const std::vector<Ca
   });
   std::stable_sort(finished.begin(), finished.end(),
                    [](const Finished& a, const Finished& b) { return a.value < b.value; });
-  std::vector<CapsuleGraph> result;
+  std::vector<capsule::MirroredSet> result;
   for (Finished& f : finished) result.push_back(std::move(f.graph));
   return result;
 }
@@ -211,41 +217,43 @@ Spacings SpacingsFor(int primitives) {
 
 // Standard layouts that fill the budget. They come from long searches over many bodies, and a short
 // one seldom comes to them by itself.
-std::vector<CapsuleGraph> StandardStarts(const body::Body& body, const RefineOptions& options,
-                                         int primitives) {
-  std::vector<CapsuleGraph> starts;
+std::vector<capsule::MirroredSet> StandardStarts(const body::Body& body,
+                                                 const RefineOptions& options, int primitives) {
+  std::vector<capsule::MirroredSet> starts;
   for (const KeptLayout& layout : StandardLayouts()) {
     const bool fills = options.budget.Allows(layout.count()) &&
                        static_cast<double>(layout.count().total()) >= kFillingShare * primitives;
     if (!fills || layout.parts() != options.parts) continue;
-    absl::StatusOr<CapsuleGraph> graph = HangLayout(layout, body);
+    absl::StatusOr<capsule::MirroredSet> graph = HangLayout(layout, body);
     if (graph.ok()) starts.push_back(*std::move(graph));
   }
   return starts;
 }
 
-std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const tighten::CoverTarget& target,
-                                        const RefineOptions& options, const ThreadPool& pool,
-                                        WorkMeter& meter) {
+std::vector<capsule::MirroredSet> FindEnclosing(const body::Body& body,
+                                                const tighten::CoverTarget& target,
+                                                const RefineOptions& options,
+                                                const ThreadPool& pool, WorkMeter& meter) {
   const capsule::Budget& budget = options.budget;
   const int primitives = budget.UsualPrimitives();
   const Spacings spacings = SpacingsFor(primitives);
   const EnclosingTask task(target, body.is_symmetric, options.tolerance_m, spacings.usual);
   // Up to twice as many: what is spared in a good layout leaves a better one than growth finds.
   const int most_spared = primitives > kFewPrimitives ? 0 : primitives;
-  const std::vector<CapsuleGraph> starts =
-      StartingGraphs(Guise::kEnclose, body, options.parts, budget, /*sizes=*/2, most_spared);
-  const std::vector<CapsuleGraph> standard = StandardStarts(body, options, primitives);
+  const std::vector<capsule::MirroredSet> starts =
+      StartingGraphs(FitKind::kEnclose, body, options.parts, budget, /*sizes=*/2, most_spared);
+  const std::vector<capsule::MirroredSet> standard = StandardStarts(body, options, primitives);
   // Two searches: which of the two kinds of starts leads further shows only at their ends.
   const double until = standard.empty() ? kSearched : kSearchedOwn;
-  std::vector<CapsuleGraph> found = FindEnclosingGraphs(task, budget, starts, until, pool, meter);
+  std::vector<capsule::MirroredSet> found =
+      FindEnclosingGraphs(task, budget, starts, until, pool, meter);
   if (!standard.empty()) {
-    std::vector<CapsuleGraph> more =
+    std::vector<capsule::MirroredSet> more =
         FindEnclosingGraphs(task, budget, standard, kSearched, pool, meter);
     std::move(more.begin(), more.end(), std::back_inserter(found));
   }
   const EnclosingTask fine(target, body.is_symmetric, options.tolerance_m, spacings.fine);
-  std::vector<CapsuleGraph> finished = Finish(fine, found, pool, meter);
+  std::vector<capsule::MirroredSet> finished = Finish(fine, found, pool, meter);
   // Few primitives are judged well enough by thinned points.
   if (primitives <= kFewPrimitives) finished.resize(1);
   return finished;
@@ -253,21 +261,21 @@ std::vector<CapsuleGraph> FindEnclosing(const body::Body& body, const tighten::C
 
 // A layout that hangs on the body in the places that it had on another one.
 void Enclose(const tighten::CoverTarget& target, const RefineOptions& options,
-             const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+             const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph) {
   const Spacings spacings = SpacingsFor(graph.primitive_count());
   const auto work = [&](int steps) { return std::int64_t{steps} * graph.primitive_count(); };
   meter.Expect(kHungShapeFound, work(kHungSteps));
-  const EnclosingTask task(target, graph.symmetric, options.tolerance_m, spacings.usual);
+  const EnclosingTask task(target, graph.is_mirrored(), options.tolerance_m, spacings.usual);
   task.FindShape(kHungSteps, 1.0, /*seed=*/1, pool, meter, graph);
   meter.Expect(1.0, work(kHungFineSteps));
-  const EnclosingTask fine(target, graph.symmetric, options.tolerance_m, spacings.fine);
+  const EnclosingTask fine(target, graph.is_mirrored(), options.tolerance_m, spacings.fine);
   fine.FindShape(kHungFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
 }
 
 void FitBest(const body::Body& body, const RefineOptions& options, WorkMeter& meter,
-             CapsuleGraph& graph) {
+             capsule::MirroredSet& graph) {
   meter.Expect(1.0, 1);
-  const BestFitObjective objective = MakeBestFitObjective(body, options, graph.symmetric);
+  const BestFitObjective objective = MakeBestFitObjective(body, options, graph.is_mirrored());
   objective.Settle(Effort::kRough, graph);
   objective.Settle(Effort::kFinish, graph);
 }
@@ -300,7 +308,7 @@ std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
                                              const RefineOptions& options, const ThreadPool& pool,
                                              FitObserver& observer) {
   WorkMeter meter(observer);
-  std::vector<CapsuleGraph> graphs;
+  std::vector<capsule::MirroredSet> graphs;
   if (options.enclose) {
     graphs = FindEnclosing(body, target, options, pool, meter);
   } else {
@@ -308,12 +316,12 @@ std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
   }
   meter.Expect(1.0, 1);
   std::vector<capsule::PrimitiveSet> sets;
-  for (const CapsuleGraph& graph : graphs) {
-    capsule::PrimitiveSet set = SetOf(graph);
-    pool.ForEach(graph.nodes.size(), [&](std::size_t v) {
-      set.origins[v].part = PartAt(body, graph.nodes[v].center_m);
+  for (const capsule::MirroredSet& graph : graphs) {
+    capsule::PrimitiveSet set = graph.set();
+    pool.ForEach(graph.spheres().size(), [&](std::size_t v) {
+      set.origins[v].part = PartAt(body, graph.spheres()[v].center_m);
     });
-    if (graph.symmetric) MirrorParts(options.parts, set);
+    if (graph.is_mirrored()) MirrorParts(options.parts, set);
     sets.push_back(std::move(set));
   }
   return sets;
@@ -324,18 +332,14 @@ absl::StatusOr<capsule::PrimitiveSet> FitToLayout(const body::Body& body,
                                                   const KeptLayout& layout,
                                                   const RefineOptions& options,
                                                   const ThreadPool& pool, FitObserver& observer) {
-  CAPFIT_ASSIGN_OR_RETURN(CapsuleGraph graph, HangLayout(layout, body));
+  CAPFIT_ASSIGN_OR_RETURN(capsule::MirroredSet graph, HangLayout(layout, body));
   WorkMeter meter(observer);
   if (options.enclose) {
     Enclose(target, options, pool, meter, graph);
   } else {
     FitBest(body, options, meter, graph);
   }
-  capsule::PrimitiveSet set = SetOf(graph);
-  for (std::size_t v = 0; v < set.origins.size(); ++v) {
-    set.origins[v].part = layout.spheres[v].part;
-  }
-  return set;
+  return graph.set();
 }
 
 }  // namespace capfit::refine

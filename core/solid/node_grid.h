@@ -69,10 +69,6 @@ class NodeSet {
     const std::uint64_t carry = i + 1 < words_.size() ? words_[i + 1] << 63 : 0;
     return words_[i] >> 1 | carry;  // a column ends with a clear node, and so does the carry
   }
-  // Word i moved up by one: bit k tells of node k - 1.
-  [[nodiscard]] std::uint64_t PreviousWord(std::size_t i) const {
-    return words_[i] << 1 | (i > 0 ? words_[i - 1] >> 63 : 0);
-  }
 
  private:
   std::size_t words_per_column_;
@@ -90,8 +86,6 @@ class NodeNumbers {
     }
   }
   [[nodiscard]] std::size_t count() const { return before_.back(); }
-  // Of the first node of word i.
-  [[nodiscard]] std::uint32_t FirstOf(std::size_t i) const { return before_[i]; }
   // Of bit `bit` of word i, whose content is `word`.
   [[nodiscard]] std::uint32_t Of(std::size_t i, std::uint64_t word, unsigned bit) const {
     const std::uint64_t below = (std::uint64_t{1} << bit) - 1;

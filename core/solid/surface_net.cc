@@ -1,22 +1,17 @@
 #include "core/solid/surface_net.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "core/base/chunk_sums.h"
+#include "core/solid/block_corners.h"
+#include "core/solid/plane_sum.h"
 
 namespace capfit::solid {
 namespace {
-
-// How strongly a vertex is held at the mean of its cell's crossings, beside each plane's pull of 1:
-// little, so that edges stay sharp, but enough where all planes are nearly one.
-constexpr float kHold = 0.03f;
-// Vertices keep this share of a step away from their cell's sides, and so from each other.
-constexpr float kMargin = 0.04f;
 
 // Cells are taken together where all their crossings' planes pass this near to the common vertex,
 // in steps: 1 mm in cells of 5 mm, and a tenth of that in the mean.
@@ -32,81 +27,16 @@ constexpr float kUnknown = 0.2f;
 // at hand does, they are taken apart again; a round or two do.
 constexpr int kMostRounds = 8;
 
-// The 27 nodes of a block as bits u + 4 * (v + 4 * w), and its corners.
-constexpr std::uint64_t kNodes = 0x0000'0777'0777'0777u;
-constexpr std::uint64_t kCorners = 0x0000'0505'0000'0505u;
-
 // Where an edge between two nodes is crossed; t < 0: nothing known.
 struct EdgePoint {
   float t = -1.0f;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
 };
 
-// The place nearest to the planes of some crossings.
-class PlaneSum {
- public:
-  void Add(const Eigen::Vector3f& place, const Eigen::Vector3f& normal) {
-    pull_ += normal * normal.transpose();
-    pulled_ += normal * normal.dot(place);
-    sum_ += place;
-    count_ += 1.0f;
-  }
-  // Within the cube from 0 to `side`.
-  [[nodiscard]] Eigen::Vector3f Nearest(float side) const {
-    const Eigen::Vector3f mean = sum_ / count_;
-    const Eigen::Matrix3f held = pull_ + kHold * count_ * Eigen::Matrix3f::Identity();
-    const Eigen::Vector3f at = mean + held.inverse() * (pulled_ - pull_ * mean);
-    return at.cwiseMax(kMargin).cwiseMin(side - kMargin);
-  }
-
- private:
-  Eigen::Matrix3f pull_ = Eigen::Matrix3f::Zero();
-  Eigen::Vector3f pulled_ = Eigen::Vector3f::Zero();
-  Eigen::Vector3f sum_ = Eigen::Vector3f::Zero();
-  float count_ = 0.0f;
-};
-
 struct Crossing {
   Eigen::Vector3f place;
   Eigen::Vector3f normal;
 };
-
-// Whether all corners of a cube in the set hang together by its edges, all others too, and no side
-// has its corners crosswise: then one sheet parts them.
-bool HangTogether(unsigned corners) {
-  unsigned reached = corners & (~corners + 1u);
-  for (int round = 0; round < 8; ++round) {
-    for (unsigned c = 0; c < 8; ++c) {
-      if ((reached >> c & 1u) == 0) continue;
-      reached |= corners & (1u << (c ^ 1u) | 1u << (c ^ 2u) | 1u << (c ^ 4u));
-    }
-  }
-  return reached == corners;
-}
-
-std::array<bool, 256> MakeOneSheetTable() {
-  std::array<bool, 256> table{};
-  for (unsigned corners = 1; corners < 255; ++corners) {
-    bool is_crosswise = false;
-    for (const unsigned axis : {1u, 2u, 4u}) {
-      const unsigned a = axis == 1u ? 2u : 1u;
-      const unsigned b = 7u ^ axis ^ a;
-      for (const unsigned from : {0u, axis}) {
-        const unsigned side = (corners >> from & 1u) | (corners >> (from ^ a) & 1u) << 1 |
-                              (corners >> (from ^ b) & 1u) << 2 |
-                              (corners >> (from ^ a ^ b) & 1u) << 3;
-        is_crosswise = is_crosswise || side == 0b1001u || side == 0b0110u;
-      }
-    }
-    table[corners] = !is_crosswise && HangTogether(corners) && HangTogether(~corners & 255u);
-  }
-  return table;
-}
-
-bool IsOneSheet(unsigned corners) {
-  static const std::array<bool, 256> kTable = MakeOneSheetTable();
-  return kTable[corners];
-}
 
 class NetBuilder {
  public:
@@ -332,7 +262,6 @@ class NetBuilder {
   // Whether the boundary passes the block's 27 nodes in a single sheet that its eight corners tell
   // of alone: every node between corners is as one of them.
   [[nodiscard]] bool IsSimple(const GridNode& low) const {
-    // Bit u + 4 * (v + 4 * w).
     std::uint64_t in = 0;
     for (std::uint32_t w = 0; w < 3; ++w) {
       for (std::uint32_t v = 0; v < 3; ++v) {
@@ -342,27 +271,7 @@ class NetBuilder {
         in |= (three & 7u) << (4 * (v + 4 * w));
       }
     }
-    unsigned corners = 0;
-    for (unsigned c = 0; c < 8; ++c) corners |= (in >> CornerBit(c) & 1u) << c;
-    return IsOneSheet(corners) && IsAsItsEnds(in);
-  }
-
-  // Bit of corner 4 * w + 2 * v + u among the 27 nodes.
-  [[nodiscard]] static unsigned CornerBit(unsigned c) {
-    return 2 * (c % 2) + 8 * (c / 2 % 2) + 32 * (c / 4);
-  }
-
-  // Whether every node between corners of the block is as one of them. A node is written as two
-  // bits an axis, so the middle of an axis is 1 and its ends 0 and 2.
-  [[nodiscard]] static bool IsAsItsEnds(std::uint64_t in) {
-    // Spread the corners: what is set, or clear, at both ends of an axis must be so between them.
-    std::uint64_t any = in & kCorners;
-    std::uint64_t all = in & kCorners;
-    for (const unsigned shift : {1u, 4u, 16u}) {
-      any |= any << shift | any >> shift;
-      all |= all << shift & all >> shift;
-    }
-    return (in & kNodes & ~any) == 0 && (~in & kNodes & all) == 0;
+    return IsOneSheetToldByCorners(in);
   }
 
   [[nodiscard]] Eigen::Vector3d ToCaller(const GridNode& corner, const Eigen::Vector3f& at) const {

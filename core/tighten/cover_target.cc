@@ -1,10 +1,11 @@
 #include "core/tighten/cover_target.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "core/mesh/surface_sums.h"
 
 namespace capfit::tighten {
 
@@ -18,7 +19,6 @@ CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts) {
     if (!parts.Includes(part)) continue;
     new_index[v] = static_cast<std::uint32_t>(target.points_m.size());
     target.points_m.push_back(surface.vertices_m[v]);
-    target.point_parts.push_back(part);
     target.vertices.push_back(static_cast<std::uint32_t>(v));
   }
   for (const mesh::Triangle& t : surface.triangles) {
@@ -30,11 +30,7 @@ CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts) {
 }
 
 double SizeOf(const CoverTarget& target) {
-  double area = 0.0;
-  for (const mesh::Triangle& t : target.triangles) {
-    const Eigen::Vector3d& origin = target.points_m[t[0]];
-    area += 0.5 * (target.points_m[t[1]] - origin).cross(target.points_m[t[2]] - origin).norm();
-  }
+  const double area = mesh::AreaOf(target.points_m, target.triangles);
   if (area > 0.0) return std::sqrt(area);
   Eigen::Array3d low = target.points_m[0];
   Eigen::Array3d high = low;
@@ -48,12 +44,7 @@ double SizeOf(const CoverTarget& target) {
 std::vector<double> AreaWeights(const CoverTarget& target) {
   const double size = SizeOf(target);
   std::vector<double> weights(target.points_m.size(), 1e-9 * size * size);
-  for (const mesh::Triangle& t : target.triangles) {
-    const Eigen::Vector3d& origin = target.points_m[t[0]];
-    const double third =
-        (target.points_m[t[1]] - origin).cross(target.points_m[t[2]] - origin).norm() / 6.0;
-    for (const auto corner : t) weights[corner] += third;
-  }
+  mesh::AddVertexAreas(target.points_m, target.triangles, weights);
   return weights;
 }
 

@@ -14,7 +14,6 @@ namespace capfit::tighten {
 struct CoverTarget {
   std::vector<Eigen::Vector3d> points_m;
   std::vector<mesh::Triangle> triangles;  // indices into points_m
-  std::vector<body::Part> point_parts;    // which part each point belongs to
   std::vector<std::uint32_t> vertices;    // which vertex of Body::enclosed() each point is
 };
 

@@ -58,54 +58,15 @@ Grid MakeGrid(std::span<const Eigen::Vector3d> points) {
   return grid;
 }
 
-// A solid as the points of one block see it, in floats: from the block's centre, and along the axis
-// from the point nearest to that, so that all numbers are small and their digits tell.
-struct BlockKernel {
-  BlockKernel(const DistanceKernel& solid, const Eigen::Vector3d& center) {
-    const double along = (center.x() - solid.ax) * solid.ux + (center.y() - solid.ay) * solid.uy +
-                         (center.z() - solid.az) * solid.uz;
-    const double start = std::clamp(along, 0.0, solid.length);
-    ox = static_cast<float>(solid.ax + start * solid.ux - center.x());
-    oy = static_cast<float>(solid.ay + start * solid.uy - center.y());
-    oz = static_cast<float>(solid.az + start * solid.uz - center.z());
-    ux = static_cast<float>(solid.ux);
-    uy = static_cast<float>(solid.uy);
-    uz = static_cast<float>(solid.uz);
-    lowest = static_cast<float>(-start);
-    highest = static_cast<float>(solid.length - start);
-    foot_slope = static_cast<float>(solid.slope);
-    const double growth = solid.dr * solid.inverse_length;
-    radius = static_cast<float>(solid.ra + growth * start);
-    radius_slope = static_cast<float>(growth);
+// Lowers `best` and sets `index` where this solid is nearer.
+void Lower(const FloatKernel& solid, std::int32_t own_index, const float* x, const float* y,
+           const float* z, int count, float* best, std::int32_t* index) {
+  for (int i = 0; i < count; ++i) {
+    const float distance = solid.SignedDistance(x[i], y[i], z[i]);
+    index[i] = distance < best[i] ? own_index : index[i];
+    best[i] = distance < best[i] ? distance : best[i];
   }
-
-  // Free of branches, so that loops over it vectorise.
-  [[nodiscard]] float SignedDistance(float x, float y, float z) const {
-    const float dx = x - ox;
-    const float dy = y - oy;
-    const float dz = z - oz;
-    const float axial = dx * ux + dy * uy + dz * uz;
-    const float rest = dx * dx + dy * dy + dz * dz - axial * axial;
-    const float squared = rest > 0.0f ? rest : 0.0f;
-    float foot = axial - std::sqrt(squared) * foot_slope;
-    foot = foot > lowest ? foot : lowest;
-    foot = foot < highest ? foot : highest;
-    const float off = axial - foot;
-    return std::sqrt(squared + off * off) - (radius + radius_slope * foot);
-  }
-
-  // Lowers `best` and sets `index` where this solid is nearer.
-  void Lower(std::int32_t own_index, const float* x, const float* y, const float* z, int count,
-             float* best, std::int32_t* index) const {
-    for (int i = 0; i < count; ++i) {
-      const float distance = SignedDistance(x[i], y[i], z[i]);
-      index[i] = distance < best[i] ? own_index : index[i];
-      best[i] = distance < best[i] ? distance : best[i];
-    }
-  }
-
-  float ox, oy, oz, ux, uy, uz, lowest, highest, foot_slope, radius, radius_slope;
-};
+}
 
 // The solids' distances from a block's centre, the least of them and whose it is.
 struct AtCenter {
@@ -196,9 +157,9 @@ UnionDistances PointGrid::DistancesTo(const std::vector<TaperedCapsule>& solids,
       for (std::size_t k = 0; k < solids.size(); ++k) {
         // Neither this solid nor the nearest at the centre can gain more than the block's reach.
         if (at_center[k] > at.least_m + 2.0 * block.reach) continue;
-        BlockKernel(kernels[k], block.center)
-            .Lower(static_cast<std::int32_t>(k), x_m_.data() + block.begin,
-                   y_m_.data() + block.begin, z_m_.data() + block.begin, count, best.data(), index);
+        Lower(KernelAround(kernels[k], block.center), static_cast<std::int32_t>(k),
+              x_m_.data() + block.begin, y_m_.data() + block.begin, z_m_.data() + block.begin,
+              count, best.data(), index);
       }
       std::copy_n(best.begin(), count, distances);
     }
@@ -208,7 +169,7 @@ UnionDistances PointGrid::DistancesTo(const std::vector<TaperedCapsule>& solids,
 
 void PointGrid::BlockDistances(const Block& block, const TaperedCapsule& solid,
                                float* distance_m) const {
-  const BlockKernel kernel(DistanceKernel(solid), block.center);
+  const FloatKernel kernel = KernelAround(DistanceKernel(solid), block.center);
   const float* const x = x_m_.data() + block.begin;
   const float* const y = y_m_.data() + block.begin;
   const float* const z = z_m_.data() + block.begin;

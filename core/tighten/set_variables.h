@@ -3,17 +3,11 @@
 #define CAPFIT_CORE_TIGHTEN_SET_VARIABLES_H_
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "core/capsule/primitive_set.h"
 
 namespace capfit::tighten {
-
-// One solid of the set by its end spheres; both the same for a sphere that no capsule uses.
-struct Solid {
-  std::array<int, 2> ends{0, 0};
-};
 
 // How a sphere hangs on the variables: four of them (x, y, z, radius) from `first` on. The image of
 // a mirrored pair sees x with the other sign; on the mid-plane x is fixed at 0.
@@ -22,7 +16,7 @@ struct SphereVariables {
   double x_sign = 1.0;  // -1 for the image, 0 on the mid-plane
 };
 
-// The layout of the variables of a set, and the set's solids in the order of capsule::Solids.
+// The layout of the variables of a set: a flat view of it, good until its topology changes.
 class SetVariables {
  public:
   // Makes mirrored spheres exact images and centred ones exactly centred, should they not be.
@@ -32,18 +26,19 @@ class SetVariables {
   [[nodiscard]] const SphereVariables& of(int sphere) const {
     return spheres_[static_cast<std::size_t>(sphere)];
   }
-  [[nodiscard]] const std::vector<Solid>& solids() const { return solids_; }
+  // capsule::SolidEnds of the set.
+  [[nodiscard]] const std::vector<capsule::CapsuleEnds>& solids() const { return solids_; }
   // One sphere of each group of four variables, the one that sees x with its own sign.
   [[nodiscard]] const std::vector<int>& representatives() const { return representatives_; }
 
   // Whether the whole set is its own mirror image. Then every sphere and solid has an image, itself
   // on the mid-plane; otherwise each counts as its own.
-  [[nodiscard]] bool is_symmetric() const { return is_symmetric_; }
+  [[nodiscard]] bool is_symmetric() const { return images_.is_whole; }
   [[nodiscard]] std::size_t image_of_sphere(std::size_t sphere) const {
-    return is_symmetric_ ? static_cast<std::size_t>(images_[sphere]) : sphere;
+    return is_symmetric() ? static_cast<std::size_t>(images_.spheres[sphere]) : sphere;
   }
   [[nodiscard]] std::size_t image_of_solid(std::size_t solid) const {
-    return is_symmetric_ ? solid_images_[solid] : solid;
+    return is_symmetric() ? solid_images_[solid] : solid;
   }
 
   // Change of the variables' values for a change (x, y, z, radius) of `sphere` alone: what a
@@ -56,20 +51,15 @@ class SetVariables {
   void Apply(const Eigen::VectorXd& change, capsule::PrimitiveSet& set) const;
 
  private:
-  bool FindSolidImages();
+  void FindSolidImages();
 
   std::vector<SphereVariables> spheres_;
-  std::vector<int> images_;  // by sphere; itself or -1: none
+  capsule::Images images_;
   std::vector<int> representatives_;
-  std::vector<Solid> solids_;
+  std::vector<capsule::CapsuleEnds> solids_;
   std::vector<std::size_t> solid_images_;
-  bool is_symmetric_ = false;
   int orbit_count_ = 0;
 };
-
-// The solids' shapes, in the order of SetVariables::solids().
-[[nodiscard]] std::vector<geometry::TaperedCapsule> ShapesOf(const std::vector<Solid>& solids,
-                                                             const capsule::PrimitiveSet& set);
 
 }  // namespace capfit::tighten
 

@@ -48,7 +48,7 @@ class Tightener {
       : points_(points), size_(body_size_m), pool_(pool), set_(set), variables_(set) {}
 
   void Step(double trust_m, double penalty, const TightenPhase& phase, std::uint64_t seed) {
-    shapes_ = ShapesOf(variables_.solids(), set_);
+    shapes_ = capsule::Solids(set_);
     PenaltyProgram program;
     AddVolume(seed, program);
     AddBounds(trust_m, phase.fixed_centers ? kFixed * trust_m : trust_m, program);
@@ -98,15 +98,15 @@ class Tightener {
     }
   }
 
-  PenaltyRow RowOf(const Solid& solid, const Eigen::Vector4d& by_a, const Eigen::Vector4d& by_b,
-                   double value, double penalty) const {
+  PenaltyRow RowOf(const capsule::CapsuleEnds& solid, const Eigen::Vector4d& by_a,
+                   const Eigen::Vector4d& by_b, double value, double penalty) const {
     PenaltyRow row;
     row.value = value;
     row.penalty = penalty;
-    row.first = {variables_.of(solid.ends[0]).first, variables_.of(solid.ends[1]).first};
+    row.first = {variables_.of(solid[0]).first, variables_.of(solid[1]).first};
     Eigen::Map<Eigen::Matrix<double, 8, 1>> coefficients(row.coefficients.data());
-    coefficients.head<4>() = variables_.ToVariables(solid.ends[0], by_a);
-    coefficients.tail<4>() = variables_.ToVariables(solid.ends[1], by_b);
+    coefficients.head<4>() = variables_.ToVariables(solid[0], by_a);
+    coefficients.tail<4>() = variables_.ToVariables(solid[1], by_b);
     if (row.first[0] == row.first[1]) {  // a sphere, or a bar between two images
       coefficients.head<4>() += coefficients.tail<4>();
       row.first[1] = -1;
@@ -128,9 +128,9 @@ class Tightener {
                       std::uint32_t place, std::int32_t nearest, double penalty) const {
     const auto index = static_cast<std::size_t>(nearest);
     const geometry::CapsuleDistance at = shapes[index].Locate(points.points.point(place));
-    const Solid& solid = variables_.solids()[index];
-    return RowOf(solid, -(1.0 - at.axis_parameter) * SpeedOf(at.normal, points.pose, solid.ends[0]),
-                 -at.axis_parameter * SpeedOf(at.normal, points.pose, solid.ends[1]),
+    const capsule::CapsuleEnds& solid = variables_.solids()[index];
+    return RowOf(solid, -(1.0 - at.axis_parameter) * SpeedOf(at.normal, points.pose, solid[0]),
+                 -at.axis_parameter * SpeedOf(at.normal, points.pose, solid[1]),
                  at.distance_m - points.allowed_m, penalty);
   }
 
@@ -140,7 +140,7 @@ class Tightener {
       carried.spheres[i].center_m =
           pose.now_m[i] + pose.turns[i] * (set_.spheres[i].center_m - pose.rest_m[i]);
     }
-    return ShapesOf(variables_.solids(), carried);
+    return capsule::Solids(carried);
   }
 
   // What a chunk of blocks asks for.
@@ -236,8 +236,8 @@ class Tightener {
   // |r_a - r_b| <= kMaxSin * length. Where that is broken already it must not get worse.
   void AddSteepnessRows(PenaltyProgram& program) const {
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
-      const Solid& solid = variables_.solids()[k];
-      if (solid.ends[0] == solid.ends[1]) continue;
+      const capsule::CapsuleEnds& solid = variables_.solids()[k];
+      if (solid[0] == solid[1]) continue;
       const TaperedCapsule& shape = shapes_[k];
       const double difference = shape.a().radius_m - shape.b().radius_m;
       const double excess = std::abs(difference) - kMaxSin * shape.length_m();
@@ -252,8 +252,8 @@ class Tightener {
   // |r_a - r_b| <= 0, a row for each sign.
   void AddUniformRows(PenaltyProgram& program) const {
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
-      const Solid& solid = variables_.solids()[k];
-      if (solid.ends[0] == solid.ends[1]) continue;
+      const capsule::CapsuleEnds& solid = variables_.solids()[k];
+      if (solid[0] == solid[1]) continue;
       const double difference = shapes_[k].a().radius_m - shapes_[k].b().radius_m;
       const Eigen::Vector4d radius(0.0, 0.0, 0.0, 1.0);
       const double penalty = kSteepnessPenalty / size_;

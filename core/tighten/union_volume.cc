@@ -72,7 +72,7 @@ class Sampler {
       : set_(set),
         variables_(variables),
         solids_(variables.solids()),
-        shapes_(ShapesOf(solids_, set)),
+        shapes_(capsule::Solids(set)),
         kernels_(shapes_.begin(), shapes_.end()),
         spacing_(spacing_m),
         fade_(kFade * spacing_m),
@@ -139,7 +139,7 @@ class Sampler {
       result.volume_m3 += share.volume;
     };
     for (std::size_t k = 0; k < solids_.size(); ++k) {
-      const auto [a, b] = solids_[k].ends;
+      const auto [a, b] = solids_[k];
       const auto first = static_cast<std::size_t>(a);
       const auto second = static_cast<std::size_t>(b);
       const std::size_t image = variables_.image_of_solid(k);
@@ -150,7 +150,7 @@ class Sampler {
         result.by_sphere[second] += share.b;
       } else {
         const bool in_order =
-            variables_.image_of_sphere(static_cast<std::size_t>(solids_[image].ends[0])) == first;
+            variables_.image_of_sphere(static_cast<std::size_t>(solids_[image][0])) == first;
         result.by_sphere[first] += Mirrored(in_order ? share.a : share.b);
         result.by_sphere[second] += Mirrored(in_order ? share.b : share.a);
       }
@@ -202,8 +202,8 @@ class Sampler {
     Surroundings around;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       const TaperedCapsule& shape = shapes_[k];
-      const bool is_first = solids_[k].ends[0] == self;
-      if (is_first || solids_[k].ends[1] == self) {
+      const bool is_first = solids_[k][0] == self;
+      if (is_first || solids_[k][1] == self) {
         const double way = is_first ? 1.0 : -1.0;
         if (!shape.IsSphere()) {
           around.cuts.push_back({way * shape.axis(), way * shape.sin_half_angle()});
@@ -230,13 +230,13 @@ class Sampler {
   // Solids other than `self` that reach into a ball.
   std::vector<Neighbour> NeighboursOf(const Eigen::Vector3d& center, double reach,
                                       std::size_t self) const {
-    const std::array<int, 2>& own = solids_[self].ends;
+    const capsule::CapsuleEnds& own = solids_[self];
     std::vector<Neighbour> near;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       if (k == self || DistanceOf(k, center) >= reach + fade_) continue;
       const auto is_shared = [&own](int end) { return end == own[0] || end == own[1]; };
-      const bool shares_a = is_shared(solids_[k].ends[0]);
-      const bool shares_b = is_shared(solids_[k].ends[1]);
+      const bool shares_a = is_shared(solids_[k][0]);
+      const bool shares_b = is_shared(solids_[k][1]);
       const TaperedCapsule& shape = shapes_[k];
       if (shape.IsSphere()) {
         // Nothing of a capsule lies within its own end sphere.
@@ -331,7 +331,7 @@ class Sampler {
 
   const capsule::PrimitiveSet& set_;
   const SetVariables& variables_;
-  const std::vector<Solid>& solids_;
+  const std::vector<capsule::CapsuleEnds>& solids_;
   std::vector<TaperedCapsule> shapes_;
   std::vector<DistanceKernel> kernels_;  // of the same solids
   double spacing_;

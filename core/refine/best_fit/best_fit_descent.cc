@@ -28,24 +28,26 @@ double RateAt(const BestFitOptions& options, int step) {
 
 }  // namespace
 
-void DescendBestFit(const OccupancyGrid& grid, const BestFitOptions& options, CapsuleGraph& graph) {
-  std::vector<Moments> moments(graph.nodes.size());
+void DescendBestFit(const OccupancyGrid& grid, const BestFitOptions& options,
+                    capsule::MirroredSet& graph) {
+  std::vector<Moments> moments(graph.spheres().size());
   Random random(options.seed);
   for (int step = 0; step < options.steps; ++step) {
     const BoundaryIntegral boundary = IntegrateBoundary(
         graph, ConesOf(graph), {options.spacing_m, random.NextUnit(), &grid, options.active});
     const double rate = RateAt(options, step) / (1.0 - std::pow(kMeanDecay, step + 1));
     const double unbias = 1.0 / (1.0 - std::pow(kSquareDecay, step + 1));
-    for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
-      if (!graph.IsNodeRepresentative(static_cast<int>(v))) continue;
-      if (options.active != nullptr && !(*options.active)[v]) continue;
-      const Eigen::Vector4d gradient = boundary.gradient_m2[v] / grid.volume_m3;
-      Moments& m = moments[v];
+    for (int v = 0; v < graph.sphere_count(); ++v) {
+      if (!graph.IsRepresentative(v)) continue;
+      if (options.active != nullptr && !(*options.active)[U(v)]) continue;
+      const Eigen::Vector4d gradient = boundary.gradient_m2[U(v)] / grid.volume_m3;
+      Moments& m = moments[U(v)];
       m.mean = kMeanDecay * m.mean + (1.0 - kMeanDecay) * gradient;
       m.square = kSquareDecay * m.square + (1.0 - kSquareDecay) * 0.5 * gradient.squaredNorm();
       const Eigen::Vector4d move = rate * m.mean / (std::sqrt(unbias * m.square) + 1e-9);
-      graph.nodes[v].center_m -= move.head<3>();
-      graph.nodes[v].radius_m = std::max(kLeastRadiusM, graph.nodes[v].radius_m - move[3]);
+      geometry::Sphere& sphere = graph.sphere(v);
+      sphere.center_m -= move.head<3>();
+      sphere.radius_m = std::max(kLeastRadiusM, sphere.radius_m - move[3]);
     }
     graph.CopyToImages();
   }

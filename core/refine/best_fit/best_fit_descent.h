@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/capsule/mirrored_set.h"
 #include "core/refine/best_fit/occupancy_grid.h"
-#include "core/refine/graph/capsule_graph.h"
 
 namespace capfit::refine {
 
@@ -23,7 +23,8 @@ struct BestFitOptions {
 // Adam, with one second moment per centre and one step for centre and radius alike. The gradient
 // is exact for the continuous boundary. Symmetric graphs stay so bit for bit. About 0.1 ms a step
 // at 64 primitives.
-void DescendBestFit(const OccupancyGrid& grid, const BestFitOptions& options, CapsuleGraph& graph);
+void DescendBestFit(const OccupancyGrid& grid, const BestFitOptions& options,
+                    capsule::MirroredSet& graph);
 
 }  // namespace capfit::refine
 

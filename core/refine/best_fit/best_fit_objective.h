@@ -3,31 +3,42 @@
 #define CAPFIT_CORE_REFINE_BEST_FIT_BEST_FIT_OBJECTIVE_H_
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "core/refine/best_fit/cover_points.h"
-#include "core/refine/best_fit/objective.h"
+#include "core/refine/best_fit/best_fit_round.h"
+#include "core/refine/best_fit/far_misses.h"
 #include "core/refine/best_fit/occupancy_grid.h"
 
 namespace capfit::refine {
 
-class BestFitObjective final : public Objective {
- public:
-  // `points` are those of the fitted surface (folded like the grid): new spheres are tried where
-  // they stick out furthest.
-  BestFitObjective(OccupancyGrid grid, CoverPoints points, std::uint64_t seed);
+enum class Effort {
+  kRough,    // from a start whose places and radii are guesses
+  kTouch,    // a few steps after edits
+  kTighten,  // from a set that is finished but for what has been added to the task since
+  kFinish,   // until nothing is left to gain
+};
 
-  void Settle(Effort effort, CapsuleGraph& graph) const override;
-  [[nodiscard]] double Value(const CapsuleGraph& graph) const override;
-  [[nodiscard]] std::unique_ptr<Round> StartRound(const CapsuleGraph& graph) const override;
-  [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const CapsuleGraph& graph,
-                                                         int count) const override;
+// What growing asks: settle a set, judge it, and try edits. All values are relative to the volume
+// of the fitted parts; lower is better. Immutable; may be asked from several threads.
+class BestFitObjective {
+ public:
+  // `points` are folded like the grid: new spheres are tried where they stick out furthest.
+  BestFitObjective(OccupancyGrid grid, SurfacePoints points, std::uint64_t seed);
+
+  // Moves and grows all spheres.
+  void Settle(Effort effort, capsule::MirroredSet& graph) const;
+  // E_r, plus what is left out by far (MissPenalty).
+  [[nodiscard]] double Value(const capsule::MirroredSet& graph) const;
+  // The objective must outlive the round.
+  [[nodiscard]] BestFitRound StartRound(const capsule::MirroredSet& graph) const;
+  // Points of the surface where a new sphere would help most, best first, apart from each other.
+  [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const capsule::MirroredSet& graph,
+                                                         int count) const;
 
  private:
   OccupancyGrid grid_;
   OccupancyGrid coarse_;
-  CoverPoints points_;
+  SurfacePoints points_;
   std::uint64_t seed_;
 };
 

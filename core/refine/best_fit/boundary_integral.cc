@@ -24,9 +24,9 @@ struct Patch {
   alignas(32) std::array<float, kMaxSamples> nx, ny, nz, x, y, z, depth, weight;
 };
 
-Box BoxOf(const CapsuleGraph& graph, const Cone& cone) {
-  const Node& a = graph.nodes[U(cone.node_a)];
-  const Node& b = graph.nodes[U(cone.is_sphere ? cone.node_a : cone.node_b)];
+Box BoxOf(const capsule::MirroredSet& graph, const Cone& cone) {
+  const geometry::Sphere& a = graph.sphere(cone.node_a);
+  const geometry::Sphere& b = graph.sphere(cone.is_sphere ? cone.node_a : cone.node_b);
   const Vec3 ra = Vec3::Constant(a.radius_m);
   const Vec3 rb = Vec3::Constant(b.radius_m);
   return {(a.center_m - ra).cwiseMin(b.center_m - rb), (a.center_m + ra).cwiseMax(b.center_m + rb)};
@@ -38,16 +38,16 @@ bool Overlap(const Box& a, const Box& b) {
 
 class Integrator {
  public:
-  Integrator(const CapsuleGraph& graph, const std::vector<Cone>& cones,
+  Integrator(const capsule::MirroredSet& graph, const std::vector<Cone>& cones,
              const BoundaryOptions& options)
       : graph_(graph), cones_(cones), options_(options) {
-    result_.gradient_m2.assign(graph.nodes.size(), Eigen::Vector4d::Zero());
-    result_.area_m2.assign(graph.nodes.size(), 0.0);
+    result_.gradient_m2.assign(graph.spheres().size(), Eigen::Vector4d::Zero());
+    result_.area_m2.assign(graph.spheres().size(), 0.0);
     for (const Cone& cone : cones) boxes_.push_back(BoxOf(graph, cone));
-    incident_.resize(graph.nodes.size());
+    incident_.resize(graph.spheres().size());
     for (int e = 0; e < graph.capsule_count(); ++e) {
-      incident_[U(graph.edges[U(e)].a)].push_back(e);
-      incident_[U(graph.edges[U(e)].b)].push_back(e);
+      incident_[U(graph.ends(e)[0])].push_back(e);
+      incident_[U(graph.ends(e)[1])].push_back(e);
     }
   }
 
@@ -63,15 +63,15 @@ class Integrator {
 
   void AddSide(int e) {
     const Cone& cone = cones_[U(e)];
-    if (cone.is_sphere || !graph_.IsEdgeRepresentative(e)) return;
+    if (cone.is_sphere || !graph_.IsCapsuleRepresentative(e)) return;
     if (!IsActive(cone.node_a) && !IsActive(cone.node_b)) return;
     near_.clear();
     for (std::size_t j = 0; j < cones_.size(); ++j) {
       if (j != U(e) && Overlap(boxes_[j], boxes_[U(e)])) near_.push_back(static_cast<int>(j));
     }
-    const double side_m = static_cast<double>(cone.cos_half) * cone.length;
+    const double side_m = static_cast<double>(cone.cos_half) * cone.length();
     const int rings = std::max(1, static_cast<int>(side_m / options_.spacing_m + 0.5));
-    const double images = graph_.symmetric && graph_.edges[U(e)].mirror != e ? 2.0 : 1.0;
+    const double images = graph_.is_mirrored() && graph_.ImageOfCapsule(e) != e ? 2.0 : 1.0;
     for (int k = 0; k < rings; ++k) {
       const double shift = Fraction(options_.phase + 0.137 * e + kGoldenShare * k);
       AddRing(cone, (k + shift) / rings, images * side_m / rings, 0.377 * e + kGoldenShare * k);
@@ -80,8 +80,8 @@ class Integrator {
 
   // One ring of the cone's side at the share `t` of its axis, standing for `width_m` of the side.
   void AddRing(const Cone& cone, double t, double width_m, double turn) {
-    const Node& a = graph_.nodes[U(cone.node_a)];
-    const Node& b = graph_.nodes[U(cone.node_b)];
+    const geometry::Sphere& a = graph_.sphere(cone.node_a);
+    const geometry::Sphere& b = graph_.sphere(cone.node_b);
     const Vec3 center = a.center_m + t * (b.center_m - a.center_m);
     const double radius = a.radius_m + t * (b.radius_m - a.radius_m);
     if (!FindOccluders(center, radius)) return;
@@ -111,8 +111,8 @@ class Integrator {
   }
 
   void AddEnd(int v) {
-    if (!graph_.IsNodeRepresentative(v) || !IsActive(v)) return;
-    const Node& node = graph_.nodes[U(v)];
+    if (!graph_.IsRepresentative(v) || !IsActive(v)) return;
+    const geometry::Sphere& node = graph_.sphere(v);
     near_.clear();
     for (std::size_t j = 0; j < cones_.size(); ++j) {
       const Cone& cone = cones_[j];
@@ -129,11 +129,12 @@ class Integrator {
     Share(v, 1.0, force);
   }
 
-  void SpiralOn(const Node& node, int v) {
+  void SpiralOn(const geometry::Sphere& node, int v) {
     const double area = 2.0 * kTwoPi * node.radius_m * node.radius_m;
     const double wanted = area / (options_.spacing_m * options_.spacing_m);
     patch_.count = std::clamp(static_cast<int>(wanted + 0.5), 12, kMaxSamples);
-    patch_.area_m2 = area / patch_.count * (graph_.IsOnPlane(v) || !graph_.symmetric ? 1.0 : 2.0);
+    patch_.area_m2 =
+        area / patch_.count * (graph_.IsOnPlane(v) || !graph_.is_mirrored() ? 1.0 : 2.0);
     const double start = kTwoPi * (3.7 * options_.phase + kGoldenShare * v);
     double c = std::cos(start), s = std::sin(start);
     static const double dc = std::cos(kTwoPi * kGoldenShare), ds = std::sin(kTwoPi * kGoldenShare);
@@ -176,7 +177,7 @@ class Integrator {
     const Eigen::Vector3f c = center.cast<float>();
     const auto r = static_cast<float>(radius);
     for (const int j : near_) {
-      const float distance = SignedDistance(cones_[U(j)], c.x(), c.y(), c.z());
+      const float distance = cones_[U(j)].SignedDistance(c.x(), c.y(), c.z());
       if (distance <= -r) return false;
       if (distance < r) occluders_.push_back(j);
     }
@@ -189,7 +190,7 @@ class Integrator {
     for (const int j : occluders_) {
       const Cone cone = cones_[U(j)];
       for (int i = 0; i < count; ++i) {
-        const float d = SignedDistance(cone, patch_.x[U(i)], patch_.y[U(i)], patch_.z[U(i)]);
+        const float d = cone.SignedDistance(patch_.x[U(i)], patch_.y[U(i)], patch_.z[U(i)]);
         patch_.depth[U(i)] = d < patch_.depth[U(i)] ? d : patch_.depth[U(i)];
       }
     }
@@ -219,10 +220,10 @@ class Integrator {
   }
 
   void FoldImages() {
-    if (!graph_.symmetric) return;
+    if (!graph_.is_mirrored()) return;
     for (int v = 0; v < graph_.sphere_count(); ++v) {
       Eigen::Vector4d& from = result_.gradient_m2[U(v)];
-      const int to = graph_.nodes[U(v)].mirror;
+      const int to = graph_.ImageOf(v);
       if (to == v) from[0] = 0.0;
       if (to >= v) continue;
       from[0] = -from[0];
@@ -233,7 +234,7 @@ class Integrator {
     }
   }
 
-  const CapsuleGraph& graph_;
+  const capsule::MirroredSet& graph_;
   const std::vector<Cone>& cones_;
   const BoundaryOptions& options_;
   BoundaryIntegral result_;
@@ -247,8 +248,8 @@ class Integrator {
 
 }  // namespace
 
-BoundaryIntegral IntegrateBoundary(const CapsuleGraph& graph, const std::vector<Cone>& cones,
-                                   const BoundaryOptions& options) {
+BoundaryIntegral IntegrateBoundary(const capsule::MirroredSet& graph,
+                                   const std::vector<Cone>& cones, const BoundaryOptions& options) {
   return Integrator(graph, cones, options).Run();
 }
 

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/capsule/mirrored_set.h"
 #include "core/refine/best_fit/occupancy_grid.h"
-#include "core/refine/graph/capsule_graph.h"
 #include "core/refine/graph/cone.h"
 
 namespace capfit::refine {
@@ -32,7 +32,7 @@ struct BoundaryIntegral {
 
 // Exact for the continuous boundary (a moving surface sweeps weight * normal speed * area);
 // sampled by rings on the sides and spirals on the ends. O(samples * overlapping primitives).
-[[nodiscard]] BoundaryIntegral IntegrateBoundary(const CapsuleGraph& graph,
+[[nodiscard]] BoundaryIntegral IntegrateBoundary(const capsule::MirroredSet& graph,
                                                  const std::vector<Cone>& cones,
                                                  const BoundaryOptions& options);
 

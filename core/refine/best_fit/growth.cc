@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/capsule/cut_capsules.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/refine/internal.h"
 
@@ -45,22 +45,22 @@ struct Candidate {
 };
 
 // What falling into more pieces, or fewer, counts in primitives.
-double PieceCost(const GrowthOptions& options, const CapsuleGraph& before,
-                 const CapsuleGraph& after) {
+double PieceCost(const GrowthOptions& options, const capsule::MirroredSet& before,
+                 const capsule::MirroredSet& after) {
   if (options.piece_cost == 0.0) return 0.0;
   return options.piece_cost * (ComponentCount(after) - ComponentCount(before));
 }
 
 // Primitives that the edit saves, or what they are worth beside new pieces.
-double SavingOf(const GrowthOptions& options, const CapsuleGraph& before,
-                const CapsuleGraph& after) {
+double SavingOf(const GrowthOptions& options, const capsule::MirroredSet& before,
+                const capsule::MirroredSet& after) {
   return before.primitive_count() - after.primitive_count() - PieceCost(options, before, after);
 }
 
 // Spheres and capsules weigh alike under one total. Under two limits each weighs what share of the
 // room left it takes.
 double CostOf(const capsule::Budget& budget, const GrowthOptions& options,
-              const CapsuleGraph& before, const CapsuleGraph& after) {
+              const capsule::MirroredSet& before, const capsule::MirroredSet& after) {
   const double spheres =
       after.sphere_count() - before.sphere_count() + PieceCost(options, before, after);
   const double capsules = after.capsule_count() - before.capsule_count();
@@ -73,24 +73,24 @@ double CostOf(const capsule::Budget& budget, const GrowthOptions& options,
   return std::max(0.5, unit * (spheres / sphere_room + capsules / capsule_room));
 }
 
-void ProposeLinks(const CapsuleGraph& graph, std::vector<Edit>& edits) {
+void ProposeLinks(const capsule::MirroredSet& graph, std::vector<Edit>& edits) {
   for (int i = 0; i < graph.sphere_count(); ++i) {
     for (int j = i + 1; j < graph.sphere_count(); ++j) {
-      const Node& a = graph.nodes[U(i)];
-      const Node& b = graph.nodes[U(j)];
-      if (graph.symmetric && std::minmax(a.mirror, b.mirror) < std::minmax(i, j)) continue;
+      const geometry::Sphere& a = graph.sphere(i);
+      const geometry::Sphere& b = graph.sphere(j);
+      if (IsLaterImage(graph, i, j)) continue;
       const double reach = kLinkReach * (a.radius_m + b.radius_m);
-      if ((a.center_m - b.center_m).norm() > reach || graph.HasEdge(i, j)) continue;
+      if ((a.center_m - b.center_m).norm() > reach || graph.HasCapsule(i, j)) continue;
       edits.push_back(EditOf(EditKind::kLink, i, j));
     }
   }
 }
 
-std::vector<Edit> Additions(const Objective& objective, const GrowthOptions& options,
-                            const CapsuleGraph& graph) {
+std::vector<Edit> Additions(const BestFitObjective& objective, const GrowthOptions& options,
+                            const capsule::MirroredSet& graph) {
   std::vector<Edit> edits;
   for (int e = 0; e < graph.capsule_count(); ++e) {
-    if (graph.IsEdgeRepresentative(e)) edits.push_back(EditOf(EditKind::kSplit, e));
+    if (graph.IsCapsuleRepresentative(e)) edits.push_back(EditOf(EditKind::kSplit, e));
   }
   ProposeLinks(graph, edits);
   for (int v = 0; v < graph.sphere_count(); ++v) {
@@ -110,13 +110,13 @@ std::vector<Edit> Additions(const Objective& objective, const GrowthOptions& opt
   return edits;
 }
 
-std::vector<Edit> Removals(const CapsuleGraph& graph) {
+std::vector<Edit> Removals(const capsule::MirroredSet& graph) {
   std::vector<Edit> edits;
   for (int e = 0; e < graph.capsule_count(); ++e) {
-    if (graph.IsEdgeRepresentative(e)) edits.push_back(EditOf(EditKind::kUnlink, e));
+    if (graph.IsCapsuleRepresentative(e)) edits.push_back(EditOf(EditKind::kUnlink, e));
   }
   for (int v = 0; v < graph.sphere_count(); ++v) {
-    if (graph.IsNodeRepresentative(v)) edits.push_back(EditOf(EditKind::kDissolve, v));
+    if (graph.IsRepresentative(v)) edits.push_back(EditOf(EditKind::kDissolve, v));
   }
   return edits;
 }
@@ -129,11 +129,11 @@ void SortByScore(std::vector<Candidate>& candidates) {
 // Applies and settles all edits in parallel: a glance at each, then the better ones in earnest.
 // `score` turns a gain into a score. Best first.
 template <class Admit, class Score>
-std::vector<Candidate> TryAll(const Objective& objective, const CapsuleGraph& graph,
+std::vector<Candidate> TryAll(const BestFitObjective& objective, const capsule::MirroredSet& graph,
                               const std::vector<Edit>& edits, const ThreadPool& pool,
                               WorkMeter& meter, double until, double thorough_share,
                               const Admit& admit, const Score& score) {
-  const std::unique_ptr<Objective::Round> round = objective.StartRound(graph);
+  const BestFitRound round = objective.StartRound(graph);
   std::vector<Candidate> candidates(edits.size());
   const auto attempt = [&](Trial trial) {
     pool.ForEach(candidates.size(), [&](std::size_t i) {
@@ -147,7 +147,7 @@ std::vector<Candidate> TryAll(const Objective& objective, const CapsuleGraph& gr
         c.result = Apply(graph, edits[i]);
         c.result.possible = c.result.possible && admit(c.result.graph);
       }
-      if (c.result.possible) c.score = score(c.result.graph, round->Try(trial, c.result));
+      if (c.result.possible) c.score = score(c.result.graph, round.Try(trial, c.result));
       meter.Add(trial == Trial::kGlance ? 1 : kGlancesPerThorough);
     });
     std::erase_if(candidates, [](const Candidate& c) { return !c.result.possible; });
@@ -163,7 +163,8 @@ std::vector<Candidate> TryAll(const Objective& objective, const CapsuleGraph& gr
 }
 
 // Whether the edit's surroundings are still as they were tried; locks them if so.
-bool LockSurroundings(const CapsuleGraph& graph, const Candidate& c, std::vector<char>& locked) {
+bool LockSurroundings(const capsule::MirroredSet& graph, const Candidate& c,
+                      std::vector<char>& locked) {
   const std::vector<char> around = Neighbourhood(graph, c.result.touched_before, 0);
   for (std::size_t v = 0; v < around.size(); ++v) {
     if (around[v] && locked[v]) return false;
@@ -174,14 +175,14 @@ bool LockSurroundings(const CapsuleGraph& graph, const Candidate& c, std::vector
 
 // The edit again on a graph that has grown by other edits meanwhile, with the places that were
 // found in the trial. Only for edits that add: they keep all indices of nodes.
-std::optional<CapsuleGraph> Replay(const CapsuleGraph& base, const Candidate& c,
-                                   const CapsuleGraph& grown) {
+std::optional<capsule::MirroredSet> Replay(const capsule::MirroredSet& base, const Candidate& c,
+                                           const capsule::MirroredSet& grown) {
   Edit edit = c.edit;
   if (edit.kind == EditKind::kSplit) {
-    const Edge& wanted = base.edges[U(edit.first)];
+    const capsule::CapsuleEnds& wanted = base.ends(edit.first);
     edit.first = -1;
     for (int e = 0; e < grown.capsule_count(); ++e) {
-      if (grown.edges[U(e)].a == wanted.a && grown.edges[U(e)].b == wanted.b) edit.first = e;
+      if (grown.ends(e)[0] == wanted[0] && grown.ends(e)[1] == wanted[1]) edit.first = e;
     }
     if (edit.first < 0) return std::nullopt;
   }
@@ -189,21 +190,22 @@ std::optional<CapsuleGraph> Replay(const CapsuleGraph& base, const Candidate& c,
   if (!again.possible) return std::nullopt;
   const int shift = grown.sphere_count() - base.sphere_count();
   for (const int v : c.result.touched) {
-    const int image = c.result.graph.symmetric ? c.result.graph.nodes[U(v)].mirror : v;
+    const int image = c.result.graph.is_mirrored() ? c.result.graph.ImageOf(v) : v;
     for (const int from : {v, image}) {
-      Node& to = again.graph.nodes[U(from < base.sphere_count() ? from : from + shift)];
-      to.center_m = c.result.graph.nodes[U(from)].center_m;
-      to.radius_m = c.result.graph.nodes[U(from)].radius_m;
+      geometry::Sphere& to = again.graph.sphere(from < base.sphere_count() ? from : from + shift);
+      to.center_m = c.result.graph.sphere(from).center_m;
+      to.radius_m = c.result.graph.sphere(from).radius_m;
     }
   }
   return again.graph;
 }
 
 // Keeps the best candidates that do not touch each other.
-CapsuleGraph KeepBest(const CapsuleGraph& graph, const std::vector<Candidate>& candidates,
-                      const capsule::Budget& budget, double room_to_spend) {
-  std::vector<char> locked(graph.nodes.size(), 0);
-  CapsuleGraph grown = graph;
+capsule::MirroredSet KeepBest(const capsule::MirroredSet& graph,
+                              const std::vector<Candidate>& candidates,
+                              const capsule::Budget& budget, double room_to_spend) {
+  std::vector<char> locked(graph.spheres().size(), 0);
+  capsule::MirroredSet grown = graph;
   const int start = graph.primitive_count();
   for (const Candidate& c : candidates) {
     if (c.score < kKeepShare * candidates.front().score || c.score <= 0.0) break;
@@ -212,7 +214,7 @@ CapsuleGraph KeepBest(const CapsuleGraph& graph, const std::vector<Candidate>& c
     const bool parts = c.edit.kind == EditKind::kPart;
     if (parts && grown.primitive_count() > start) continue;
     if (!LockSurroundings(graph, c, locked)) continue;
-    std::optional<CapsuleGraph> next = Replay(graph, c, grown);
+    std::optional<capsule::MirroredSet> next = Replay(graph, c, grown);
     if (!next || !budget.Allows(next->count())) continue;
     grown = *std::move(next);
     if (parts) break;
@@ -220,20 +222,20 @@ CapsuleGraph KeepBest(const CapsuleGraph& graph, const std::vector<Candidate>& c
   return grown;
 }
 
-bool GrowOnce(const Objective& objective, const capsule::Budget& budget,
+bool GrowOnce(const BestFitObjective& objective, const capsule::Budget& budget,
               const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
-              CapsuleGraph& graph) {
+              capsule::MirroredSet& graph) {
   const std::vector<Candidate> candidates = TryAll(
       objective, graph, Additions(objective, options, graph), pool, meter, options.until,
       options.thorough_share,
-      [&](const CapsuleGraph& after) { return budget.Allows(after.count()); },
-      [&](const CapsuleGraph& after, double gain) {
+      [&](const capsule::MirroredSet& after) { return budget.Allows(after.count()); },
+      [&](const capsule::MirroredSet& after, double gain) {
         return gain / CostOf(budget, options, graph, after);
       });
   if (candidates.empty() || candidates.front().score <= 0.0) return false;
-  CapsuleGraph grown = KeepBest(graph, candidates, budget,
-                                std::max(options.batch_share * budget.Unused(graph.count()),
-                                         kLeastBatchShare * graph.primitive_count()));
+  capsule::MirroredSet grown = KeepBest(graph, candidates, budget,
+                                        std::max(options.batch_share * budget.Unused(graph.count()),
+                                                 kLeastBatchShare * graph.primitive_count()));
   if (grown.primitive_count() == graph.primitive_count()) return false;
   objective.Settle(Effort::kTouch, grown);
   if (options.piece_cost > 0.0) MergeSwallowed(grown);
@@ -244,36 +246,36 @@ bool GrowOnce(const Objective& objective, const capsule::Budget& budget,
 }
 
 // Capsules and spheres that could go, least loss first.
-std::vector<Candidate> RankRemovals(const Objective& objective, const GrowthOptions& options,
+std::vector<Candidate> RankRemovals(const BestFitObjective& objective, const GrowthOptions& options,
                                     const ThreadPool& pool, WorkMeter& meter,
-                                    const CapsuleGraph& graph) {
+                                    const capsule::MirroredSet& graph) {
   return TryAll(
       objective, graph, Removals(graph), pool, meter, options.until, kSpareThoroughShare,
-      [&](const CapsuleGraph& after) { return SavingOf(options, graph, after) > 0.0; },
-      [&](const CapsuleGraph& after, double gain) {
+      [&](const capsule::MirroredSet& after) { return SavingOf(options, graph, after) > 0.0; },
+      [&](const capsule::MirroredSet& after, double gain) {
         return gain / std::max(0.5, SavingOf(options, graph, after));
       });
 }
 
 // Without the candidate `first`, and where that is a capsule without other capsules elsewhere that
 // cost hardly more, up to `most` primitives or a little beyond.
-CapsuleGraph TakeAway(const std::vector<Candidate>& candidates, std::size_t first, int most,
-                      const GrowthOptions& options, const CapsuleGraph& graph) {
+capsule::MirroredSet TakeAway(const std::vector<Candidate>& candidates, std::size_t first, int most,
+                              const GrowthOptions& options, const capsule::MirroredSet& graph) {
   const Candidate& chosen = candidates[first];
-  CapsuleGraph spared = chosen.result.graph;
+  capsule::MirroredSet spared = chosen.result.graph;
   // Removing capsules keeps the indices of spheres, so that several may go at once.
   if (chosen.edit.kind != EditKind::kUnlink) return spared;
-  std::vector<char> locked(graph.nodes.size(), 0);
+  std::vector<char> locked(graph.spheres().size(), 0);
   LockSurroundings(graph, chosen, locked);
   const double worst = kSpareShare * std::min(-kLeastLoss, chosen.score);
   for (const Candidate& c : candidates) {
     if (graph.primitive_count() - spared.primitive_count() >= most || c.score < worst) break;
     if (c.edit.kind != EditKind::kUnlink || !LockSurroundings(graph, c, locked)) continue;
-    const Edge& wanted = graph.edges[U(c.edit.first)];
+    const capsule::CapsuleEnds& wanted = graph.ends(c.edit.first);
     for (int e = 0; e < spared.capsule_count(); ++e) {
-      if (spared.edges[U(e)].a != wanted.a || spared.edges[U(e)].b != wanted.b) continue;
-      CapsuleGraph without = spared;
-      without.RemoveEdge(e);
+      if (spared.ends(e)[0] != wanted[0] || spared.ends(e)[1] != wanted[1]) continue;
+      capsule::MirroredSet without = spared;
+      without.RemoveCapsule(e);
       if (SavingOf(options, spared, without) > 0.0) spared = std::move(without);
       break;
     }
@@ -281,8 +283,9 @@ CapsuleGraph TakeAway(const std::vector<Candidate>& candidates, std::size_t firs
   return spared;
 }
 
-void Fill(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
-          const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+void Fill(const BestFitObjective& objective, const capsule::Budget& budget,
+          const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
+          capsule::MirroredSet& graph) {
   const int room = budget.Unused(graph.count());
   const double begin = meter.until();
   for (int i = 0; i < 4 + room && budget.Unused(graph.count()) > 0; ++i) {
@@ -295,9 +298,9 @@ void Fill(const Objective& objective, const capsule::Budget& budget, const Growt
 
 // Gives up the least and spends it elsewhere, as long as that pays. Where it does not, the next
 // least is given up instead.
-void Exchange(const Objective& objective, const capsule::Budget& budget,
+void Exchange(const BestFitObjective& objective, const capsule::Budget& budget,
               const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
-              CapsuleGraph& graph) {
+              capsule::MirroredSet& graph) {
   objective.Settle(Effort::kTighten, graph);
   double value = objective.Value(graph);
   std::vector<Candidate> removals;
@@ -308,7 +311,7 @@ void Exchange(const Objective& objective, const capsule::Budget& budget,
     if (failures == 0) removals = RankRemovals(objective, options, pool, meter, graph);
     if (failures >= removals.size()) return;
     const int most = std::max(2, static_cast<int>(kExchangeShare * graph.primitive_count()));
-    CapsuleGraph other = TakeAway(removals, failures, most, options, graph);
+    capsule::MirroredSet other = TakeAway(removals, failures, most, options, graph);
     objective.Settle(Effort::kTouch, other);
     refill.until = begin + (i + 1.0) / options.exchanges * (options.until - begin);
     Fill(objective, budget, refill, pool, meter, other);
@@ -323,33 +326,18 @@ void Exchange(const Objective& objective, const capsule::Budget& budget,
   }
 }
 
-// The graph with the largest capsules cut until nothing fits any more.
-CapsuleGraph CutLargest(const capsule::Budget& budget, CapsuleGraph graph) {
-  const auto surface = [&graph](int e) {
-    const Node& a = graph.nodes[U(graph.edges[U(e)].a)];
-    const Node& b = graph.nodes[U(graph.edges[U(e)].b)];
-    return (a.center_m - b.center_m).norm() * (a.radius_m + b.radius_m);
-  };
-  for (;;) {
-    int largest = -1;
-    for (int e = 0; e < graph.capsule_count(); ++e) {
-      const bool is_larger = largest < 0 || surface(e) > surface(largest);
-      if (graph.IsEdgeRepresentative(e) && is_larger) largest = e;
-    }
-    if (largest < 0) return graph;
-    EditedGraph cut = Apply(graph, EditOf(EditKind::kSplit, largest));
-    if (!cut.possible || !budget.Allows(cut.graph.count())) return graph;
-    graph = std::move(cut.graph);
-  }
+double OutlineOfHalf(const capsule::MirroredSet& set, int half, double /*whole*/) {
+  return capsule::OutlineArea(set, half);
 }
 
 }  // namespace
 
-void SpendByCutting(const Objective& objective, const capsule::Budget& budget, WorkMeter& meter,
-                    CapsuleGraph& graph) {
+void SpendByCutting(const BestFitObjective& objective, const capsule::Budget& budget,
+                    WorkMeter& meter, capsule::MirroredSet& graph) {
   double value = objective.Value(graph);
   for (int round = 0; round < kCuttingRounds && !meter.IsCancelled(); ++round) {
-    CapsuleGraph cut = CutLargest(budget, graph);
+    capsule::MirroredSet cut = graph;
+    capsule::CutWorthiest(budget, capsule::OutlineAreas(cut), OutlineOfHalf, cut);
     if (cut.primitive_count() == graph.primitive_count()) return;
     objective.Settle(Effort::kFinish, cut);
     MergeSwallowed(cut);
@@ -361,8 +349,9 @@ void SpendByCutting(const Objective& objective, const capsule::Budget& budget, W
   }
 }
 
-void Spare(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
-           const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+void Spare(const BestFitObjective& objective, const capsule::Budget& budget,
+           const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
+           capsule::MirroredSet& graph) {
   while (!budget.Allows(graph.count()) && !meter.IsCancelled()) {
     const int excess = budget.Excess(graph.count());
     const std::vector<Candidate> removals = RankRemovals(objective, options, pool, meter, graph);
@@ -372,8 +361,9 @@ void Spare(const Objective& objective, const capsule::Budget& budget, const Grow
   }
 }
 
-void Grow(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
-          const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph) {
+void Grow(const BestFitObjective& objective, const capsule::Budget& budget,
+          const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
+          capsule::MirroredSet& graph) {
   Fill(objective, budget, options, pool, meter, graph);
   if (options.exchanges > 0) Exchange(objective, budget, options, pool, meter, graph);
 }

@@ -5,8 +5,8 @@
 #include "core/base/thread_pool.h"
 #include "core/base/work_meter.h"
 #include "core/capsule/budget.h"
-#include "core/refine/best_fit/objective.h"
-#include "core/refine/graph/capsule_graph.h"
+#include "core/capsule/mirrored_set.h"
+#include "core/refine/best_fit/best_fit_objective.h"
 
 namespace capfit::refine {
 
@@ -21,18 +21,20 @@ struct GrowthOptions {
 };
 
 // Removes what costs least until the graph is within the budget.
-void Spare(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
-           const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph);
+void Spare(const BestFitObjective& objective, const capsule::Budget& budget,
+           const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
+           capsule::MirroredSet& graph);
 
 // Adds what gains most per primitive until nothing fits or nothing gains. Each round tries all
 // edits, settled near by, in parallel; the best ones that do not touch each other are kept.
-void Grow(const Objective& objective, const capsule::Budget& budget, const GrowthOptions& options,
-          const ThreadPool& pool, WorkMeter& meter, CapsuleGraph& graph);
+void Grow(const BestFitObjective& objective, const capsule::Budget& budget,
+          const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
+          capsule::MirroredSet& graph);
 
 // Spends what growing left, where single edits gain too little to tell: cuts the capsules with most
 // surface in two and settles all; kept where the value falls.
-void SpendByCutting(const Objective& objective, const capsule::Budget& budget, WorkMeter& meter,
-                    CapsuleGraph& graph);
+void SpendByCutting(const BestFitObjective& objective, const capsule::Budget& budget,
+                    WorkMeter& meter, capsule::MirroredSet& graph);
 
 }  // namespace capfit::refine
 

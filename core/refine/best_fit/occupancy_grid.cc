@@ -186,10 +186,10 @@ class SoftUnion {
         cell_(static_cast<float>(cell_m)),
         share_(U(count[0]) * U(count[1]) * U(count[2]), 0.0f) {}
 
-  void Add(const CapsuleGraph& graph) {
+  void Add(const capsule::MirroredSet& graph) {
     for (const Cone& cone : ConesOf(graph)) {
-      const Node& a = graph.nodes[U(cone.node_a)];
-      const Node& b = graph.nodes[U(cone.is_sphere ? cone.node_a : cone.node_b)];
+      const geometry::Sphere& a = graph.sphere(cone.node_a);
+      const geometry::Sphere& b = graph.sphere(cone.is_sphere ? cone.node_a : cone.node_b);
       std::array<int, 3> low, high;
       bool empty = false;
       for (int k = 0; k < 3; ++k) {
@@ -210,11 +210,6 @@ class SoftUnion {
   [[nodiscard]] std::size_t RowOf(int ix, int iy) const {
     return (U(iy) * U(count_[0]) + U(ix)) * U(count_[2]);
   }
-  [[nodiscard]] double Sum() const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < share_.size(); ++i) sum += ShareAt(i);
-    return sum;
-  }
 
  private:
   void Raise(const Cone& cone, const std::array<int, 3>& low, const std::array<int, 3>& high) {
@@ -227,7 +222,7 @@ class SoftUnion {
         float* row = share_.data() + RowOf(i, j);
         for (int k = low[2]; k < high[2]; ++k) {
           const float z = z0 + static_cast<float>(k) * cell_;
-          const float share = 0.5f - SignedDistance(cone, x, y, z) * inverse;
+          const float share = 0.5f - cone.SignedDistance(x, y, z) * inverse;
           row[k] = row[k] > share ? row[k] : share;
         }
       }
@@ -253,8 +248,8 @@ Box WholeBox(const OccupancyGrid& grid) {
 
 // Calls take(index of the first cell, errors of the cells) for each row along z of the range.
 template <class Take>
-void ForRowsOfError(const OccupancyGrid& grid, const CapsuleGraph& graph, const CellRange& range,
-                    const Take& take) {
+void ForRowsOfError(const OccupancyGrid& grid, const capsule::MirroredSet& graph,
+                    const CellRange& range, const Take& take) {
   const std::array<int, 3> count = {range.high[0] - range.low[0], range.high[1] - range.low[1],
                                     range.high[2] - range.low[2]};
   const Vec3 corner =
@@ -354,7 +349,7 @@ void SampleCost(const OccupancyGrid& grid, const float* x, const float* y, const
   }
 }
 
-double FillError(const OccupancyGrid& grid, const CapsuleGraph& graph, const Box& box) {
+double FillError(const OccupancyGrid& grid, const capsule::MirroredSet& graph, const Box& box) {
   double cells = 0.0;
   ForRowsOfError(grid, graph, RangeOf(grid, box), [&](std::size_t, const std::vector<float>& row) {
     cells += std::accumulate(row.begin(), row.end(), 0.0f);
@@ -362,7 +357,7 @@ double FillError(const OccupancyGrid& grid, const CapsuleGraph& graph, const Box
   return cells * CellVolume(grid);
 }
 
-FillErrorMap::FillErrorMap(const OccupancyGrid& grid, const CapsuleGraph& graph)
+FillErrorMap::FillErrorMap(const OccupancyGrid& grid, const capsule::MirroredSet& graph)
     : grid_(grid), errors_(grid.inside.size(), 0.0f) {
   ForRowsOfError(grid, graph, RangeOf(grid, WholeBox(grid)),
                  [&](std::size_t at, const std::vector<float>& row) {
@@ -385,29 +380,7 @@ double FillErrorMap::Over(const Box& box) const {
   return cells * CellVolume(grid_);
 }
 
-double UnionVolume(const CapsuleGraph& graph, const Box& box, double cell_m) {
-  Box clipped = box;
-  if (graph.symmetric) clipped[0].x() = std::max(0.0, clipped[0].x());
-  std::array<int, 3> count;
-  for (int k = 0; k < 3; ++k) {
-    count[U(k)] = std::max(1, static_cast<int>((clipped[1][k] - clipped[0][k]) / cell_m + 0.5));
-  }
-  SoftUnion filled(clipped[0], count, cell_m);
-  filled.Add(graph);
-  return filled.Sum() * (graph.symmetric ? 2.0 : 1.0) * cell_m * cell_m * cell_m;
-}
-
-Box BoundsOf(const CapsuleGraph& graph, double margin_m) {
-  Box box = {Vec3::Constant(1e9), Vec3::Constant(-1e9)};
-  for (const Node& node : graph.nodes) {
-    const Vec3 reach = Vec3::Constant(node.radius_m + margin_m);
-    box[0] = box[0].cwiseMin(node.center_m - reach);
-    box[1] = box[1].cwiseMax(node.center_m + reach);
-  }
-  return box;
-}
-
-double GridError(const OccupancyGrid& grid, const CapsuleGraph& graph) {
+double GridError(const OccupancyGrid& grid, const capsule::MirroredSet& graph) {
   return FillError(grid, graph, WholeBox(grid)) / std::max(1e-12, grid.volume_m3);
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/body/body.h"
-#include "core/refine/graph/capsule_graph.h"
+#include "core/capsule/mirrored_set.h"
 
 namespace capfit::refine {
 
@@ -59,13 +59,13 @@ using Box = std::array<Eigen::Vector3d, 2>;
 // Volume outside the body plus volume of the fitted parts left uncovered by the solid that the
 // graph stands for, over the cells within `box` (a folded grid counts x >= 0 twice), in cubic
 // metres. Surfaces are softened over one cell, which leaves flat ones exact.
-[[nodiscard]] double FillError(const OccupancyGrid& grid, const CapsuleGraph& graph,
+[[nodiscard]] double FillError(const OccupancyGrid& grid, const capsule::MirroredSet& graph,
                                const Box& box);
 
 // FillError of one graph over many boxes: a pass over the whole grid once, a sum for each box.
 class FillErrorMap {
  public:
-  FillErrorMap(const OccupancyGrid& grid, const CapsuleGraph& graph);
+  FillErrorMap(const OccupancyGrid& grid, const capsule::MirroredSet& graph);
   [[nodiscard]] double Over(const Box& box) const;
 
  private:
@@ -73,15 +73,8 @@ class FillErrorMap {
   std::vector<float> errors_;  // by cell, in cells
 };
 
-// Volume of the union of the solids within `box` the same way, without a body; `symmetric` graphs
-// count x >= 0 twice.
-[[nodiscard]] double UnionVolume(const CapsuleGraph& graph, const Box& box, double cell_m);
-
-// A box around the whole graph.
-[[nodiscard]] Box BoundsOf(const CapsuleGraph& graph, double margin_m);
-
 // Outside + uncovered, relative to the volume: E_r as the grid sees it.
-[[nodiscard]] double GridError(const OccupancyGrid& grid, const CapsuleGraph& graph);
+[[nodiscard]] double GridError(const OccupancyGrid& grid, const capsule::MirroredSet& graph);
 
 }  // namespace capfit::refine
 

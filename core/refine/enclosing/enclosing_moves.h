@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/base/thread_pool.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/refine/best_fit/growth.h"
 #include "core/refine/enclosing/enclosing_task.h"
-#include "core/refine/graph/capsule_graph.h"
 #include "core/refine/graph/graph_edit.h"
 
 namespace capfit::refine {
@@ -18,17 +18,19 @@ struct Removal {
 };
 
 // All that may go, what is least missed first.
-[[nodiscard]] std::vector<Removal> RemovalsOf(const CapsuleGraph& graph, const GraphWorth& worth);
+[[nodiscard]] std::vector<Removal> RemovalsOf(const capsule::MirroredSet& graph,
+                                              const GraphWorth& worth);
 
 // Ties between near spheres, and leaves at the points that stick out most, which win at once in a
 // loosened graph (see EnclosingTask::Loosen); what wins most for a primitive first.
 [[nodiscard]] std::vector<Edit> RankedAdditions(const EnclosingTask& task,
-                                                const CapsuleGraph& loose, const ThreadPool& pool);
+                                                const capsule::MirroredSet& loose,
+                                                const ThreadPool& pool);
 
 // Cuts the loosest capsules in two until there are `target` primitives or nothing may be cut. The
 // spheres in the middle change nothing yet. `gaps`: GraphWorth::edge_gap.
 void CutLoosest(const capsule::Budget& budget, int target, const std::vector<double>& gaps,
-                CapsuleGraph& graph);
+                capsule::MirroredSet& graph);
 
 }  // namespace capfit::refine
 

@@ -29,7 +29,7 @@ constexpr int kLooseSteps = 3;  // that show where ties would win
 constexpr int kGrownTimesPrimitives = 120;
 constexpr int kMostGrown = 4;
 constexpr std::size_t kVariantsOfFew = 2;
-constexpr std::size_t kVariantsOfMany = 4;  // single exchanges no longer make up for bad luck
+constexpr std::size_t kVariantsOfMany = 4;  // single exchanges no longer make up for a bad start
 constexpr int kManyPrimitives = 160;
 constexpr double kTieShare = 0.5;  // of what growth spends, into ties and leaves
 // A round of growth or sparing goes so far.
@@ -76,7 +76,7 @@ class Search {
         pool_(pool),
         meter_(meter) {}
 
-  std::vector<CapsuleGraph> Run(const std::vector<CapsuleGraph>& starts) {
+  std::vector<capsule::MirroredSet> Run(const std::vector<capsule::MirroredSet>& starts) {
     Attempt best = BestStart(starts);
     if (usual_ <= kFewPrimitives) {
       Exchange(best);
@@ -87,7 +87,7 @@ class Search {
       }
     }
     Tie(best);
-    std::vector<CapsuleGraph> graphs;
+    std::vector<capsule::MirroredSet> graphs;
     for (Attempt& attempt : leaders_) graphs.push_back(std::move(attempt.graph));
     if (graphs.empty()) graphs.push_back(std::move(best.graph));
     return graphs;
@@ -102,25 +102,25 @@ class Search {
 
   // A graph whose shape is found, and what it is worth with its points taken in.
   struct Attempt {
-    CapsuleGraph graph;
+    capsule::MirroredSet graph;
     double value = std::numeric_limits<double>::max();
   };
 
-  Attempt Settled(CapsuleGraph graph, std::uint64_t seed) const {
-    CapsuleGraph settled = graph;
+  Attempt Settled(capsule::MirroredSet graph, std::uint64_t seed) const {
+    capsule::MirroredSet settled = graph;
     task_.TakeIn(kTakeInSteps, seed, alone_, meter_, settled);
     return {std::move(graph), task_.Value(settled, alone_)};
   }
 
-  Attempt BestStart(const std::vector<CapsuleGraph>& starts) {
+  Attempt BestStart(const std::vector<capsule::MirroredSet>& starts) {
     std::vector<Attempt> attempts(starts.size());
     std::int64_t work = 0;
-    for (const CapsuleGraph& start : starts) {
+    for (const capsule::MirroredSet& start : starts) {
       work += (kStartSteps + kTakeInSteps) * start.primitive_count();
     }
     Expect(kStarted, work);
     pool_.ForEach(starts.size(), [&](std::size_t i) {
-      CapsuleGraph graph = starts[i];
+      capsule::MirroredSet graph = starts[i];
       task_.FindShape(kStartSteps, 1.0, /*seed=*/1, alone_, meter_, graph);
       RemoveSwallowed(graph);
       Spare(graph);
@@ -143,7 +143,7 @@ class Search {
     return attempts.front();
   }
 
-  static std::int64_t WorkOf(std::size_t steps, const CapsuleGraph& graph) {
+  static std::int64_t WorkOf(std::size_t steps, const capsule::MirroredSet& graph) {
     return static_cast<std::int64_t>(steps) * graph.primitive_count();
   }
 
@@ -164,14 +164,14 @@ class Search {
     Expect(kStarted + (kGrown - kStarted) * std::min(1.0, size / primitives_),
            WorkOf(kStepsOfGrowth * grown.size(), attempts.front().graph));
     pool_.ForEach(grown.size(), [&](std::size_t i) {
-      CapsuleGraph graph = attempts[i / variants_].graph;
+      capsule::MirroredSet graph = attempts[i / variants_].graph;
       if (!budget_.Allows(graph.count())) return;
       const int before = graph.primitive_count();
       const int growth = std::max(kLeastGrowth, static_cast<int>(kGrowthShare * before));
       Extend(before + growth, static_cast<int>(kTieShare * growth), seed + i, graph);
       if (graph.primitive_count() > before) grown[i] = Settled(std::move(graph), seed + i);
     });
-    std::erase_if(grown, [](const Attempt& a) { return a.graph.nodes.empty(); });
+    std::erase_if(grown, [](const Attempt& a) { return a.graph.spheres().empty(); });
     if (grown.empty()) return false;
     attempts = std::move(grown);
     Sort(attempts);
@@ -181,7 +181,7 @@ class Search {
   // Remembers the best of all attempts.
   void Lead(const std::vector<Attempt>& attempts) {
     for (const Attempt& attempt : attempts) {
-      if (attempt.graph.nodes.empty() || !budget_.Allows(attempt.graph.count())) continue;
+      if (attempt.graph.spheres().empty() || !budget_.Allows(attempt.graph.count())) continue;
       leaders_.push_back(attempt);
     }
     std::stable_sort(leaders_.begin(), leaders_.end(),
@@ -190,7 +190,7 @@ class Search {
   }
 
   // Until the graph fits the budget.
-  void Spare(CapsuleGraph& graph) const {
+  void Spare(capsule::MirroredSet& graph) const {
     while (!budget_.Allows(graph.count()) && !meter_.IsCancelled()) {
       const int excess = budget_.Excess(graph.count());
       const int target =
@@ -206,8 +206,8 @@ class Search {
   }
 
   // `only_spheres`: capsules may stay as they are.
-  bool SpareOne(bool only_spheres, CapsuleGraph& graph) const {
-    std::optional<CapsuleGraph> last_resort;
+  bool SpareOne(bool only_spheres, capsule::MirroredSet& graph) const {
+    std::optional<capsule::MirroredSet> last_resort;
     for (const Removal& removal : RemovalsOf(graph, task_.Weigh(graph))) {
       EditedGraph edited = Apply(graph, removal.edit);
       if (!edited.possible) continue;
@@ -225,7 +225,7 @@ class Search {
 
   // Spends up to a number of primitives, the first `ties` of them on ties and leaves, the rest on
   // cuts, and finds the shape of it.
-  void Extend(int target, int ties, std::uint64_t seed, CapsuleGraph& graph) const {
+  void Extend(int target, int ties, std::uint64_t seed, capsule::MirroredSet& graph) const {
     TieBest(std::min(target, graph.primitive_count() + ties), seed, graph);
     CutLoosest(budget_, target, task_.Weigh(graph).edge_gap, graph);
     task_.FindShape(kGrowthSteps, 1.0, seed, alone_, meter_, graph);
@@ -234,9 +234,9 @@ class Search {
 
   // Adds the best ties and leaves, no more than one to a sphere, until there are `target`
   // primitives.
-  void TieBest(int target, std::uint64_t seed, CapsuleGraph& graph) const {
+  void TieBest(int target, std::uint64_t seed, capsule::MirroredSet& graph) const {
     task_.Loosen(kLooseSteps, seed, alone_, meter_, graph);
-    std::vector<char> is_tied(graph.nodes.size(), 0);
+    std::vector<char> is_tied(graph.spheres().size(), 0);
     for (const Edit& tie : RankedAdditions(task_, graph, alone_)) {
       const bool is_leaf = tie.kind == EditKind::kLeaf;
       if (is_tied[U(tie.first)] || (!is_leaf && is_tied[U(tie.second)])) continue;
@@ -248,13 +248,13 @@ class Search {
       graph = std::move(edited.graph);
       for (const int v : {tie.first, is_leaf ? tie.first : tie.second}) {
         is_tied[U(v)] = 1;
-        if (graph.symmetric) is_tied[U(graph.nodes[U(v)].mirror)] = 1;
+        if (graph.is_mirrored()) is_tied[U(graph.ImageOf(v))] = 1;
       }
     }
   }
 
   // What each edit leads to, the budget used up again.
-  Attempt Try(const CapsuleGraph& graph, const Edit& edit, std::uint64_t seed) const {
+  Attempt Try(const capsule::MirroredSet& graph, const Edit& edit, std::uint64_t seed) const {
     EditedGraph edited = Apply(graph, edit);
     if (!edited.possible || meter_.IsCancelled()) return {};
     RemoveSwallowed(edited.graph);
@@ -288,8 +288,9 @@ class Search {
   }
 
   // Gives up a share of the primitives, what is least missed, and spends it anew.
-  Attempt Renewed(const CapsuleGraph& from, const Renewal& renewal, std::uint64_t seed) const {
-    CapsuleGraph graph = from;
+  Attempt Renewed(const capsule::MirroredSet& from, const Renewal& renewal,
+                  std::uint64_t seed) const {
+    capsule::MirroredSet graph = from;
     const int kept =
         graph.primitive_count() - static_cast<int>(renewal.given_up * graph.primitive_count());
     while (graph.primitive_count() > kept && SpareOne(/*only_spheres=*/false, graph)) {
@@ -333,7 +334,7 @@ class Search {
 
   void Tie(Attempt& best) {
     while (best.graph.primitive_count() < primitives_ && !meter_.IsCancelled()) {
-      CapsuleGraph loose = best.graph;
+      capsule::MirroredSet loose = best.graph;
       task_.Loosen(kLooseSteps, seed_, pool_, meter_, loose);
       std::vector<Edit> ties = RankedAdditions(task_, loose, pool_);
       ties.resize(std::min(ties.size(), kTies));
@@ -358,10 +359,10 @@ class Search {
 
 }  // namespace
 
-std::vector<CapsuleGraph> FindEnclosingGraphs(const EnclosingTask& task,
-                                              const capsule::Budget& budget,
-                                              const std::vector<CapsuleGraph>& starts, double until,
-                                              const ThreadPool& pool, WorkMeter& meter) {
+std::vector<capsule::MirroredSet> FindEnclosingGraphs(
+    const EnclosingTask& task, const capsule::Budget& budget,
+    const std::vector<capsule::MirroredSet>& starts, double until, const ThreadPool& pool,
+    WorkMeter& meter) {
   return Search(task, budget, until, pool, meter).Run(starts);
 }
 

@@ -6,9 +6,9 @@
 
 #include "core/base/thread_pool.h"
 #include "core/base/work_meter.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/refine/best_fit/growth.h"
 #include "core/refine/enclosing/enclosing_task.h"
-#include "core/refine/graph/capsule_graph.h"
 
 namespace capfit::refine {
 
@@ -24,11 +24,10 @@ namespace capfit::refine {
 // graphs, best first, as far as the task's thinned points tell; they fit the budget unless
 // cancelled. Trials run in parallel; same bits for any pool. About 0.1 s on two cores at 64
 // primitives, 0.25 s at 128, 1 s at 250.
-[[nodiscard]] std::vector<CapsuleGraph> FindEnclosingGraphs(const EnclosingTask& task,
-                                                            const capsule::Budget& budget,
-                                                            const std::vector<CapsuleGraph>& starts,
-                                                            double until, const ThreadPool& pool,
-                                                            WorkMeter& meter);
+[[nodiscard]] std::vector<capsule::MirroredSet> FindEnclosingGraphs(
+    const EnclosingTask& task, const capsule::Budget& budget,
+    const std::vector<capsule::MirroredSet>& starts, double until, const ThreadPool& pool,
+    WorkMeter& meter);
 
 }  // namespace capfit::refine
 

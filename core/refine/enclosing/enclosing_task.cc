@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <optional>
 #include <utility>
 
+#include "core/refine/enclosing/added_capsule.h"
+#include "core/refine/graph/points_apart.h"
 #include "core/refine/internal.h"
-#include "core/tighten/distance_kernel.h"
 #include "core/tighten/set_variables.h"
-#include "core/tighten/sparse_points.h"
 #include "core/tighten/union_volume.h"
 
 namespace capfit::refine {
@@ -26,7 +24,7 @@ constexpr double kLeastSampleSpacing = 0.006;
 constexpr double kMostSampleSpacing = 0.012;
 // What a cubic metre outside costs against one too much inside.
 constexpr double kOutsidePrice = 4.0;
-// Nobody grows further than this to make up for a capsule, relative to the body's size.
+// No solid grows further than this to make up for a removed capsule, relative to the body's size.
 constexpr double kFurthestGrowth = 0.045;
 
 constexpr double kTrialGap = 0.03;  // graphs are compared here, not finished
@@ -41,313 +39,15 @@ constexpr tighten::TightenPhase kInsidePhase{.first_trust = 0.004,
                                              .last_penalty = 100.0,
                                              .relative_gap = kTrialGap};
 
-constexpr double kMostCuts = 20.0;  // of an edge whose triangle gets points between its corners
-constexpr std::size_t kMostBetween = 500'000;  // such points in all
-
 constexpr double kLoosePenalty = 8.0;
 constexpr double kApart = 0.03;  // of the worst points, relative to the body's size
-// Along and around a tie, where its volume is sampled.
-constexpr int kAlong = 8, kAround = 8, kAcross = 4;
-
-// The points that stick out of a set, their coordinates apart.
-class OutsidePoints {
- public:
-  // Distances are in the grid's order, areas and allowances in the caller's.
-  OutsidePoints(const tighten::PointGrid& grid, const std::vector<double>& distances_m,
-                const std::vector<double>& areas_m2, double allowed_m)
-      : allowed_m_(allowed_m) {
-    for (const tighten::PointGrid::Block& block : grid.blocks()) {
-      Run run{x_.size(), 0, block.center, block.reach, 0.0};
-      for (std::uint32_t i = block.begin; i < block.end; ++i) {
-        if (distances_m[i] <= allowed_m) continue;
-        const Vec3& p = grid.point(i);
-        x_.push_back(p.x()), y_.push_back(p.y()), z_.push_back(p.z());
-        area_.push_back(areas_m2[grid.order()[i]]);
-        out_.push_back(distances_m[i] - allowed_m);
-        run.furthest_m = std::max(run.furthest_m, distances_m[i]);
-      }
-      run.end = x_.size();
-      if (run.end > run.begin) runs_.push_back(run);
-    }
-  }
-
-  // Area times the depth by which the capsule takes points in, with its image where it has one.
-  [[nodiscard]] double TakenInBy(const TaperedCapsule& capsule, bool with_image) const {
-    const tighten::DistanceKernel kernel(capsule);
-    const double image = with_image ? -1.0 : 1.0;
-    double sum = 0.0;
-    for (const Run& run : runs_) {
-      const Vec3& c = run.center;
-      const double here = kernel.SignedDistance(c.x(), c.y(), c.z());
-      const double there = kernel.SignedDistance(image * c.x(), c.y(), c.z());
-      if (std::min(here, there) - run.reach >= run.furthest_m) continue;  // nearer to others
-      sum += TakenInBy(kernel, image, run);
-    }
-    return sum;
-  }
-
- private:
-  // The points of one block.
-  struct Run {
-    std::size_t begin, end;
-    Vec3 center;
-    double reach;
-    double furthest_m;  // that one of them is from the set
-  };
-
-  [[nodiscard]] double TakenInBy(const tighten::DistanceKernel& kernel, double image,
-                                 const Run& run) const {
-    double sum = 0.0;
-    for (std::size_t i = run.begin; i < run.end; ++i) {
-      const double here = kernel.SignedDistance(x_[i], y_[i], z_[i]);
-      const double there = kernel.SignedDistance(image * x_[i], y_[i], z_[i]);
-      double still_out = (here < there ? here : there) - allowed_m_;
-      still_out = still_out > 0.0 ? still_out : 0.0;
-      const double won = out_[i] - still_out;
-      sum += won > 0.0 ? area_[i] * won : 0.0;
-    }
-    return sum;
-  }
-
-  double allowed_m_;
-  std::vector<double> x_, y_, z_, area_, out_;
-  std::vector<Run> runs_;
-};
-
-// How much of the capsule between its end spheres is in no other shape.
-double VolumeOutside(const TaperedCapsule& tie, const std::vector<TaperedCapsule>& shapes) {
-  std::vector<std::size_t> near;
-  const Vec3 middle = 0.5 * (tie.a().center_m + tie.b().center_m);
-  const double reach = 0.5 * tie.length_m() + std::max(tie.a().radius_m, tie.b().radius_m);
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
-    if (shapes[k].SignedDistance(middle) < reach) near.push_back(k);
-  }
-  const Vec3 side = tie.axis().unitOrthogonal();
-  const Vec3 up = tie.axis().cross(side);
-  double sum = 0.0;
-  for (int i = 0; i < kAlong; ++i) {
-    const double t = (i + 0.5) / kAlong;
-    const Vec3 center = tie.a().center_m + t * (tie.b().center_m - tie.a().center_m);
-    const double radius = tie.a().radius_m + t * (tie.b().radius_m - tie.a().radius_m);
-    for (int j = 0; j < kAround; ++j) {
-      const double angle = 2.0 * std::numbers::pi * (j + 0.5 * (i % 2)) / kAround;
-      const Vec3 out = std::cos(angle) * side + std::sin(angle) * up;
-      for (int m = 0; m < kAcross; ++m) {
-        // Equal areas across.
-        const Vec3 p = center + radius * std::sqrt((m + 0.5) / kAcross) * out;
-        const bool is_inside = std::any_of(near.begin(), near.end(), [&](std::size_t k) {
-          return shapes[k].SignedDistance(p) <= 0.0;
-        });
-        if (!is_inside) sum += std::numbers::pi * radius * radius;
-      }
-    }
-  }
-  return sum * tie.length_m() / (kAlong * kAround * kAcross);
-}
-
-// Adds points inside triangles with an edge longer than `longest_m` and moves area to them from the
-// corners, whose areas come first: small capsules would meet in furrows between far apart vertices.
-// A body needs some tens of thousands; a mesh of slivers as long as itself gets no more than fit.
-void AddPointsBetween(const tighten::CoverTarget& target, double longest_m,
-                      std::vector<Vec3>& points_m, std::vector<double>& areas_m2) {
-  for (const mesh::Triangle& t : target.triangles) {
-    const Vec3& a = target.points_m[t[0]];
-    const Vec3& b = target.points_m[t[1]];
-    const Vec3& c = target.points_m[t[2]];
-    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    const int n = static_cast<int>(std::min(longest / longest_m, kMostCuts)) + 1;
-    if (n < 2 || points_m.size() - target.points_m.size() > kMostBetween) continue;
-    const double area = 0.5 * (b - a).cross(c - a).norm();
-    const int count = (n + 1) * (n + 2) / 2;
-    for (const std::uint32_t corner : t) areas_m2[corner] -= area * (1.0 / 3.0 - 1.0 / count);
-    for (int i = 0; i < n; ++i) {
-      for (int j = i == 0 ? 1 : 0; j < n && i + j <= n; ++j) {
-        const int k = n - i - j;
-        if (k == n) continue;
-        points_m.push_back((i * a + j * b + k * c) / n);
-        areas_m2.push_back(area / count);
-      }
-    }
-  }
-}
-
-// The capsule that takes the place of a sphere with two; nothing for other spheres.
-std::vector<std::optional<TaperedCapsule>> BridgesOf(const CapsuleGraph& graph) {
-  std::vector<std::vector<int>> neighbours(graph.nodes.size());
-  for (const Edge& e : graph.edges) {
-    neighbours[U(e.a)].push_back(e.b);
-    neighbours[U(e.b)].push_back(e.a);
-  }
-  const auto sphere = [&graph](int v) {
-    return geometry::Sphere{graph.nodes[U(v)].center_m, graph.nodes[U(v)].radius_m};
-  };
-  std::vector<std::optional<TaperedCapsule>> bridges(graph.nodes.size());
-  for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
-    if (neighbours[v].size() != 2) continue;
-    bridges[v].emplace(sphere(neighbours[v][0]), sphere(neighbours[v][1]));
-  }
-  return bridges;
-}
-
-// Points against the solids of a graph: who covers each, and who would if that one were gone.
-class Weigher {
- public:
-  Weigher(const CapsuleGraph& graph, double furthest_m)
-      : furthest_m_(furthest_m), bridges_(BridgesOf(graph)) {
-    capsule::PrimitiveSet set = SetOf(graph);
-    solids_ = tighten::SetVariables(set).solids();
-    shapes_ = tighten::ShapesOf(solids_, set);
-    worth_.edge_gap.assign(graph.edges.size(), 0.0);
-    worth_.edge_loss.assign(graph.edges.size(), 0.0);
-    worth_.node_loss.assign(graph.nodes.size(), 0.0);
-  }
-
-  // All points of a block of the grid. `areas_m2` by the caller's index.
-  void Add(const tighten::PointGrid& grid, const tighten::PointGrid::Block& block,
-           const std::vector<double>& areas_m2) {
-    Approach(grid, block);
-    for (std::uint32_t i = block.begin; i < block.end; ++i) {
-      AddPoint(i - block.begin, grid.point(i), areas_m2[grid.order()[i]]);
-    }
-  }
-
-  [[nodiscard]] const GraphWorth& worth() const { return worth_; }
-
- private:
-  // The solids that the block's points may be told by, their distances, and for each point the two
-  // nearest of them.
-  void Approach(const tighten::PointGrid& grid, const tighten::PointGrid::Block& block) {
-    at_center_.resize(shapes_.size());
-    double least = std::numeric_limits<double>::max();
-    for (std::size_t k = 0; k < shapes_.size(); ++k) {
-      at_center_[k] = shapes_[k].SignedDistance(block.center);
-      least = std::min(least, at_center_[k]);
-    }
-    near_.clear();
-    for (std::size_t k = 0; k < shapes_.size(); ++k) {
-      if (at_center_[k] <= least + 2.0 * block.reach + furthest_m_) near_.push_back(k);
-    }
-    count_ = block.end - block.begin;
-    distances_.resize(near_.size() * count_);
-    first_.assign(count_, {});
-    second_.assign(count_, {});
-    for (std::size_t k = 0; k < near_.size(); ++k) {
-      float* const own = distances_.data() + k * count_;
-      grid.BlockDistances(block, shapes_[near_[k]], own);
-      for (std::size_t i = 0; i < count_; ++i) {
-        if (own[i] >= second_[i].distance_m) continue;
-        second_[i] = {own[i], k};
-        if (own[i] < first_[i].distance_m) std::swap(first_[i], second_[i]);
-      }
-    }
-  }
-
-  void AddPoint(std::size_t i, const Vec3& point, double area_m2) {
-    const std::size_t solid = near_[first_[i].place];
-    if (solid < worth_.edge_gap.size()) {
-      worth_.edge_gap[solid] += area_m2 * std::max(0.0, -double{first_[i].distance_m});
-      worth_.edge_loss[solid] += area_m2 * Missing(second_[i].distance_m);
-    }
-    const std::array<int, 2> ends = solids_[solid].ends;
-    AddDissolved(ends[0], i, point, area_m2);
-    if (ends[1] != ends[0]) AddDissolved(ends[1], i, point, area_m2);
-  }
-
-  // How far a solid at that distance has to grow.
-  [[nodiscard]] double Missing(double distance_m) const {
-    return std::clamp(distance_m, 0.0, furthest_m_);
-  }
-
-  [[nodiscard]] bool IsAt(std::size_t place, int node) const {
-    const std::array<int, 2>& ends = solids_[near_[place]].ends;
-    return ends[0] == node || ends[1] == node;
-  }
-
-  // The distance of the nearest solid that is not at the node.
-  [[nodiscard]] double DistanceWithout(int node, std::size_t i) const {
-    if (second_[i].distance_m > furthest_m_ || !IsAt(second_[i].place, node)) {
-      return second_[i].distance_m;
-    }
-    double least = furthest_m_;
-    for (std::size_t k = 0; k < near_.size(); ++k) {
-      const double distance = distances_[k * count_ + i];
-      if (distance < least && !IsAt(k, node)) least = distance;
-    }
-    return least;
-  }
-
-  void AddDissolved(int node, std::size_t i, const Vec3& point, double area_m2) {
-    double missing = Missing(DistanceWithout(node, i));
-    const std::optional<TaperedCapsule>& bridge = bridges_[U(node)];
-    if (missing > 0.0 && bridge) {
-      missing = std::clamp(bridge->SignedDistance(point), 0.0, missing);
-    }
-    worth_.node_loss[U(node)] += area_m2 * missing;
-  }
-
-  struct Nearest {
-    float distance_m = std::numeric_limits<float>::infinity();
-    std::size_t place = 0;  // in near_
-  };
-
-  double furthest_m_;
-  std::vector<std::optional<TaperedCapsule>> bridges_;  // by node
-  std::vector<tighten::Solid> solids_;
-  std::vector<TaperedCapsule> shapes_;
-  std::vector<double> at_center_;
-  std::vector<std::size_t> near_;
-  std::size_t count_ = 0;         // of the block's points
-  std::vector<float> distances_;  // by place in near_, then point
-  std::vector<Nearest> first_, second_;
-  GraphWorth worth_;
-};
-
-// Both of a pair get what the two have together.
-void AddUpPairs(const CapsuleGraph& graph, GraphWorth& worth) {
-  if (!graph.symmetric) return;
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    const std::size_t image = U(graph.edges[e].mirror);
-    if (image <= e) continue;
-    worth.edge_gap[e] = worth.edge_gap[image] = worth.edge_gap[e] + worth.edge_gap[image];
-    worth.edge_loss[e] = worth.edge_loss[image] = worth.edge_loss[e] + worth.edge_loss[image];
-  }
-  for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
-    const std::size_t image = U(graph.nodes[v].mirror);
-    if (image <= v) continue;
-    worth.node_loss[v] = worth.node_loss[image] = worth.node_loss[v] + worth.node_loss[image];
-  }
-}
-
 }  // namespace
-
-EnclosingTask::Thinned EnclosingTask::Thin(const tighten::CoverTarget& target, bool symmetric,
-                                           double spacing) {
-  std::vector<double> areas(target.points_m.size(), 0.0);
-  double area = 0.0;
-  for (const mesh::Triangle& t : target.triangles) {
-    const Vec3& a = target.points_m[t[0]];
-    const double twice = (target.points_m[t[1]] - a).cross(target.points_m[t[2]] - a).norm();
-    for (const std::uint32_t corner : t) areas[corner] += twice / 6.0;
-    area += 0.5 * twice;
-  }
-  Thinned thinned;
-  thinned.size_m = std::max(std::sqrt(area), 1e-6);
-  std::vector<Vec3> points = target.points_m;
-  AddPointsBetween(target, spacing * thinned.size_m, points, areas);
-  if (symmetric) {
-    for (Vec3& p : points) p.x() = std::abs(p.x());
-  }
-  tighten::SparsePoints sparse = tighten::MakeSparse(points, areas, spacing * thinned.size_m);
-  thinned.points_m = std::move(sparse.points_m);
-  thinned.areas_m2 = std::move(sparse.weights);
-  return thinned;
-}
 
 EnclosingTask::EnclosingTask(const tighten::CoverTarget& target, bool symmetric, double tolerance_m,
                              double spacing)
-    : EnclosingTask(Thin(target, symmetric, spacing), tolerance_m) {}
+    : EnclosingTask(ThinnedPointsOf(target, symmetric, spacing), tolerance_m) {}
 
-EnclosingTask::EnclosingTask(Thinned thinned, double tolerance_m)
+EnclosingTask::EnclosingTask(ThinnedPoints thinned, double tolerance_m)
     : size_m_(thinned.size_m),
       areas_m2_(std::move(thinned.areas_m2)),
       tolerance_m_(tolerance_m),
@@ -355,19 +55,16 @@ EnclosingTask::EnclosingTask(Thinned thinned, double tolerance_m)
 
 void EnclosingTask::Settle(const tighten::TightenPhase& phase, std::uint64_t seed,
                            const ThreadPool& pool, const WorkMeter& meter,
-                           CapsuleGraph& graph) const {
-  capsule::PrimitiveSet set = SetOf(graph);
+                           capsule::MirroredSet& graph) const {
+  capsule::PrimitiveSet set = graph.set();
   const std::array<tighten::PointsToHold, 1> points = {{{grid_, tolerance_m_, areas_m2_}}};
   tighten::Tighten(points, size_m_, phase, seed, pool, meter, set);
-  for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
-    graph.nodes[v].center_m = set.spheres[v].center_m;
-    graph.nodes[v].radius_m = set.spheres[v].radius_m;
-  }
+  graph.MoveTo(set.spheres);
 }
 
 void EnclosingTask::FindShape(int steps, double looseness, std::uint64_t seed,
                               const ThreadPool& pool, const WorkMeter& meter,
-                              CapsuleGraph& graph) const {
+                              capsule::MirroredSet& graph) const {
   tighten::TightenPhase phase = kShapePhase;
   phase.first_penalty /= looseness;
   phase.steps = steps;
@@ -375,14 +72,14 @@ void EnclosingTask::FindShape(int steps, double looseness, std::uint64_t seed,
 }
 
 void EnclosingTask::TakeIn(int steps, std::uint64_t seed, const ThreadPool& pool,
-                           const WorkMeter& meter, CapsuleGraph& graph) const {
+                           const WorkMeter& meter, capsule::MirroredSet& graph) const {
   tighten::TightenPhase phase = kInsidePhase;
   phase.steps = steps;
   Settle(phase, seed, pool, meter, graph);
 }
 
 void EnclosingTask::Loosen(int steps, std::uint64_t seed, const ThreadPool& pool,
-                           const WorkMeter& meter, CapsuleGraph& graph) const {
+                           const WorkMeter& meter, capsule::MirroredSet& graph) const {
   tighten::TightenPhase phase = kShapePhase;
   phase.first_penalty = phase.last_penalty = kLoosePenalty;
   phase.last_trust = 0.006;
@@ -390,37 +87,24 @@ void EnclosingTask::Loosen(int steps, std::uint64_t seed, const ThreadPool& pool
   Settle(phase, seed, pool, meter, graph);
 }
 
-std::vector<Vec3> EnclosingTask::WorstPoints(const CapsuleGraph& graph, int count,
+std::vector<Vec3> EnclosingTask::WorstPoints(const capsule::MirroredSet& graph, int count,
                                              const ThreadPool& pool) const {
-  capsule::PrimitiveSet set = SetOf(graph);
-  const std::vector<tighten::Solid> solids = tighten::SetVariables(set).solids();
   const std::vector<double> distances =
-      grid_.DistancesTo(tighten::ShapesOf(solids, set), -kFurthestGrowth * size_m_, pool)
-          .distance_m;
-  std::vector<std::size_t> order;
+      grid_.DistancesTo(capsule::Solids(graph.set()), -kFurthestGrowth * size_m_, pool).distance_m;
+  std::vector<Vec3> points;
+  std::vector<double> scores;
   for (std::size_t i = 0; i < distances.size(); ++i) {
-    if (distances[i] > tolerance_m_) order.push_back(i);
+    if (distances[i] <= tolerance_m_) continue;
+    points.push_back(grid_.point(i));
+    scores.push_back(distances[i]);
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return distances[a] > distances[b]; });
-  std::vector<Vec3> worst;
-  for (const std::size_t i : order) {
-    if (static_cast<int>(worst.size()) >= count) break;
-    const Vec3 p = grid_.point(i);
-    const bool is_near = std::any_of(worst.begin(), worst.end(), [&](const Vec3& q) {
-      return (p - q).norm() < kApart * size_m_;
-    });
-    if (!is_near) worst.push_back(p);
-  }
-  return worst;
+  return BestApart(points, scores, kApart * size_m_, count);
 }
 
-std::vector<double> EnclosingTask::GainsOf(const CapsuleGraph& graph,
+std::vector<double> EnclosingTask::GainsOf(const capsule::MirroredSet& graph,
                                            const std::vector<Edit>& additions,
                                            const ThreadPool& pool) const {
-  capsule::PrimitiveSet set = SetOf(graph);
-  const std::vector<tighten::Solid> solids = tighten::SetVariables(set).solids();
-  const std::vector<TaperedCapsule> shapes = tighten::ShapesOf(solids, set);
+  const std::vector<TaperedCapsule> shapes = capsule::Solids(graph.set());
   const tighten::UnionDistances at = grid_.DistancesTo(shapes, -kFurthestGrowth * size_m_, pool);
   const OutsidePoints outside(grid_, at.distance_m, areas_m2_, tolerance_m_);
   std::vector<double> gains(additions.size(), 0.0);
@@ -428,8 +112,8 @@ std::vector<double> EnclosingTask::GainsOf(const CapsuleGraph& graph,
     const Edit& edit = additions[k];
     const geometry::Sphere end = edit.kind == EditKind::kLeaf
                                      ? geometry::Sphere{edit.center_m, edit.radius_m}
-                                     : set.spheres[U(edit.second)];
-    const TaperedCapsule added(set.spheres[U(edit.first)], end);
+                                     : graph.sphere(edit.second);
+    const TaperedCapsule added(graph.sphere(edit.first), end);
     if (added.IsSphere()) return;
     const bool is_pair = HasImage(graph, edit);
     const double gain = kLoosePenalty * outside.TakenInBy(added, is_pair);
@@ -438,11 +122,11 @@ std::vector<double> EnclosingTask::GainsOf(const CapsuleGraph& graph,
   return gains;
 }
 
-double EnclosingTask::Value(const CapsuleGraph& graph, const ThreadPool& pool) const {
-  capsule::PrimitiveSet set = SetOf(graph);
+double EnclosingTask::Value(const capsule::MirroredSet& graph, const ThreadPool& pool) const {
+  capsule::PrimitiveSet set = graph.set();
   const tighten::SetVariables variables(set);
-  const tighten::UnionDistances at = grid_.DistancesTo(tighten::ShapesOf(variables.solids(), set),
-                                                       -kFurthestGrowth * size_m_, pool);
+  const tighten::UnionDistances at =
+      grid_.DistancesTo(capsule::Solids(set), -kFurthestGrowth * size_m_, pool);
   double outside = 0.0;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
     const std::uint32_t point = grid_.order()[i];
@@ -455,24 +139,8 @@ double EnclosingTask::Value(const CapsuleGraph& graph, const ThreadPool& pool) c
          kOutsidePrice * outside;
 }
 
-GraphWorth EnclosingTask::Weigh(const CapsuleGraph& graph) const {
-  Weigher weigher(graph, kFurthestGrowth * size_m_);
-  for (const tighten::PointGrid::Block& block : grid_.blocks()) {
-    weigher.Add(grid_, block, areas_m2_);
-  }
-  GraphWorth worth = weigher.worth();
-  AddUpPairs(graph, worth);
-  return worth;
-}
-
-capsule::PrimitiveSet SetOf(const CapsuleGraph& graph) {
-  capsule::PrimitiveSet set;
-  for (const Node& node : graph.nodes) {
-    set.spheres.push_back({node.center_m, node.radius_m});
-    set.origins.push_back({body::Part::kTorso, -1, node.mirror});
-  }
-  for (const Edge& edge : graph.edges) set.capsules.push_back({edge.a, edge.b});
-  return set;
+GraphWorth EnclosingTask::Weigh(const capsule::MirroredSet& graph) const {
+  return WorthOf(graph, grid_, areas_m2_, kFurthestGrowth * size_m_);
 }
 
 }  // namespace capfit::refine

@@ -8,22 +8,16 @@
 
 #include "core/base/thread_pool.h"
 #include "core/base/work_meter.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/capsule/primitive_set.h"
-#include "core/refine/graph/capsule_graph.h"
+#include "core/refine/enclosing/graph_worth.h"
+#include "core/refine/enclosing/thinned_points.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/tighten/cover_target.h"
 #include "core/tighten/point_grid.h"
 #include "core/tighten/tighten.h"
 
 namespace capfit::refine {
-
-// What the parts of a graph do, in cubic metres; of a mirrored pair both together.
-struct GraphWorth {
-  std::vector<double> edge_gap;   // between each capsule and the surface that it covers
-  std::vector<double> edge_loss;  // about what has to grow elsewhere when the capsule goes
-  // The same for each sphere with its capsules, its two neighbours tied instead where it has two.
-  std::vector<double> node_loss;
-};
 
 // The body's points, thinned, those of a symmetric body folded to x >= 0; where vertices are
 // further apart than the spacing, points of the triangles between them too. Immutable; may be asked
@@ -35,52 +29,42 @@ class EnclosingTask {
                 double spacing);
 
   // Moves and grows all spheres for the least volume, with points left out at a price that rises:
-  // finds the shape of a set whose spheres are guesses. Which of several shapes comes out of it is
-  // a lottery; `looseness` around 1 is how cheap it begins.
+  // finds the shape of a set whose spheres are guesses. Small
+  // changes may lead to another shape; `looseness` around 1 is how cheap it begins.
   void FindShape(int steps, double looseness, std::uint64_t seed, const ThreadPool& pool,
-                 const WorkMeter& meter, CapsuleGraph& graph) const;
+                 const WorkMeter& meter, capsule::MirroredSet& graph) const;
   // The same with hardly anything left out.
   void TakeIn(int steps, std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
-              CapsuleGraph& graph) const;
+              capsule::MirroredSet& graph) const;
 
   // Settles at one low price of points outside, so that those which cost most to take in show.
   void Loosen(int steps, std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
-              CapsuleGraph& graph) const;
+              capsule::MirroredSet& graph) const;
   // The points that stick out furthest, some way from each other; body frame.
-  [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const CapsuleGraph& graph, int count,
-                                                         const ThreadPool& pool) const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const capsule::MirroredSet& graph,
+                                                         int count, const ThreadPool& pool) const;
   // What each tie (kLink) or leaf (kLeaf) would win at once in a loosened graph: the price of what
   // it takes in less the volume that it adds. Cubic metres; of a mirrored pair both together.
-  [[nodiscard]] std::vector<double> GainsOf(const CapsuleGraph& graph,
+  [[nodiscard]] std::vector<double> GainsOf(const capsule::MirroredSet& graph,
                                             const std::vector<Edit>& additions,
                                             const ThreadPool& pool) const;
 
   // The union's volume, to some thousandths, and what the points outside will still cost. Cubic
   // metres.
-  [[nodiscard]] double Value(const CapsuleGraph& graph, const ThreadPool& pool) const;
+  [[nodiscard]] double Value(const capsule::MirroredSet& graph, const ThreadPool& pool) const;
 
-  [[nodiscard]] GraphWorth Weigh(const CapsuleGraph& graph) const;
+  [[nodiscard]] GraphWorth Weigh(const capsule::MirroredSet& graph) const;
 
  private:
-  struct Thinned {
-    std::vector<Eigen::Vector3d> points_m;
-    std::vector<double> areas_m2;
-    double size_m = 0.0;
-  };
-  [[nodiscard]] static Thinned Thin(const tighten::CoverTarget& target, bool symmetric,
-                                    double spacing);
-  EnclosingTask(Thinned thinned, double tolerance_m);
+  EnclosingTask(ThinnedPoints thinned, double tolerance_m);
   void Settle(const tighten::TightenPhase& phase, std::uint64_t seed, const ThreadPool& pool,
-              const WorkMeter& meter, CapsuleGraph& graph) const;
+              const WorkMeter& meter, capsule::MirroredSet& graph) const;
 
   double size_m_ = 0.0;           // of the body, the square root of its surface area
   std::vector<double> areas_m2_;  // that each point stands for, both halves
   double tolerance_m_ = 0.0;      // how far each may stick out
   tighten::PointGrid grid_;
 };
-
-// The graph's spheres and capsules by the same indices; parts and polygons are left open.
-[[nodiscard]] capsule::PrimitiveSet SetOf(const CapsuleGraph& graph);
 
 }  // namespace capfit::refine
 

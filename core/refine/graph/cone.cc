@@ -9,24 +9,22 @@ namespace {
 // Below this difference, in metres, a capsule counts as swallowed by its larger end.
 constexpr double kSwallowedM = 1e-6;
 
-Cone SphereCone(const Node& node, int index, int other) {
-  Cone cone{};
-  cone.ax = static_cast<float>(node.center_m.x());
-  cone.ay = static_cast<float>(node.center_m.y());
-  cone.az = static_cast<float>(node.center_m.z());
-  cone.radius_a = static_cast<float>(node.radius_m);
-  cone.cos_half = 1.0f;
+Cone SphereCone(const geometry::Sphere& sphere, int index, int other) {
+  Cone cone;
+  cone.ax = static_cast<float>(sphere.center_m.x());
+  cone.ay = static_cast<float>(sphere.center_m.y());
+  cone.az = static_cast<float>(sphere.center_m.z());
+  cone.radius = static_cast<float>(sphere.radius_m);
   cone.node_a = index;
   cone.node_b = other;
-  cone.is_sphere = true;
   return cone;
 }
 
 }  // namespace
 
-Cone MakeCone(const CapsuleGraph& graph, int a, int b) {
-  const Node& first = graph.nodes[static_cast<std::size_t>(a)];
-  const Node& second = graph.nodes[static_cast<std::size_t>(b)];
+Cone MakeCone(const capsule::MirroredSet& graph, int a, int b) {
+  const geometry::Sphere& first = graph.sphere(a);
+  const geometry::Sphere& second = graph.sphere(b);
   const Eigen::Vector3d between = second.center_m - first.center_m;
   const double length = between.norm();
   if (length <= std::abs(first.radius_m - second.radius_m) + kSwallowedM) {
@@ -39,20 +37,20 @@ Cone MakeCone(const CapsuleGraph& graph, int a, int b) {
   cone.ux = static_cast<float>(between.x() / length);
   cone.uy = static_cast<float>(between.y() / length);
   cone.uz = static_cast<float>(between.z() / length);
-  cone.length = static_cast<float>(length);
-  cone.slope = static_cast<float>(-sine);
-  cone.foot_slope = static_cast<float>(-sine / cosine);
+  cone.highest = static_cast<float>(length);
+  cone.radius_slope = static_cast<float>(-sine);
+  cone.foot_slope = static_cast<float>(sine / cosine);
   cone.sin_half = static_cast<float>(sine);
   cone.cos_half = static_cast<float>(cosine);
   return cone;
 }
 
-std::vector<Cone> ConesOf(const CapsuleGraph& graph) {
+std::vector<Cone> ConesOf(const capsule::MirroredSet& graph) {
   std::vector<Cone> cones;
-  std::vector<char> used(graph.nodes.size(), 0);
-  for (const Edge& e : graph.edges) {
-    cones.push_back(MakeCone(graph, e.a, e.b));
-    used[static_cast<std::size_t>(e.a)] = used[static_cast<std::size_t>(e.b)] = 1;
+  std::vector<char> used(graph.spheres().size(), 0);
+  for (const capsule::CapsuleEnds& e : graph.capsules()) {
+    cones.push_back(MakeCone(graph, e[0], e[1]));
+    used[static_cast<std::size_t>(e[0])] = used[static_cast<std::size_t>(e[1])] = 1;
   }
   for (int v = 0; v < graph.sphere_count(); ++v) {
     if (!used[static_cast<std::size_t>(v)]) cones.push_back(MakeCone(graph, v, v));
@@ -66,10 +64,10 @@ ConeFoot Locate(const Cone& cone, const Eigen::Vector3d& point_m) {
   const double along = p.dot(axis);
   const double across = std::sqrt(std::max(0.0, p.squaredNorm() - along * along));
   const double foot =
-      std::clamp(along + across * cone.foot_slope, 0.0, static_cast<double>(cone.length));
+      std::clamp(along - across * cone.foot_slope, 0.0, static_cast<double>(cone.highest));
   const Eigen::Vector3d offset = p - foot * axis;
   ConeFoot result;
-  result.radius_m = cone.radius_a + cone.slope * foot;
+  result.radius_m = cone.radius + cone.radius_slope * foot;
   if (const double norm = offset.norm(); norm > 1e-9) result.normal = offset / norm;
   return result;
 }

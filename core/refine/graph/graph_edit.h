@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "core/refine/graph/capsule_graph.h"
+#include "core/capsule/mirrored_set.h"
 
 namespace capfit::refine {
 
@@ -33,11 +33,14 @@ struct Edit {
   return {kind, first, second, Eigen::Vector3d::Zero(), 0.0};
 }
 
+// Whether the tie between spheres a < b is the image of one that comes earlier by its indices.
+[[nodiscard]] bool IsLaterImage(const capsule::MirroredSet& graph, int a, int b);
+
 // Whether what a tie or leaf adds comes with an image of its own.
-[[nodiscard]] bool HasImage(const CapsuleGraph& graph, const Edit& addition);
+[[nodiscard]] bool HasImage(const capsule::MirroredSet& graph, const Edit& addition);
 
 struct EditedGraph {
-  CapsuleGraph graph;
+  capsule::MirroredSet graph;
   std::vector<int> touched;         // nodes of `graph` whose surroundings changed
   std::vector<int> touched_before;  // the same in the graph before
   bool possible = false;
@@ -45,33 +48,39 @@ struct EditedGraph {
 
 // The graph with the edit, mirrored where symmetric. Not possible: the tie exists already, the
 // sphere to dissolve joins three capsules, and so on.
-[[nodiscard]] EditedGraph Apply(const CapsuleGraph& graph, const Edit& edit);
+[[nodiscard]] EditedGraph Apply(const capsule::MirroredSet& graph, const Edit& edit);
 
 // The nodes within `radius` capsules of the given ones, and their images.
-[[nodiscard]] std::vector<char> Neighbourhood(const CapsuleGraph& graph,
+[[nodiscard]] std::vector<char> Neighbourhood(const capsule::MirroredSet& graph,
                                               const std::vector<int>& nodes, int radius);
+
+// A box around everything that the nodes marked `active` shape, with a margin.
+[[nodiscard]] Eigen::AlignedBox3d ReachOf(const capsule::MirroredSet& graph,
+                                          const std::vector<char>& active);
 
 // The part of a graph that reaches into a box, with the images of what does.
 struct LocalGraph {
-  CapsuleGraph graph;
+  capsule::MirroredSet graph;
   std::vector<int> nodes;  // index in the whole graph of each node; increasing
 };
-[[nodiscard]] LocalGraph LocalGraphIn(const CapsuleGraph& graph, const Eigen::AlignedBox3d& box);
+[[nodiscard]] LocalGraph LocalGraphIn(const capsule::MirroredSet& graph,
+                                      const Eigen::AlignedBox3d& box);
 
 // A leaf that touches the body's surface at `point_m` from inside, at half the radius of the
 // nearest capsule there; one for each end of that capsule.
-[[nodiscard]] std::vector<Edit> LeavesAt(const CapsuleGraph& graph, const Eigen::Vector3d& point_m);
+[[nodiscard]] std::vector<Edit> LeavesAt(const capsule::MirroredSet& graph,
+                                         const Eigen::Vector3d& point_m);
 
 // How many pieces the graph falls into when only capsules tie spheres.
-[[nodiscard]] int ComponentCount(const CapsuleGraph& graph);
+[[nodiscard]] int ComponentCount(const capsule::MirroredSet& graph);
 
 // Where the smaller end of a capsule lies within the larger one and other capsules hang on it, ties
 // those to the larger end: then nothing falls off when RemoveSwallowed takes the capsule.
-void MergeSwallowed(CapsuleGraph& graph);
+void MergeSwallowed(capsule::MirroredSet& graph);
 
 // Removes what does nothing: capsules swallowed by an end, spheres without a capsule inside
 // another primitive. Returns the new index of each old node, -1 for the removed.
-std::vector<int> RemoveSwallowed(CapsuleGraph& graph);
+std::vector<int> RemoveSwallowed(capsule::MirroredSet& graph);
 
 }  // namespace capfit::refine
 

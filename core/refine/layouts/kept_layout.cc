@@ -125,18 +125,6 @@ absl::Status CheckCapsules(const KeptLayout& layout) {
   return absl::OkStatus();
 }
 
-// Whether each sphere names an image (its own on the mid-plane), and each capsule has one.
-bool IsSymmetric(const KeptLayout& layout) {
-  const std::set<capsule::CapsuleEnds> capsules(layout.capsules.begin(), layout.capsules.end());
-  return std::all_of(layout.spheres.begin(), layout.spheres.end(),
-                     [](const KeptSphere& s) { return s.mirror >= 0; }) &&
-         std::all_of(layout.capsules.begin(), layout.capsules.end(), [&](const auto& ends) {
-           const auto [a, b] =
-               std::minmax(layout.spheres[U(ends[0])].mirror, layout.spheres[U(ends[1])].mirror);
-           return capsules.contains({a, b});
-         });
-}
-
 absl::Status MissingBones(const std::vector<std::string>& spheres) {
   std::string names;
   for (std::size_t i = 0; i < std::min(kMostNamed, spheres.size()); ++i) {
@@ -220,33 +208,30 @@ absl::Status CheckLayout(const KeptLayout& layout) {
   return CheckCapsules(layout);
 }
 
-absl::StatusOr<CapsuleGraph> HangLayout(const KeptLayout& layout, const body::Body& body) {
+absl::StatusOr<capsule::MirroredSet> HangLayout(const KeptLayout& layout, const body::Body& body) {
   const Skeleton skeleton(body);
-  CapsuleGraph graph;
-  graph.symmetric = body.is_symmetric && IsSymmetric(layout);
+  capsule::PrimitiveSet set;
+  set.capsules = layout.capsules;
   std::vector<std::string> missing;
-  for (std::size_t v = 0; v < layout.spheres.size(); ++v) {
-    const KeptSphere& sphere = layout.spheres[v];
+  for (const KeptSphere& sphere : layout.spheres) {
     const BodyPlace& at = *sphere.place;
     const Side side = IsMidBone(at.bone) ? Side::kLeft : at.side;
+    set.origins.push_back({sphere.part, -1, sphere.mirror});
+    set.spheres.emplace_back();
     const std::optional<Vec3> center = skeleton.Position(at.bone, side, at.place);
     if (!center) {
       missing.push_back(sphere.name);
       continue;
     }
     const double radius = at.radius * skeleton.bone(at.bone, side)->radius_m;
-    graph.nodes.push_back({*center, std::max(kLeastHungRadiusM, radius), -1});
-    if (!graph.symmetric) continue;
-    graph.nodes.back().mirror = sphere.mirror;
-    if (sphere.mirror == static_cast<int>(v)) graph.nodes.back().center_m.x() = 0.0;
+    set.spheres.back() = {*center, std::max(kLeastHungRadiusM, radius)};
   }
   if (!missing.empty()) return MissingBones(missing);
-  for (const capsule::CapsuleEnds& ends : layout.capsules) {
-    graph.edges.push_back({ends[0], ends[1], -1});
+  const bool is_mirrored = body.is_symmetric && capsule::ImagesOf(set).is_whole;
+  if (!is_mirrored) {
+    for (capsule::SphereOrigin& origin : set.origins) origin.mirror = -1;
   }
-  graph.LinkEdges();
-  if (graph.symmetric) graph.CopyToImages();
-  return graph;
+  return capsule::MirroredSet(std::move(set), is_mirrored);
 }
 
 }  // namespace capfit::refine

@@ -11,8 +11,8 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/body/body.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/capsule/primitive_set.h"
-#include "core/refine/graph/capsule_graph.h"
 #include "core/refine/layouts/bones.h"
 
 namespace capfit::refine {
@@ -63,8 +63,8 @@ struct KeptLayout {
 // body and the layout are: then the first of each pair is placed and the other is its image.
 // FAILED_PRECONDITION (PART_MISSING) names the spheres whose bone the body does not have.
 // The layout must pass CheckLayout.
-[[nodiscard]] absl::StatusOr<CapsuleGraph> HangLayout(const KeptLayout& layout,
-                                                      const body::Body& body);
+[[nodiscard]] absl::StatusOr<capsule::MirroredSet> HangLayout(const KeptLayout& layout,
+                                                              const body::Body& body);
 
 }  // namespace capfit::refine
 

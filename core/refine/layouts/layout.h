@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/body/body.h"
-#include "core/refine/graph/capsule_graph.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/refine/layouts/bones.h"
 
 namespace capfit::refine {
@@ -32,25 +32,25 @@ struct Layout {
 };
 
 // What a layout is made for.
-enum class Guise { kBestFit, kEnclose };
+enum class FitKind { kBestFit, kEnclose };
 
 struct NamedLayout {
   const char* name;
-  Guise guise;
+  FitKind kind;
   int primitives;  // that it has on a body with all parts, about; several may share a number
   bool with_ends;  // spheres for head, hands and feet; those for trunk and limbs are fewer for it
   Layout layout;
 };
 
-// All of them; of each guise and kind those of fewer primitives first.
+// All of them; of each kind, with and without ends, those of fewer primitives first.
 [[nodiscard]] std::span<const NamedLayout> Layouts();
 
 // Hangs the layout on the body's bones. Spheres on missing bones or of parts that are not selected
 // are left out with their capsules. Where the graph is symmetric the left side is mirrored. A
 // chain of the body that got no sphere at all gets some along its medial curve; a body without any
 // landmark gets one ball.
-[[nodiscard]] CapsuleGraph HangLayout(const Layout& layout, const body::Body& body,
-                                      const body::PartSelection& parts, bool symmetric);
+[[nodiscard]] capsule::MirroredSet HangLayout(const Layout& layout, const body::Body& body,
+                                              const body::PartSelection& parts, bool symmetric);
 
 }  // namespace capfit::refine
 

@@ -19,20 +19,20 @@ bool HasEnds(const body::Body& body, const body::PartSelection& parts) {
 
 }  // namespace
 
-std::vector<CapsuleGraph> StartingGraphs(Guise guise, const body::Body& body,
-                                         const body::PartSelection& parts,
-                                         const capsule::Budget& budget, int sizes,
-                                         int most_spared) {
+std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body& body,
+                                                 const body::PartSelection& parts,
+                                                 const capsule::Budget& budget, int sizes,
+                                                 int most_spared) {
   const bool with_ends = HasEnds(body, parts);
   // Smaller ones first, those of one size together.
-  std::vector<std::vector<CapsuleGraph>> fitting;
-  std::vector<CapsuleGraph> beyond;
+  std::vector<std::vector<capsule::MirroredSet>> fitting;
+  std::vector<capsule::MirroredSet> beyond;
   int last = 0;
   int first_beyond = 0;
   for (const NamedLayout& named : Layouts()) {
-    if (named.guise != guise || named.with_ends != with_ends) continue;
+    if (named.kind != kind || named.with_ends != with_ends) continue;
     if (first_beyond > 0 && named.primitives > first_beyond) break;
-    CapsuleGraph graph = HangLayout(named.layout, body, parts, body.is_symmetric);
+    capsule::MirroredSet graph = HangLayout(named.layout, body, parts, body.is_symmetric);
     const int excess = budget.Excess(graph.count());
     if (excess > 0) {
       first_beyond = named.primitives;
@@ -43,7 +43,7 @@ std::vector<CapsuleGraph> StartingGraphs(Guise guise, const body::Body& body,
     last = named.primitives;
     fitting.back().push_back(std::move(graph));
   }
-  std::vector<CapsuleGraph> starts;
+  std::vector<capsule::MirroredSet> starts;
   const auto count = static_cast<std::size_t>(sizes);
   for (std::size_t i = fitting.size() - std::min(fitting.size(), count); i < fitting.size(); ++i) {
     std::move(fitting[i].begin(), fitting[i].end(), std::back_inserter(starts));

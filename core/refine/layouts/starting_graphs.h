@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/body/body.h"
-#include "core/refine/graph/capsule_graph.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/refine/layouts/layout.h"
 
 namespace capfit::refine {
@@ -13,10 +13,10 @@ namespace capfit::refine {
 // At least one graph: layouts of the `sizes` largest numbers of primitives that fit the budget,
 // and the next ones beyond where no more than `most_spared` primitives of them have to go. Layouts
 // with spheres for head, hands and feet where any of these parts is selected and present.
-[[nodiscard]] std::vector<CapsuleGraph> StartingGraphs(Guise guise, const body::Body& body,
-                                                       const body::PartSelection& parts,
-                                                       const capsule::Budget& budget, int sizes,
-                                                       int most_spared);
+[[nodiscard]] std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body& body,
+                                                               const body::PartSelection& parts,
+                                                               const capsule::Budget& budget,
+                                                               int sizes, int most_spared);
 
 }  // namespace capfit::refine
 

@@ -184,7 +184,6 @@ TEST(CoverBodyTest, PointsWithoutTrianglesAndASingleSphere) {
   const ThreadPool pool(1);
   tighten::CoverTarget target;
   target.points_m = {{0, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
-  target.point_parts.resize(4);
   capsule::PrimitiveSet set;
   set.spheres.push_back({{0.5, 0.5, 0.5}, 0.01});
   set.origins.emplace_back();
@@ -254,7 +253,6 @@ TEST(CertifiedGapTest, FindsTheValleyThatNoVertexSees) {
   tighten::CoverTarget target;
   target.points_m = {{-1, 0.9, 0}, {1, 0.9, 0}, {1, 0.9, 0.01}};
   target.triangles = {{0, 1, 2}};
-  target.point_parts.resize(3);
   // Half-way between the centres the edge is sqrt(1 + 0.81) from both.
   EXPECT_NEAR(CertifiedGap(target, set, 1e-6, pool), std::sqrt(1.81) - 1.0, 5e-5);
   set.capsules.push_back({0, 1});

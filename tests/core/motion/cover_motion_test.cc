@@ -25,7 +25,6 @@ struct Pipe {
         const double angle = k * 0.39269908169872414;
         target.points_m.emplace_back(0.01 * i, kRadius * std::cos(angle),
                                      kRadius * std::sin(angle));
-        target.point_parts.push_back(body::Part::kTorso);
       }
     }
     for (std::uint32_t i = 0; i + 17 < target.points_m.size(); ++i) {

@@ -62,17 +62,10 @@ double FurthestVertex(const body::Body& body, const capsule::PrimitiveSet& set) 
   return worst;
 }
 
-CapsuleGraph GraphOf(const capsule::PrimitiveSet& set) {
-  CapsuleGraph graph;
-  for (const auto& s : set.spheres) graph.AddNode(s.center_m, s.radius_m, false);
-  for (const auto& c : set.capsules) graph.AddEdge(c[0], c[1]);
-  return graph;
-}
-
 double ErrorOf(const body::Body& body, const capsule::PrimitiveSet& set) {
   body::PartSelection all;
   all.head = all.hands = all.feet = true;
-  return GridError(MakeOccupancyGrid(body, all, 0.008, false), GraphOf(set));
+  return GridError(MakeOccupancyGrid(body, all, 0.008, false), capsule::MirroredSet(set, false));
 }
 
 // What the pipeline makes of it: the smallest of the sets once they cover.
@@ -202,7 +195,7 @@ TEST(RefineSetTest, BestFitHangsTogetherAndReachesEveryLimb) {
   const body::Body body = FindMannequin(true, 5000);
   for (const int count : {32, 64}) {
     const capsule::PrimitiveSet set = Refine(body, WithPrimitives(count, false));
-    const CapsuleGraph graph = GraphOf(set);
+    const capsule::MirroredSet graph = capsule::MirroredSet(set, false);
     EXPECT_LE(ComponentCount(graph), count / 4) << count;
     EXPECT_LE(FurthestVertex(body, set), 0.12) << count;
   }

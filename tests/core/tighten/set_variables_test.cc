@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/base/random.h"
 #include "tests/core/tighten/tube_body.h"
 
@@ -43,17 +45,23 @@ TEST(SetVariablesTest, InexactImagesAreMadeExactAndOneSidedOnesAreFree) {
   EXPECT_EQ(variables.of(5).x_sign, 1.0);
 }
 
-TEST(SetVariablesTest, SolidsAreThoseOfTheSet) {
+TEST(SetVariablesTest, TheImageOfASolidJoinsTheImagesOfItsEnds) {
   TubeBody body = MakeTubeBody(3, 0.0);
-  body.set.spheres.push_back({{0, 1.6, 0}, 0.1});  // a ball of its own
-  body.set.origins.push_back({body::Part::kHead, -1, -1});
+  const int count = static_cast<int>(body.set.spheres.size());
+  for (const double x : {0.3, -0.3}) {  // two balls of their own
+    body.set.spheres.push_back({{x, 1.6, 0}, 0.1});
+    body.set.origins.push_back({body::Part::kHead, -1, x > 0.0 ? count + 1 : count});
+  }
   const SetVariables variables(body.set);
-  const std::vector<geometry::TaperedCapsule> shapes = ShapesOf(variables.solids(), body.set);
-  const std::vector<geometry::TaperedCapsule> expected = capsule::Solids(body.set);
-  ASSERT_EQ(shapes.size(), expected.size());
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
-    EXPECT_EQ(shapes[k].a().center_m, expected[k].a().center_m);
-    EXPECT_EQ(shapes[k].b().radius_m, expected[k].b().radius_m);
+  ASSERT_TRUE(variables.is_symmetric());
+  ASSERT_EQ(variables.solids().size(), capsule::Solids(body.set).size());
+  for (std::size_t k = 0; k < variables.solids().size(); ++k) {
+    std::set<std::size_t> images;
+    for (const int end : variables.solids()[k]) {
+      images.insert(variables.image_of_sphere(static_cast<std::size_t>(end)));
+    }
+    const capsule::CapsuleEnds& ends = variables.solids()[variables.image_of_solid(k)];
+    EXPECT_EQ(images, (std::set<std::size_t>(ends.begin(), ends.end())));
   }
 }
 

@@ -51,7 +51,6 @@ inline void AddTube(const std::vector<Eigen::Vector3d>& path, const std::vector<
     target.triangles.push_back({first + next, first + k, ends[0]});
     target.triangles.push_back({last + k, last + next, ends[1]});
   }
-  target.point_parts.resize(target.points_m.size(), body::Part::kTorso);
 }
 
 // A trunk with two arms and two legs, symmetric but for `asymmetry_m` of noise, with one centred

@@ -20,7 +20,7 @@ constexpr double kDistanceWeight = 0.1;
 constexpr double kDiagonalsPerHeight = 1.25;
 
 // From joint to joint: where the search begins.
-CapsuleGraph HangStick(const Subject& subject, const LayoutTask& task) {
+capsule::MirroredSet HangStick(const Subject& subject, const LayoutTask& task) {
   std::vector<LayoutNode> nodes = {
       {BoneId::kBelly, {0.5, 0, 0.3}, 1.2, false}, {BoneId::kChest, {0.0, 0, 0}, 1.2, false},
       {BoneId::kChest, {0.9, 0, 0}, 0.9, false},   {BoneId::kClavicle, {0.8, 0, 0}, 1.0, true},
@@ -44,7 +44,7 @@ class BestFitLayoutSearch {
     Graphs now;
     for (const Subject& s : subjects_) now.push_back(HangStick(s, task_));
     Settle(100, 0.006, now);
-    for (CapsuleGraph& graph : now) RemoveSwallowed(graph);
+    for (capsule::MirroredSet& graph : now) RemoveSwallowed(graph);
     while (!budget_.Allows(now[0].count()) && SpareOne(now)) {
     }
     double value = ValueOf(now);
@@ -80,8 +80,9 @@ class BestFitLayoutSearch {
     for (std::size_t k = 0; k < graphs.size(); ++k) {
       const Subject& s = subjects_[k];
       sum += s.objective->Value(graphs[k]);
-      const double mean_m =
-          FindDeepest(s.points, ConesOf(graphs[k])).SumOutside() / s.points.size();
+      double sum_m = 0.0;
+      for (const double excess : ExcessOf(s.points, graphs[k])) sum_m += std::max(0.0, excess);
+      const double mean_m = sum_m / static_cast<double>(s.points.grid.size());
       // About half of the surface lies outside of a best fit.
       sum += kDistanceWeight * 100.0 * 2.0 * mean_m / (kDiagonalsPerHeight * s.body.height_m);
     }
@@ -103,7 +104,7 @@ class BestFitLayoutSearch {
   static bool ApplyLinked(const Edit& edit, Graphs& graphs) {
     Graphs next = graphs;
     if (!ApplyToAll(edit, next)) return false;
-    for (const CapsuleGraph& graph : next) {
+    for (const capsule::MirroredSet& graph : next) {
       if (ComponentCount(graph) > 1) return false;
     }
     graphs = std::move(next);
@@ -117,8 +118,8 @@ class BestFitLayoutSearch {
     for (int i = 0; i < edges + graphs[0].sphere_count(); ++i) {
       Graphs next = graphs;
       const bool is_edge = i < edges;
-      if (is_edge ? !graphs[0].IsEdgeRepresentative(i)
-                  : !graphs[0].IsNodeRepresentative(i - edges)) {
+      if (is_edge ? !graphs[0].IsCapsuleRepresentative(i)
+                  : !graphs[0].IsRepresentative(i - edges)) {
         continue;
       }
       if (!ApplyLinked(
@@ -141,10 +142,10 @@ class BestFitLayoutSearch {
     Graphs next = graphs;
     const bool used_up = graphs[0].primitive_count() >= task_.primitives - 1;
     for (int left = used_up ? 1 + Below(3) : 0; left > 0;) {
-      const CapsuleGraph& graph = next[0];
+      const capsule::MirroredSet& graph = next[0];
       const bool edge = graph.capsule_count() > 0 && random_.NextUnit() < 0.5;
       const int i = Below(edge ? graph.capsule_count() : graph.sphere_count());
-      if (edge ? !graph.IsEdgeRepresentative(i) : !graph.IsNodeRepresentative(i)) continue;
+      if (edge ? !graph.IsCapsuleRepresentative(i) : !graph.IsRepresentative(i)) continue;
       ApplyLinked(EditOf(edge ? EditKind::kUnlink : EditKind::kDissolve, i), next);
       --left;
     }
@@ -163,7 +164,7 @@ class BestFitLayoutSearch {
     return next;
   }
 
-  std::optional<Edit> RandomAddition(const CapsuleGraph& graph,
+  std::optional<Edit> RandomAddition(const capsule::MirroredSet& graph,
                                      const std::vector<Eigen::Vector3d>& worst) {
     const double lot = random_.NextUnit();
     if (lot < 0.35) {
@@ -172,8 +173,8 @@ class BestFitLayoutSearch {
     }
     if (lot < 0.7) {
       const int i = Below(graph.sphere_count()), j = Below(graph.sphere_count());
-      const Node& a = graph.nodes[U(i)];
-      const Node& b = graph.nodes[U(j)];
+      const geometry::Sphere& a = graph.sphere(i);
+      const geometry::Sphere& b = graph.sphere(j);
       const double apart_m = (a.center_m - b.center_m).norm();
       if (i == j || apart_m > 1.3 * (a.radius_m + b.radius_m)) return std::nullopt;
       return EditOf(EditKind::kLink, i, j);

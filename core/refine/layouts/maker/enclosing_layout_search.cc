@@ -78,7 +78,7 @@ class EnclosingLayoutSearch {
     Attempt start;
     for (std::size_t k = 0; k < subjects_.size(); ++k) {
       const Subject& s = subjects_[k];
-      start.graphs.push_back(StartingGraphs(Guise::kEnclose, s.body, s.parts, BudgetOf(first),
+      start.graphs.push_back(StartingGraphs(FitKind::kEnclose, s.body, s.parts, BudgetOf(first),
                                             /*sizes=*/1, /*most_spared=*/0)
                                  .front());
       Settle(k, kFirstSteps, start.graphs[k]);
@@ -92,14 +92,14 @@ class EnclosingLayoutSearch {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   }
 
-  void Settle(std::size_t subject, int steps, CapsuleGraph& graph) {
+  void Settle(std::size_t subject, int steps, capsule::MirroredSet& graph) {
     const EnclosingTask& task = *subjects_[subject].enclosing;
     const std::uint64_t seed = random_.NextBelow(1'000'000);
     task.FindShape(steps, 1.0, seed, alone_, meter_, graph);
     task.TakeIn(kTakeInSteps, seed, alone_, meter_, graph);
   }
 
-  [[nodiscard]] double ValueOf(std::size_t subject, const CapsuleGraph& graph) const {
+  [[nodiscard]] double ValueOf(std::size_t subject, const capsule::MirroredSet& graph) const {
     const Subject& s = subjects_[subject];
     return s.enclosing->Value(graph, alone_) / s.grid.volume_m3 - 1.0;
   }
@@ -173,7 +173,7 @@ class EnclosingLayoutSearch {
   void Remove(int count, Graphs& graphs) {
     for (int tries = 0; count > 0 && tries < kMostAdditions; ++tries) {
       const GraphWorth worth = WorthOf(graphs);
-      const CapsuleGraph& graph = graphs[0];
+      const capsule::MirroredSet& graph = graphs[0];
       const bool edge = graph.capsule_count() > 0 && random_.NextUnit() < 0.5;
       const int i = Drawn(edge ? worth.edge_loss : worth.node_loss, false, 2.5);
       if (ApplyToAll(EditOf(edge ? EditKind::kUnlink : EditKind::kDissolve, i), graphs)) --count;
@@ -182,11 +182,11 @@ class EnclosingLayoutSearch {
 
   // One capsule gets another end.
   void Rewire(Graphs& graphs) {
-    const CapsuleGraph& graph = graphs[0];
+    const capsule::MirroredSet& graph = graphs[0];
     if (graph.capsule_count() == 0) return;
     const int index = Below(graph.capsule_count());
-    const Edge& edge = graph.edges[U(index)];
-    const int kept = Below(2) == 0 ? edge.a : edge.b;
+    const capsule::CapsuleEnds& edge = graph.ends(index);
+    const int kept = Below(2) == 0 ? edge[0] : edge[1];
     const std::optional<int> other = NearTo(graph, kept);
     if (!other) return;
     Graphs next = graphs;
@@ -195,11 +195,11 @@ class EnclosingLayoutSearch {
     graphs = std::move(next);
   }
 
-  std::optional<int> NearTo(const CapsuleGraph& graph, int v) {
+  std::optional<int> NearTo(const capsule::MirroredSet& graph, int v) {
     std::vector<int> near;
-    const Node& a = graph.nodes[U(v)];
+    const geometry::Sphere& a = graph.sphere(v);
     for (int j = 0; j < graph.sphere_count(); ++j) {
-      const Node& b = graph.nodes[U(j)];
+      const geometry::Sphere& b = graph.sphere(j);
       const double apart_m = (a.center_m - b.center_m).norm();
       if (j != v && apart_m < kTieReach * (a.radius_m + b.radius_m)) near.push_back(j);
     }
@@ -222,7 +222,7 @@ class EnclosingLayoutSearch {
   }
 
   std::optional<Edit> Addition(const Graphs& graphs) {
-    const CapsuleGraph& graph = graphs[0];
+    const capsule::MirroredSet& graph = graphs[0];
     const double lot = random_.NextUnit();
     if (lot < 0.35) {
       if (graph.capsule_count() == 0) return std::nullopt;

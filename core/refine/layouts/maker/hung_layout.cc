@@ -25,7 +25,7 @@ BoneId NearestBone(const std::vector<Subject>& subjects, const Graphs& graphs, i
     double sum = 0.0;
     for (std::size_t k = 0; k < graphs.size(); ++k) {
       sum += subjects[k].skeleton.DistanceInRadii(static_cast<BoneId>(b), Side::kLeft,
-                                                  graphs[k].nodes[U(v)].center_m);
+                                                  graphs[k].sphere(v).center_m);
     }
     if (sum < least) least = sum, nearest = static_cast<BoneId>(b);
   }
@@ -38,7 +38,7 @@ LayoutNode NodeOf(const std::vector<Subject>& subjects, const Graphs& graphs, in
   Eigen::Vector4d mean = Eigen::Vector4d::Zero();
   for (std::size_t k = 0; k < graphs.size(); ++k) {
     const Skeleton& skeleton = subjects[k].skeleton;
-    const Node& node = graphs[k].nodes[U(v)];
+    const geometry::Sphere& node = graphs[k].sphere(v);
     const BonePlace place = *skeleton.PlaceOf(bone, Side::kLeft, node.center_m);
     const double radius = node.radius_m / skeleton.bone(bone, Side::kLeft)->radius_m;
     mean += Eigen::Vector4d(place.along, place.aside, place.ahead, radius);
@@ -54,25 +54,25 @@ LayoutNode NodeOf(const std::vector<Subject>& subjects, const Graphs& graphs, in
 }  // namespace
 
 HungLayout LayoutOf(const std::vector<Subject>& subjects, const Graphs& graphs) {
-  const CapsuleGraph& first = graphs[0];
+  const capsule::MirroredSet& first = graphs[0];
   HungLayout layout;
-  std::vector<std::uint8_t> row(first.nodes.size(), 0);
-  std::vector<char> is_right(first.nodes.size(), 0);
+  std::vector<std::uint8_t> row(first.spheres().size(), 0);
+  std::vector<char> is_right(first.spheres().size(), 0);
   for (int v = 0; v < first.sphere_count(); ++v) {
-    if (!first.IsNodeRepresentative(v)) continue;
-    const auto image = U(first.nodes[U(v)].mirror);
+    if (!first.IsRepresentative(v)) continue;
+    const auto image = U(first.ImageOf(v));
     // The left one stands for a pair.
-    const bool is_left = first.IsOnPlane(v) || first.nodes[U(v)].center_m.x() >= 0.0;
+    const bool is_left = first.IsOnPlane(v) || first.sphere(v).center_m.x() >= 0.0;
     row[U(v)] = row[image] = static_cast<std::uint8_t>(layout.nodes.size());
     if (!first.IsOnPlane(v)) is_right[is_left ? image : U(v)] = 1;
     layout.nodes.push_back(NodeOf(subjects, graphs, is_left ? v : static_cast<int>(image)));
   }
   for (int e = 0; e < first.capsule_count(); ++e) {
-    if (!first.IsEdgeRepresentative(e)) continue;
-    const Edge& edge = first.edges[U(e)];
-    const bool crossed = !first.IsOnPlane(edge.a) && !first.IsOnPlane(edge.b) &&
-                         is_right[U(edge.a)] != is_right[U(edge.b)];
-    const auto [low, high] = std::minmax(row[U(edge.a)], row[U(edge.b)]);
+    if (!first.IsCapsuleRepresentative(e)) continue;
+    const auto [a, b] = first.ends(e);
+    const bool crossed =
+        !first.IsOnPlane(a) && !first.IsOnPlane(b) && is_right[U(a)] != is_right[U(b)];
+    const auto [low, high] = std::minmax(row[U(a)], row[U(b)]);
     layout.edges.push_back({low, high, crossed});
   }
   return layout;

@@ -7,6 +7,7 @@
 #include "core/body/find_body.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
+#include "core/refine/best_fit/thin_out.h"
 #include "core/refine/internal.h"
 
 namespace capfit::refine {
@@ -59,15 +60,17 @@ std::optional<Subject> MakeSubject(const Figure& figure, const LayoutTask& task)
   body_options.unit = body::Unit::kMetre;
   auto found = body::FindBody(prepared->mesh, body_options, ThreadPool(1), NullObserver());
   if (!found.ok() || !found->is_symmetric) return std::nullopt;
+  std::vector<Eigen::Vector3f> half;
+  for (const Eigen::Vector3d& v : found->mesh.vertices()) {
+    if (v.x() >= 0.0) half.push_back(v.cast<float>());
+  }
+  std::vector<Eigen::Vector3d> thinned;
+  for (const Eigen::Vector3f& p : ThinOut(half, kThinnedM)) thinned.push_back(p.cast<double>());
   const Skeleton skeleton(*found);
-  Subject subject{*std::move(found), skeleton, {}, {}, {}, nullptr, nullptr};
+  Subject subject{*std::move(found), skeleton, {}, {}, {tighten::PointGrid(thinned)},
+                  nullptr,           nullptr};
   subject.parts.head = subject.parts.hands = subject.parts.feet = task.full;
   subject.grid = MakeOccupancyGrid(subject.body, subject.parts, kGridCellM, true);
-  std::vector<CoverPoint> points;
-  for (const Eigen::Vector3d& v : subject.body.mesh.vertices()) {
-    if (v.x() >= 0.0) points.push_back({v.cast<float>(), 0.0f});
-  }
-  subject.points = MakeCoverPoints(ThinOut(points, kThinnedM));
   if (task.enclose) {
     subject.enclosing = std::make_unique<EnclosingTask>(
         tighten::TargetOf(subject.body, subject.parts), /*symmetric=*/true, 0.0,
@@ -100,11 +103,11 @@ capsule::Budget BudgetOf(const LayoutTask& task) {
 bool ApplyToAll(const Edit& edit, Graphs& graphs) {
   constexpr double kOffPlaneShare = 0.35;
   Graphs result;
-  for (const CapsuleGraph& graph : graphs) {
+  for (const capsule::MirroredSet& graph : graphs) {
     Edit own = edit;
     if (edit.kind == EditKind::kLeaf || edit.kind == EditKind::kBall) {
-      const Node& from = graphs[0].nodes[U(edit.first)];
-      const Node& to = graph.nodes[U(edit.first)];
+      const geometry::Sphere& from = graphs[0].sphere(edit.first);
+      const geometry::Sphere& to = graph.sphere(edit.first);
       const double scale = to.radius_m / from.radius_m;
       own.center_m = to.center_m + scale * (edit.center_m - from.center_m);
       own.radius_m = scale * edit.radius_m;
@@ -118,8 +121,8 @@ bool ApplyToAll(const Edit& edit, Graphs& graphs) {
     EditedGraph edited = Apply(graph, own);
     if (!edited.possible) return false;
     result.push_back(std::move(edited.graph));
-    if (result.back().nodes.size() != result[0].nodes.size()) return false;
-    if (result.back().edges.size() != result[0].edges.size()) return false;
+    if (result.back().spheres().size() != result[0].spheres().size()) return false;
+    if (result.back().capsules().size() != result[0].capsules().size()) return false;
   }
   graphs = std::move(result);
   return true;

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/body/body.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/refine/best_fit/best_fit_objective.h"
 #include "core/refine/best_fit/growth.h"
 #include "core/refine/best_fit/occupancy_grid.h"
 #include "core/refine/enclosing/enclosing_task.h"
-#include "core/refine/graph/capsule_graph.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/refine/layouts/bones.h"
 
@@ -37,8 +37,8 @@ struct Subject {
   Skeleton skeleton;
   body::PartSelection parts;
   OccupancyGrid grid;
-  CoverPoints points;
-  std::unique_ptr<Objective> objective;  // of the best fit
+  SurfacePoints points;
+  std::unique_ptr<BestFitObjective> objective;  // of the best fit
   std::unique_ptr<EnclosingTask> enclosing;
 };
 
@@ -46,7 +46,7 @@ struct Subject {
 [[nodiscard]] std::vector<Subject> MakeSubjects(const LayoutTask& task);
 
 // The same topology on all mannequins: graphs whose nodes and edges correspond by index.
-using Graphs = std::vector<CapsuleGraph>;
+using Graphs = std::vector<capsule::MirroredSet>;
 
 // What a search may spend; 32 + 32 where 64 are asked for: the limits of common engines.
 [[nodiscard]] capsule::Budget BudgetOf(const LayoutTask& task);

@@ -39,9 +39,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   capfit::refine::LayoutTask task;
-  const std::string guise = argv[1];
-  task.enclose = guise.rfind("enclose", 0) == 0;
-  if (guise == "enclose-women") task.figures = capfit::refine::Figures::kWomen;
+  const std::string figures = argv[1];
+  task.enclose = figures.rfind("enclose", 0) == 0;
+  if (figures == "enclose-women") task.figures = capfit::refine::Figures::kWomen;
   task.full = std::string(argv[2]) == "full";
   task.primitives = std::atoi(argv[3]);
   task.cpu_seconds = std::atof(argv[4]);

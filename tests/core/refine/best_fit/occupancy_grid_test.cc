@@ -6,63 +6,14 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/core/refine/ball_body.h"
+
 namespace capfit::refine {
 namespace {
 
-// A ball of rings and segments around `center`, its lower half labelled as a foot.
-body::Body BallBody(const Eigen::Vector3d& center, double radius_m) {
-  constexpr int kRings = 48, kSegments = 96;
-  std::vector<Eigen::Vector3d> vertices = {center + Eigen::Vector3d(0, radius_m, 0)};
-  for (int i = 1; i < kRings; ++i) {
-    const double polar = std::numbers::pi * i / kRings;
-    for (int k = 0; k < kSegments; ++k) {
-      const double around = 2.0 * std::numbers::pi * (k + 0.5) / kSegments;
-      vertices.push_back(center + radius_m * Eigen::Vector3d(std::sin(polar) * std::sin(around),
-                                                             std::cos(polar),
-                                                             std::sin(polar) * std::cos(around)));
-    }
-  }
-  vertices.push_back(center - Eigen::Vector3d(0, radius_m, 0));
-  std::vector<mesh::Triangle> triangles;
-  const auto at = [](int ring, int k) {
-    return static_cast<std::uint32_t>(1 + (ring - 1) * kSegments + k % kSegments);
-  };
-  const auto last = static_cast<std::uint32_t>(vertices.size() - 1);
-  for (int k = 0; k < kSegments; ++k) {
-    triangles.push_back({0, at(1, k), at(1, k + 1)});
-    triangles.push_back({last, at(kRings - 1, k + 1), at(kRings - 1, k)});
-    for (int i = 1; i + 1 < kRings; ++i) {
-      triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
-      triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
-    }
-  }
-  std::vector<body::Segment> segments;
-  for (const Eigen::Vector3d& v : vertices) {
-    segments.push_back(v.y() < center.y() ? body::Segment::kLeftFoot : body::Segment::kTorso);
-  }
-  std::vector<std::int32_t> source(vertices.size());
-  for (std::size_t i = 0; i < source.size(); ++i) source[i] = static_cast<std::int32_t>(i);
-  body::Body body{mesh::BodyMesh(std::move(vertices), std::move(triangles), std::move(source)),
-                  {},
-                  2.0 * radius_m,
-                  true,
-                  {},
-                  std::move(segments),
-                  {},
-                  {}};
-  return body;
-}
-
-body::PartSelection AllParts() {
-  body::PartSelection parts;
-  parts.head = parts.hands = parts.feet = true;
-  return parts;
-}
-
-CapsuleGraph Ball(const Eigen::Vector3d& center, double radius_m) {
-  CapsuleGraph graph;
-  graph.symmetric = true;
-  graph.AddNode(center, radius_m, true);
+capsule::MirroredSet Ball(const Eigen::Vector3d& center, double radius_m, bool is_mirrored) {
+  capsule::MirroredSet graph(is_mirrored);
+  graph.AddSphere({center, radius_m}, true);
   return graph;
 }
 
@@ -99,8 +50,7 @@ TEST_P(OccupancyGridTest, ACoarserGridHoldsTheSame) {
   for (const float share : grid.inside) fine_cells += share;
   for (const float share : coarse.inside) coarse_cells += share;
   EXPECT_NEAR(coarse_cells, fine_cells / 8.0, 1e-3 * fine_cells);
-  CapsuleGraph less = Ball(center, 0.16);
-  less.symmetric = GetParam();
+  capsule::MirroredSet less = Ball(center, 0.16, GetParam());
   EXPECT_NEAR(GridError(coarse, less), 1.0 - std::pow(0.8, 3), 0.02);
 }
 
@@ -108,8 +58,9 @@ TEST_P(OccupancyGridTest, ErrorIsNothingForTheBallItselfAndExactForOthers) {
   const Eigen::Vector3d center(0.0, 0.3, 0.05);
   const OccupancyGrid grid =
       MakeOccupancyGrid(BallBody(center, 0.2), AllParts(), 0.008, GetParam());
-  CapsuleGraph same = Ball(center, 0.2), less = Ball(center, 0.16), more = Ball(center, 0.22);
-  for (CapsuleGraph* graph : {&same, &less, &more}) graph->symmetric = GetParam();
+  const capsule::MirroredSet same = Ball(center, 0.2, GetParam());
+  const capsule::MirroredSet less = Ball(center, 0.16, GetParam());
+  const capsule::MirroredSet more = Ball(center, 0.22, GetParam());
   EXPECT_LT(GridError(grid, same), 0.02);
   EXPECT_NEAR(GridError(grid, less), 1.0 - std::pow(0.8, 3), 0.015);
   EXPECT_NEAR(GridError(grid, more), std::pow(1.1, 3) - 1.0, 0.015);
@@ -125,25 +76,12 @@ TEST_P(OccupancyGridTest, PartsLeftOutCostNothingToFillAndNothingToLeave) {
   float cost = 1.0f;
   SampleCost(grid, &x, &y, &z, 1, &cost);
   EXPECT_FLOAT_EQ(cost, 0.0f);
-  CapsuleGraph same = Ball(center, 0.2);
-  same.symmetric = GetParam();
+  capsule::MirroredSet same = Ball(center, 0.2, GetParam());
   EXPECT_LT(GridError(grid, same), 0.03);
 }
 
 INSTANTIATE_TEST_SUITE_P(Folding, OccupancyGridTest, testing::Bool(),
                          [](const auto& info) { return info.param ? "Folded" : "Whole"; });
-
-TEST(UnionVolumeTest, MatchesClosedForms) {
-  CapsuleGraph graph = Ball({0.0, 0.3, 0.0}, 0.1);
-  const double ball = 4.0 / 3.0 * std::numbers::pi * 1e-3;
-  EXPECT_NEAR(UnionVolume(graph, BoundsOf(graph, 0.01), 0.004), ball, 0.01 * ball);
-  const int top = graph.AddNode({0.0, 0.6, 0.0}, 0.1, true);
-  graph.AddEdge(0, top);
-  const double capsule = ball + std::numbers::pi * 0.01 * 0.3;
-  EXPECT_NEAR(UnionVolume(graph, BoundsOf(graph, 0.01), 0.004), capsule, 0.01 * capsule);
-  graph.symmetric = false;
-  EXPECT_NEAR(UnionVolume(graph, BoundsOf(graph, 0.01), 0.004), capsule, 0.01 * capsule);
-}
 
 }  // namespace
 }  // namespace capfit::refine

@@ -3,80 +3,40 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "tests/core/refine/enclosing/tube.h"
 #include "tests/core/refine/graphs.h"
 
 namespace capfit::refine {
 namespace {
-
-constexpr double kRadius = 0.1;
-constexpr double kLength = 1.0;
-
-// A tube along y from 0 to kLength, open at both ends.
-tighten::CoverTarget Tube() {
-  constexpr int kRings = 41;
-  constexpr int kAround = 24;
-  tighten::CoverTarget target;
-  for (int ring = 0; ring < kRings; ++ring) {
-    for (int i = 0; i < kAround; ++i) {
-      const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kAround;
-      target.points_m.emplace_back(kRadius * std::cos(angle), kLength * ring / (kRings - 1),
-                                   kRadius * std::sin(angle));
-      if (ring == 0) continue;
-      const auto at = [&](int r, int k) {
-        return static_cast<std::uint32_t>(r * kAround + k % kAround);
-      };
-      target.triangles.push_back({at(ring - 1, i), at(ring, i), at(ring, i + 1)});
-      target.triangles.push_back({at(ring - 1, i), at(ring, i + 1), at(ring - 1, i + 1)});
-    }
-  }
-  target.point_parts.assign(target.points_m.size(), body::Part::kTorso);
-  return target;
-}
-
-const EnclosingTask& TubeTask() {
-  static const EnclosingTask task(Tube(), /*symmetric=*/false, 0.0, 0.03);
-  return task;
-}
-
-// Spheres of the tube's radius along it; nothing is tied.
-CapsuleGraph Beads(int count) {
-  CapsuleGraph graph;
-  for (int i = 0; i < count; ++i) {
-    graph.AddNode({0.0, kLength * i / (count - 1), 0.0}, 1.02 * kRadius, false);
-  }
-  return graph;
-}
 
 // Two large triangles whose corners are in small balls.
 TEST(EnclosingMovesTest, WhatSticksOutBetweenFarVerticesCounts) {
   tighten::CoverTarget square;
   square.points_m = {{0, 0, 0}, {0.4, 0, 0}, {0.4, 0.4, 0}, {0, 0.4, 0}};
   square.triangles = {{0, 1, 2}, {0, 2, 3}};
-  square.point_parts.assign(4, body::Part::kTorso);
   const EnclosingTask task(square, /*symmetric=*/false, 0.0, /*spacing=*/0.1);
   const ThreadPool pool(1);
-  CapsuleGraph corners;
-  for (const Eigen::Vector3d& point : square.points_m) corners.AddNode(point, 0.06, false);
+  capsule::MirroredSet corners;
+  for (const Eigen::Vector3d& point : square.points_m) corners.AddSphere({point, 0.06}, false);
   const std::vector<Eigen::Vector3d> worst = task.WorstPoints(corners, 100, pool);
   ASSERT_GE(worst.size(), 10u);
   EXPECT_LT((worst[0] - Eigen::Vector3d(0.2, 0.2, 0)).norm(), 0.05);
-  CapsuleGraph ball;
-  ball.AddNode({0.2, 0.2, 0}, 0.285, false);
+  capsule::MirroredSet ball;
+  ball.AddSphere({{0.2, 0.2, 0}, 0.285}, false);
   EXPECT_TRUE(task.WorstPoints(ball, 100, pool).empty());
 }
 
 TEST(EnclosingMovesTest, WhatTakesInWhatSticksOutWins) {
   const ThreadPool pool(1);
-  const CapsuleGraph beads = Beads(3);
+  const capsule::MirroredSet beads = Beads(3);
   const std::vector<Edit> ties = {EditOf(EditKind::kLink, 0, 1), EditOf(EditKind::kLink, 0, 2)};
   const std::vector<double> gains = TubeTask().GainsOf(beads, ties, pool);
   EXPECT_GT(gains[0], 0.0);
   EXPECT_GT(gains[1], 1.5 * gains[0]);  // twice as long
   EXPECT_EQ(gains, TubeTask().GainsOf(beads, ties, ThreadPool(3)));
-  CapsuleGraph full = beads;
-  full.AddEdge(0, 2);
+  capsule::MirroredSet full = beads;
+  full.AddCapsule(0, 2);
   EXPECT_LE(TubeTask().GainsOf(full, ties, pool)[0], 0.0);  // all is inside
   EXPECT_TRUE(TubeTask().WorstPoints(full, 5, pool).empty());
 }
@@ -101,11 +61,11 @@ TEST(EnclosingMovesTest, AdditionsAreRankedByWhatTheyWinForAPrimitive) {
 }
 
 TEST(EnclosingMovesTest, WhatOthersCoverIsLeastMissed) {
-  CapsuleGraph graph = Beads(3);
-  graph.AddEdge(0, 1);
-  graph.AddEdge(1, 2);
-  graph.AddNode({0.0, 0.25, 0.0}, 0.5 * kRadius, false);
-  graph.AddEdge(0, 3);  // inside the first capsule
+  capsule::MirroredSet graph = Beads(3);
+  graph.AddCapsule(0, 1);
+  graph.AddCapsule(1, 2);
+  graph.AddSphere({{0.0, 0.25, 0.0}, 0.5 * kRadius}, false);
+  graph.AddCapsule(0, 3);  // inside the first capsule
   const std::vector<Removal> removals = RemovalsOf(graph, TubeTask().Weigh(graph));
   ASSERT_FALSE(removals.empty());
   EXPECT_EQ(removals[0].loss_per_primitive, 0.0);
@@ -115,14 +75,14 @@ TEST(EnclosingMovesTest, WhatOthersCoverIsLeastMissed) {
 }
 
 TEST(EnclosingMovesTest, CuttingChangesNoShapeAndKeepsToTheBudget) {
-  CapsuleGraph graph = LeggedGraph(true);
-  const CapsuleGraph before = graph;
+  capsule::MirroredSet graph = LeggedGraph(true);
+  const capsule::MirroredSet before = graph;
   const std::vector<double> gaps = {1.0, 2.0, 4.0, 5.0, 4.0, 5.0};
   CutLoosest({17, 9, 1000}, 1000, {gaps.begin(), gaps.begin() + graph.capsule_count()}, graph);
   EXPECT_GT(graph.primitive_count(), before.primitive_count());
   EXPECT_LE(graph.primitive_count(), 17);
   EXPECT_LE(graph.sphere_count(), 9);
-  EXPECT_TRUE(IsExactlyMirrored(graph));
+  EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
   Random random(3);
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d p = RandomPoint(random);

@@ -9,7 +9,7 @@ namespace capfit::refine {
 namespace {
 
 TEST(GraphEditTest, SplittingChangesNoShape) {
-  const CapsuleGraph before = LeggedGraph(true);
+  const capsule::MirroredSet before = LeggedGraph(true);
   for (int e = 0; e < before.capsule_count(); ++e) {
     const EditedGraph after = Apply(before, EditOf(EditKind::kSplit, e));
     ASSERT_TRUE(after.possible);
@@ -24,22 +24,22 @@ TEST(GraphEditTest, SplittingChangesNoShape) {
 
 TEST(GraphEditTest, AnySequenceOfEditsKeepsTheMirror) {
   Random random(11);
-  CapsuleGraph graph = LeggedGraph(true);
+  capsule::MirroredSet graph = LeggedGraph(true);
   int applied = 0;
   for (int i = 0; i < 400; ++i) {
     const auto kind = static_cast<EditKind>(random.NextBelow(7));
     const bool of_edge = kind == EditKind::kSplit || kind == EditKind::kUnlink;
-    const auto count = of_edge ? graph.edges.size() : graph.nodes.size();
+    const auto count = of_edge ? graph.capsules().size() : graph.spheres().size();
     if (count == 0) continue;
     Edit edit = EditOf(kind, static_cast<int>(random.NextBelow(count)),
-                       static_cast<int>(random.NextBelow(graph.nodes.size())));
+                       static_cast<int>(random.NextBelow(graph.spheres().size())));
     edit.center_m = RandomPoint(random);
     edit.radius_m = random.NextIn(0.01, 0.1);
     const EditedGraph after = Apply(graph, edit);
     if (!after.possible || after.graph.primitive_count() > 60) continue;
     graph = after.graph;
     ++applied;
-    ASSERT_TRUE(IsExactlyMirrored(graph)) << "after edit " << i;
+    ASSERT_TRUE(capsule::IsExactlyMirrored(graph)) << "after edit " << i;
     for (const int v : after.touched) ASSERT_LT(v, graph.sphere_count());
   }
   EXPECT_GT(applied, 50);
@@ -50,7 +50,7 @@ TEST(GraphEditTest, PartingTiesEachSideToItsOwn) {
   ASSERT_TRUE(after.possible);
   EXPECT_EQ(after.graph.sphere_count(), 7);
   EXPECT_EQ(after.graph.capsule_count(), 6);  // chest twice, hips once each, two legs
-  EXPECT_TRUE(IsExactlyMirrored(after.graph));
+  EXPECT_TRUE(capsule::IsExactlyMirrored(after.graph));
 }
 
 TEST(GraphEditTest, DissolvingTiesTheNeighbours) {
@@ -63,7 +63,7 @@ TEST(GraphEditTest, DissolvingTiesTheNeighbours) {
 }
 
 TEST(GraphEditTest, LeavesTouchTheSurfaceFromInside) {
-  const CapsuleGraph graph = LeggedGraph(true);
+  const capsule::MirroredSet graph = LeggedGraph(true);
   const Eigen::Vector3d p(0.18, 0.5, 0.05);
   const std::vector<Edit> leaves = LeavesAt(graph, p);
   ASSERT_EQ(leaves.size(), 2u);
@@ -73,32 +73,32 @@ TEST(GraphEditTest, LeavesTouchTheSurfaceFromInside) {
 }
 
 TEST(GraphEditTest, RemoveSwallowedDropsWhatDoesNothing) {
-  CapsuleGraph graph = LeggedGraph(true);
-  graph.AddNode({0.0, 1.2, 0.01}, 0.05, true);  // inside the chest, alone
-  const int inside = graph.AddNode({0.0, 1.22, 0.01}, 0.04, true);
-  graph.AddEdge(0, inside);
+  capsule::MirroredSet graph = LeggedGraph(true);
+  graph.AddSphere({{0.0, 1.2, 0.01}, 0.05}, true);  // inside the chest, alone
+  const int inside = graph.AddSphere({{0.0, 1.22, 0.01}, 0.04}, true);
+  graph.AddCapsule(0, inside);
   RemoveSwallowed(graph);
   EXPECT_EQ(graph.sphere_count(), 6);
   EXPECT_EQ(graph.capsule_count(), 5);
-  EXPECT_TRUE(IsExactlyMirrored(graph));
+  EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
 }
 
 TEST(GraphEditTest, PiecesAreCountedByCapsules) {
-  CapsuleGraph graph = LeggedGraph(true);
+  capsule::MirroredSet graph = LeggedGraph(true);
   EXPECT_EQ(ComponentCount(graph), 1);
-  graph.AddNode({0.0, 1.2, 0.02}, 0.1, true);  // inside another, but tied to nothing
+  graph.AddSphere({{0.0, 1.2, 0.02}, 0.1}, true);  // inside another, but tied to nothing
   EXPECT_EQ(ComponentCount(graph), 2);
-  graph.AddNode({0.3, 1.2, 0.0}, 0.1, false);
+  graph.AddSphere({{0.3, 1.2, 0.0}, 0.1}, false);
   EXPECT_EQ(ComponentCount(graph), 4);
 }
 
 TEST(GraphEditTest, NothingFallsOffWhereAnEndIsSwallowed) {
   for (const bool symmetric : {true, false}) {
-    CapsuleGraph graph = LeggedGraph(symmetric);
-    graph.nodes[2].radius_m = 0.01;  // the hip
-    graph.nodes[2].center_m = {0.03, 0.98, 0.02};
+    capsule::MirroredSet graph = LeggedGraph(symmetric);
+    graph.sphere(2).radius_m = 0.01;  // the hip
+    graph.sphere(2).center_m = {0.03, 0.98, 0.02};
     graph.CopyToImages();
-    CapsuleGraph cut = graph;
+    capsule::MirroredSet cut = graph;
     RemoveSwallowed(cut);
     EXPECT_GT(ComponentCount(cut), 1);
     const int nodes = graph.sphere_count();
@@ -106,13 +106,13 @@ TEST(GraphEditTest, NothingFallsOffWhereAnEndIsSwallowed) {
     RemoveSwallowed(graph);
     EXPECT_EQ(ComponentCount(graph), 1);
     EXPECT_EQ(graph.sphere_count(), symmetric ? nodes - 2 : nodes - 1);
-    EXPECT_TRUE(!symmetric || IsExactlyMirrored(graph));
+    EXPECT_TRUE(!symmetric || capsule::IsExactlyMirrored(graph));
   }
 }
 
 TEST(GraphEditTest, RemovedSpheresAreTold) {
-  CapsuleGraph graph = LeggedGraph(true);
-  graph.AddNode({0.1, 0.84, 0.0}, 0.02, false);  // inside the hips
+  capsule::MirroredSet graph = LeggedGraph(true);
+  graph.AddSphere({{0.1, 0.84, 0.0}, 0.02}, false);  // inside the hips
   const std::vector<int> index = RemoveSwallowed(graph);
   EXPECT_EQ(index, (std::vector<int>{0, 1, 2, 3, 4, 5, -1, -1}));
   EXPECT_EQ(graph.sphere_count(), 6);
@@ -120,15 +120,14 @@ TEST(GraphEditTest, RemovedSpheresAreTold) {
 
 TEST(GraphEditTest, ALocalGraphIsTheSameWithinItsBox) {
   for (const bool symmetric : {true, false}) {
-    const CapsuleGraph graph = LeggedGraph(symmetric);
+    const capsule::MirroredSet graph = LeggedGraph(symmetric);
     const Eigen::AlignedBox3d box(Eigen::Vector3d(0.05, 0.1, -0.1), Eigen::Vector3d(0.2, 0.5, 0.1));
     const LocalGraph local = LocalGraphIn(graph, box);
     EXPECT_LT(local.graph.sphere_count(), graph.sphere_count());
-    EXPECT_EQ(local.graph.symmetric, symmetric);
-    EXPECT_TRUE(!symmetric || IsExactlyMirrored(local.graph));
+    EXPECT_EQ(local.graph.is_mirrored(), symmetric);
+    EXPECT_TRUE(!symmetric || capsule::IsExactlyMirrored(local.graph));
     for (std::size_t v = 0; v < local.nodes.size(); ++v) {
-      EXPECT_EQ(local.graph.nodes[v].center_m,
-                graph.nodes[static_cast<std::size_t>(local.nodes[v])].center_m);
+      EXPECT_EQ(local.graph.spheres()[v].center_m, graph.sphere(local.nodes[v]).center_m);
     }
     Random random(7);
     for (int i = 0; i < 200; ++i) {

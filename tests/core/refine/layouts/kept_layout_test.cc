@@ -11,6 +11,7 @@
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
 #include "core/refine/layouts/standard_layouts.h"
+#include "tests/core/capsule/mirrored.h"
 
 namespace capfit::refine {
 namespace {
@@ -35,47 +36,36 @@ const body::Body& Small() {
 
 const KeptLayout& Standard() { return *FindStandardLayout("standard-32"); }
 
-capsule::PrimitiveSet SetOf(const CapsuleGraph& graph, const KeptLayout& layout) {
-  capsule::PrimitiveSet set;
-  for (std::size_t v = 0; v < graph.nodes.size(); ++v) {
-    set.spheres.push_back({graph.nodes[v].center_m, graph.nodes[v].radius_m});
-    set.origins.push_back({layout.spheres[v].part, -1, graph.nodes[v].mirror});
-  }
-  for (const Edge& edge : graph.edges) set.capsules.push_back({edge.a, edge.b});
-  return set;
-}
-
 TEST(KeptLayout, HangsEverySphereByItsNumberWithItsImage) {
   const auto graph = HangLayout(Standard(), Tall());
   ASSERT_TRUE(graph.ok()) << graph.status();
-  EXPECT_TRUE(graph->symmetric);
-  ASSERT_EQ(graph->nodes.size(), Standard().spheres.size());
-  for (std::size_t v = 0; v < graph->nodes.size(); ++v) {
+  EXPECT_TRUE(capsule::IsExactlyMirrored(*graph));
+  ASSERT_EQ(graph->spheres().size(), Standard().spheres.size());
+  for (std::size_t v = 0; v < graph->spheres().size(); ++v) {
     const int mirror = Standard().spheres[v].mirror;
-    EXPECT_EQ(graph->nodes[v].mirror, mirror);
-    Eigen::Vector3d image = graph->nodes[v].center_m;
+    EXPECT_EQ(graph->set().origins[v].mirror, mirror);
+    Eigen::Vector3d image = graph->spheres()[v].center_m;
     image.x() = -image.x();
-    EXPECT_EQ(graph->nodes[static_cast<std::size_t>(mirror)].center_m, image) << v;
+    EXPECT_EQ(graph->sphere(mirror).center_m, image) << v;
   }
-  ASSERT_EQ(graph->edges.size(), Standard().capsules.size());
-  for (std::size_t e = 0; e < graph->edges.size(); ++e) {
-    EXPECT_EQ(graph->edges[e].a, Standard().capsules[e][0]);
-    EXPECT_EQ(graph->edges[e].b, Standard().capsules[e][1]);
-    EXPECT_GE(graph->edges[e].mirror, 0);
+  ASSERT_EQ(graph->capsules().size(), Standard().capsules.size());
+  for (std::size_t e = 0; e < graph->capsules().size(); ++e) {
+    EXPECT_EQ(graph->capsules()[e][0], Standard().capsules[e][0]);
+    EXPECT_EQ(graph->capsules()[e][1], Standard().capsules[e][1]);
   }
 }
 
 // Taking places off a body and hanging them on it again moves nothing.
 TEST(KeptLayout, PlacesLeadBackToWhereTheSpheresWere) {
-  const capsule::PrimitiveSet set = SetOf(*HangLayout(Standard(), Tall()), Standard());
+  const capsule::PrimitiveSet set = HangLayout(Standard(), Tall())->set();
   KeptLayout layout = Standard();
   const auto places = PlacesOf(Tall(), set);
   for (std::size_t v = 0; v < places.size(); ++v) layout.spheres[v].place = places[v];
   const auto again = HangLayout(layout, Tall());
   ASSERT_TRUE(again.ok()) << again.status();
   for (std::size_t v = 0; v < places.size(); ++v) {
-    EXPECT_LT((again->nodes[v].center_m - set.spheres[v].center_m).norm(), 1e-9) << v;
-    EXPECT_NEAR(again->nodes[v].radius_m, set.spheres[v].radius_m, 1e-9) << v;
+    EXPECT_LT((again->spheres()[v].center_m - set.spheres[v].center_m).norm(), 1e-9) << v;
+    EXPECT_NEAR(again->spheres()[v].radius_m, set.spheres[v].radius_m, 1e-9) << v;
   }
 }
 
@@ -85,9 +75,9 @@ TEST(KeptLayout, ScalesWithTheBody) {
   const auto small = HangLayout(Standard(), Small());
   ASSERT_TRUE(tall.ok() && small.ok());
   const double scale = Tall().height_m / Small().height_m;
-  for (std::size_t v = 0; v < tall->nodes.size(); ++v) {
-    const Eigen::Vector3d scaled = scale * small->nodes[v].center_m;
-    EXPECT_LT((tall->nodes[v].center_m - scaled).norm(), 0.03) << Standard().spheres[v].name;
+  for (std::size_t v = 0; v < tall->spheres().size(); ++v) {
+    const Eigen::Vector3d scaled = scale * small->spheres()[v].center_m;
+    EXPECT_LT((tall->spheres()[v].center_m - scaled).norm(), 0.03) << Standard().spheres[v].name;
   }
 }
 

@@ -1,8 +1,7 @@
-#include "core/refine/best_fit/objective.h"
+#include "core/refine/graph/points_apart.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <cstddef>
 
 namespace capfit::refine {
 
@@ -25,28 +24,6 @@ std::vector<Eigen::Vector3d> BestApart(const std::vector<Eigen::Vector3d>& point
     if (apart) chosen.push_back(points_m[i]);
   }
   return chosen;
-}
-
-Eigen::AlignedBox3d ReachOf(const CapsuleGraph& graph, const std::vector<char>& active) {
-  constexpr double kMarginM = 0.02;
-  Eigen::AlignedBox3d box;
-  const auto add = [&](int v) {
-    const Node& node = graph.nodes[static_cast<std::size_t>(v)];
-    Eigen::Vector3d center = node.center_m;
-    if (graph.symmetric) center.x() = std::abs(center.x());
-    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(node.radius_m + kMarginM);
-    box.extend(center - reach);
-    box.extend(center + reach);
-  };
-  for (const Edge& e : graph.edges) {
-    if (!active[static_cast<std::size_t>(e.a)] && !active[static_cast<std::size_t>(e.b)]) continue;
-    add(e.a);
-    add(e.b);
-  }
-  for (int v = 0; v < graph.sphere_count(); ++v) {
-    if (active[static_cast<std::size_t>(v)]) add(v);
-  }
-  return box;
 }
 
 }  // namespace capfit::refine

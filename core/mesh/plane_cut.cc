@@ -1,0 +1,89 @@
+#include "core/mesh/plane_cut.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace capfit::mesh {
+namespace {
+
+EdgeKey KeyOf(std::uint32_t a, std::uint32_t b) {
+  return (static_cast<EdgeKey>(std::min(a, b)) << 32) | std::max(a, b);
+}
+
+// The pieces by the edge they come in over: a hash table with open addresses.
+class PiecesByEdge {
+ public:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+  explicit PiecesByEdge(const std::vector<CutPiece>& pieces) : pieces_(pieces) {
+    while ((std::size_t{1} << bits_) < 2 * pieces.size()) ++bits_;
+    slots_.assign(std::size_t{1} << bits_, kNone);
+    for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+      std::size_t slot = SlotOf(pieces[i].from);
+      while (slots_[slot] != kNone) slot = (slot + 1) & (slots_.size() - 1);
+      slots_[slot] = i;
+    }
+  }
+  [[nodiscard]] std::uint32_t Find(EdgeKey edge) const {
+    std::size_t slot = SlotOf(edge);
+    while (slots_[slot] != kNone && pieces_[slots_[slot]].from != edge) {
+      slot = (slot + 1) & (slots_.size() - 1);
+    }
+    return slots_[slot];
+  }
+
+ private:
+  // The upper bits of a product with the golden ratio.
+  [[nodiscard]] std::size_t SlotOf(EdgeKey edge) const {
+    return (edge * 0x9E3779B97F4A7C15u) >> (64 - bits_);
+  }
+
+  const std::vector<CutPiece>& pieces_;
+  int bits_ = 4;
+  std::vector<std::uint32_t> slots_;
+};
+
+}  // namespace
+
+void CutTriangle(std::span<const Eigen::Vector3d> points, const Triangle& triangle,
+                 const std::array<double, 3>& heights, std::vector<CutPiece>& pieces) {
+  const int above = (heights[0] >= 0.0) + 2 * (heights[1] >= 0.0) + 4 * (heights[2] >= 0.0);
+  if (above == 0 || above == 7) return;
+  // Outward normals: the outline comes in where the triangle's edge goes down, from corner `in` to
+  // the next, and goes out where it rises from corner `out`.
+  constexpr std::array<std::size_t, 8> kIn = {0, 0, 1, 1, 2, 0, 2, 0};
+  constexpr std::array<std::size_t, 8> kOut = {0, 2, 0, 2, 1, 1, 0, 0};
+  constexpr std::array<std::size_t, 3> kNext = {1, 2, 0};
+  std::size_t low = kIn[static_cast<std::size_t>(above)];
+  std::size_t high = kNext[low];
+  const std::size_t out = kOut[static_cast<std::size_t>(above)];
+  if (triangle[low] > triangle[high]) std::swap(low, high);
+  // From the lower index, so that both triangles at the edge get the same bits. The heights' signs
+  // differ: never 0 / 0.
+  const double t = heights[low] / (heights[low] - heights[high]);
+  const Eigen::Vector3d& from = points[triangle[low]];
+  pieces.push_back(
+      {KeyOf(triangle[low], triangle[high]), KeyOf(triangle[out], triangle[kNext[out]]),
+       from + t * (points[triangle[high]] - from), t < 0.5 ? triangle[low] : triangle[high]});
+}
+
+std::vector<CutLoop> LinkPieces(const std::vector<CutPiece>& pieces) {
+  std::vector<CutLoop> loops;
+  std::vector<char> used(pieces.size(), 0);
+  const PiecesByEdge by_edge(pieces);
+  for (std::uint32_t first = 0; first < pieces.size(); ++first) {
+    if (used[first]) continue;
+    CutLoop loop;
+    std::uint32_t at = first;
+    while (at != PiecesByEdge::kNone && !used[at]) {
+      used[at] = 1;
+      loop.pieces.push_back(at);
+      at = by_edge.Find(pieces[at].to);
+    }
+    loop.is_closed = at == first;
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+}  // namespace capfit::mesh

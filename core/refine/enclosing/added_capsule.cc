@@ -1,0 +1,96 @@
+#include "core/refine/enclosing/added_capsule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace capfit::refine {
+namespace {
+
+using geometry::TaperedCapsule;
+using Vec3 = Eigen::Vector3d;
+
+// Along and around a tie, where its volume is sampled.
+constexpr int kAlong = 8, kAround = 8, kAcross = 4;
+
+}  // namespace
+
+OutsidePoints::OutsidePoints(const tighten::PointGrid& grid, const std::vector<double>& distances_m,
+                             const std::vector<double>& areas_m2, double allowed_m)
+    : allowed_m_(allowed_m) {
+  for (const tighten::PointGrid::Block& block : grid.blocks()) {
+    Run run{x_.size(), 0, block.center, block.reach, 0.0};
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+      if (distances_m[i] <= allowed_m) continue;
+      const Vec3& p = grid.point(i);
+      x_.push_back(p.x()), y_.push_back(p.y()), z_.push_back(p.z());
+      area_.push_back(areas_m2[grid.order()[i]]);
+      out_.push_back(distances_m[i] - allowed_m);
+      run.furthest_m = std::max(run.furthest_m, distances_m[i]);
+    }
+    run.end = x_.size();
+    if (run.end > run.begin) runs_.push_back(run);
+  }
+}
+
+double OutsidePoints::TakenInBy(const TaperedCapsule& capsule, bool with_image) const {
+  const tighten::DistanceKernel kernel(capsule);
+  const double image = with_image ? -1.0 : 1.0;
+  double sum = 0.0;
+  for (const Run& run : runs_) {
+    const Vec3& c = run.center;
+    const double here = kernel.SignedDistance(c.x(), c.y(), c.z());
+    const double there = kernel.SignedDistance(image * c.x(), c.y(), c.z());
+    if (std::min(here, there) - run.reach >= run.furthest_m) continue;  // nearer to others
+    sum += TakenInBy(kernel, image, run);
+  }
+  return sum;
+}
+
+double OutsidePoints::TakenInBy(const tighten::DistanceKernel& kernel, double image,
+                                const Run& run) const {
+  double sum = 0.0;
+  for (std::size_t i = run.begin; i < run.end; ++i) {
+    const double here = kernel.SignedDistance(x_[i], y_[i], z_[i]);
+    const double there = kernel.SignedDistance(image * x_[i], y_[i], z_[i]);
+    double still_out = (here < there ? here : there) - allowed_m_;
+    still_out = still_out > 0.0 ? still_out : 0.0;
+    const double won = out_[i] - still_out;
+    sum += won > 0.0 ? area_[i] * won : 0.0;
+  }
+  return sum;
+}
+
+// How much of the capsule between its end spheres is in no other shape.
+double VolumeOutside(const TaperedCapsule& tie, const std::vector<TaperedCapsule>& shapes) {
+  std::vector<std::size_t> near;
+  const Vec3 middle = 0.5 * (tie.a().center_m + tie.b().center_m);
+  const double reach = 0.5 * tie.length_m() + std::max(tie.a().radius_m, tie.b().radius_m);
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    if (shapes[k].SignedDistance(middle) < reach) near.push_back(k);
+  }
+  const Vec3 side = tie.axis().unitOrthogonal();
+  const Vec3 up = tie.axis().cross(side);
+  double sum = 0.0;
+  for (int i = 0; i < kAlong; ++i) {
+    const double t = (i + 0.5) / kAlong;
+    const Vec3 center = tie.a().center_m + t * (tie.b().center_m - tie.a().center_m);
+    const double radius = tie.a().radius_m + t * (tie.b().radius_m - tie.a().radius_m);
+    for (int j = 0; j < kAround; ++j) {
+      const double angle = 2.0 * std::numbers::pi * (j + 0.5 * (i % 2)) / kAround;
+      const Vec3 out = std::cos(angle) * side + std::sin(angle) * up;
+      for (int m = 0; m < kAcross; ++m) {
+        // Equal areas across.
+        const Vec3 p = center + radius * std::sqrt((m + 0.5) / kAcross) * out;
+        const bool is_inside = std::any_of(near.begin(), near.end(), [&](std::size_t k) {
+          return shapes[k].SignedDistance(p) <= 0.0;
+        });
+        if (!is_inside) sum += std::numbers::pi * radius * radius;
+      }
+    }
+  }
+  return sum * tie.length_m() / (kAlong * kAround * kAcross);
+}
+
+}  // namespace capfit::refine

@@ -1,0 +1,112 @@
+#include "core/coverage/surface_probe.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/random.h"
+#include "core/coverage/cover_body.h"
+#include "tests/core/tighten/tube_body.h"
+
+namespace capfit::coverage {
+namespace {
+
+const ThreadPool& Alone() {
+  static const ThreadPool pool(1);
+  return pool;
+}
+
+// One large triangle over the gap between balls around its corners.
+struct Tent {
+  tighten::CoverTarget target;
+  capsule::PrimitiveSet set;
+
+  explicit Tent(double radius_m) {
+    target.points_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    target.triangles = {{0, 1, 2}};
+    for (const Eigen::Vector3d& p : target.points_m) {
+      set.spheres.push_back({p, radius_m});
+      set.origins.emplace_back();
+    }
+  }
+};
+
+std::vector<Eigen::Vector3d> PointsOutside(const Tent& tent, double asked_m, double max_gap_m) {
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(tent.set);
+  const tighten::PointGrid grid(tent.target.points_m);
+  const tighten::UnionDistances at = InCallersOrder(grid, grid.DistancesTo(solids, -1.0, Alone()));
+  return FindPointsOutside(tent.target, at, solids, asked_m, max_gap_m, Alone());
+}
+
+double Furthest(const tighten::CoverTarget& target, const capsule::PrimitiveSet& set, int n) {
+  double furthest = 0.0;
+  for (const mesh::Triangle& t : target.triangles) {
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; i + j <= n; ++j) {
+        const Eigen::Vector3d p = (i * target.points_m[t[0]] + j * target.points_m[t[1]] +
+                                   (n - i - j) * target.points_m[t[2]]) /
+                                  n;
+        furthest = std::max(furthest, tighten::DistanceToUnion(set, p));
+      }
+    }
+  }
+  return furthest;
+}
+
+// The middle of the long side is 1 / sqrt(2) from the nearest corner.
+TEST(SurfaceProbeTest, TheCertifiedGapOfATentIsWhatItIs) {
+  for (const double radius : {0.2, 0.5, 0.7}) {
+    const Tent tent(radius);
+    const double gap = CertifiedGap(tent.target, tent.set, 1e-4, Alone());
+    EXPECT_GE(gap, std::sqrt(0.5) - radius - 1e-12);
+    EXPECT_LE(gap, std::sqrt(0.5) - radius + 2e-4);
+  }
+  EXPECT_LE(CertifiedGap(Tent(0.75).target, Tent(0.75).set, 1e-4, Alone()), 1e-4);
+}
+
+TEST(SurfaceProbeTest, TheGapBoundsEverySampleFromAboveAndNotByMuch) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const tighten::TubeBody body = tighten::MakeTubeBody(seed, 0.0);
+    const double sampled = Furthest(body.target, body.set, 12);
+    const double gap = CertifiedGap(body.target, body.set, 1e-4, Alone());
+    EXPECT_GE(gap, sampled - 1e-9);
+    EXPECT_LE(gap, sampled + 1e-3);
+  }
+}
+
+TEST(SurfaceProbeTest, PointsOutsideAreOutsideAndNoneMeansProved) {
+  const Tent loose(0.5);
+  const std::vector<Eigen::Vector3d> found = PointsOutside(loose, 0.05, 0.06);
+  ASSERT_FALSE(found.empty());
+  for (const Eigen::Vector3d& p : found) {
+    EXPECT_GT(tighten::DistanceToUnion(loose.set, p), 0.05);
+    EXPECT_NEAR(p.z(), 0.0, 1e-12);
+    EXPECT_TRUE(p.x() >= -1e-12 && p.y() >= -1e-12 && p.x() + p.y() <= 1.0 + 1e-12);
+  }
+  EXPECT_TRUE(PointsOutside(Tent(0.66), 0.05, 0.06).empty());
+}
+
+TEST(SurfaceProbeTest, WithoutSolidsTheGapIsInfiniteAndWithoutPointsNothing) {
+  EXPECT_EQ(CertifiedGap(Tent(0.5).target, {}, 1e-4, Alone()),
+            std::numeric_limits<double>::infinity());
+  EXPECT_EQ(CertifiedGap({}, Tent(0.5).set, 1e-4, Alone()), 0.0);
+}
+
+TEST(SurfaceProbeTest, CallersOrderIsThatOfThePoints) {
+  Random random(4);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 500; ++i) {
+    points.push_back({random.NextIn(-1, 1), random.NextIn(-1, 1), random.NextIn(-1, 1)});
+  }
+  const Tent tent(0.3);
+  const tighten::PointGrid grid(points);
+  const tighten::UnionDistances at =
+      InCallersOrder(grid, grid.DistancesTo(capsule::Solids(tent.set), -9.0, Alone()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(at.distance_m[i], tighten::DistanceToUnion(tent.set, points[i]), 2e-6);
+  }
+}
+
+}  // namespace
+}  // namespace capfit::coverage
