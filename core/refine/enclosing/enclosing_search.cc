@@ -151,6 +151,8 @@ class Search {
 
   // One round of growth from the best of the attempts; whether there was any.
   bool Grow(std::uint64_t seed, std::vector<Attempt>& attempts) const {
+    if (attempts.empty())
+      return false;  // of so few primitives no layout is smaller than the budget
     const int most = std::clamp(kGrownTimesPrimitives / std::max(1, usual_), 1, kMostGrown);
     attempts.resize(std::min(attempts.size(), static_cast<std::size_t>(most)));
     std::vector<Attempt> grown(attempts.size() * variants_);
