@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/body/tip_roles.h"
+
 namespace capfit::body {
 namespace {
 
@@ -23,27 +25,7 @@ constexpr int kMaxStumps = 3;
 // a single vertex decides.
 constexpr double kSourceShell = 1.3;
 
-// Ways along the surface between two tips, half-way between bodies with and without head, hands
-// and feet. Only their ratios count.
-constexpr double kHandToHand = 0.65;
-constexpr double kHeadToHand = 0.48;
-constexpr double kHeadToFoot = 1.05;
-constexpr double kHandToFoot = 1.20;
-constexpr double kFootToFoot = 1.20;
-// Both arms are about as long as each other, both legs too: weight of the log of the ratio.
-constexpr double kUnequalPairCost = 0.5;
-// What it costs to leave a role empty, or a tip without a role, in units of the misfit.
-constexpr double kEmptyRoleCost = 0.12;
-constexpr double kUnusedTipCost = 0.10;
-// A role for a tip that the skeleton gives to another: more than leaving both without.
-constexpr double kContradictionCost = 0.40;
-
-// Mean girth of head, arm and leg, and the weight of the log of the ratio. A piece as wide as a
-// trunk (1.0) is no limb.
-constexpr double kHeadGirth = 0.45;
-constexpr double kArmGirth = 0.18;
-constexpr double kLegGirth = 0.31;
-constexpr double kGirthCost = 0.25;
+// A piece as wide as a trunk (1.0) is no limb.
 constexpr double kMaxLimbGirth = 0.85;
 
 // A result worse than the first is not trusted before the middle that no pose moves has been tried,
@@ -55,171 +37,6 @@ constexpr int kSweeps = 4;
 constexpr double kMiddleWidth = 0.03;
 // At most this many other middles.
 constexpr int kMaxMiddles = 4;
-
-// A tip that may be an extremity.
-struct Candidate {
-  int branch = 0;
-  double girth = 0.0;  // mean, from its junction to the tip
-  bool is_stump = false;
-  double junction = 0.0;
-  std::vector<std::uint32_t> vertices;        // those farther than the junction
-  std::array<bool, kRigEndCount> holds = {};  // which ends of the skeleton are among these
-};
-
-bool HoldsAny(const Candidate& candidate) {
-  return std::any_of(candidate.holds.begin(), candidate.holds.end(), [](bool b) { return b; });
-}
-
-// The ends of a skeleton that a role may stand for: first and last.
-std::pair<RigEnd, RigEnd> EndsOf(Tip tip) {
-  if (tip == Tip::kHead) return {RigEnd::kHead, RigEnd::kHead};
-  return tip == Tip::kHandA || tip == Tip::kHandB
-             ? std::pair(RigEnd::kLeftHand, RigEnd::kRightHand)
-             : std::pair(RigEnd::kLeftFoot, RigEnd::kRightFoot);
-}
-
-double UsualWay(Tip a, Tip b) {
-  const auto is_hand = [](Tip t) { return t == Tip::kHandA || t == Tip::kHandB; };
-  if (a > b) std::swap(a, b);
-  if (a == Tip::kHead) return is_hand(b) ? kHeadToHand : kHeadToFoot;
-  if (is_hand(a)) return is_hand(b) ? kHandToHand : kHandToFoot;
-  return kFootToFoot;
-}
-
-double UsualGirth(Tip tip) {
-  if (tip == Tip::kHead) return kHeadGirth;
-  return tip == Tip::kHandA || tip == Tip::kHandB ? kArmGirth : kLegGirth;
-}
-
-using Roles = std::array<int, kTipCount>;  // candidate of each role, -1: none
-
-// Gives the roles to the tips so that the proportions fit best.
-class RoleFinder {
- public:
-  RoleFinder(std::span<const Branch> branches, std::span<const Candidate> candidates,
-             const std::optional<RigEnds>& rig)
-      : branches_(branches), candidates_(candidates), rig_(rig) {}
-
-  // Tries every way; equal roles (two hands) count once.
-  void Run() { TryFrom(0); }
-  [[nodiscard]] const Roles& roles() const { return best_; }
-  [[nodiscard]] double misfit() const { return best_misfit_; }
-
- private:
-  void TryFrom(int role) {
-    if (role == kTipCount) {
-      const double misfit = Misfit();
-      if (misfit >= best_misfit_) return;
-      best_misfit_ = misfit;
-      best_ = roles_;
-      return;
-    }
-    const bool is_second =
-        role == static_cast<int>(Tip::kHandB) || role == static_cast<int>(Tip::kFootB);
-    const bool first_is_empty = is_second && roles_[role - 1] < 0;
-    const int first = is_second ? roles_[role - 1] + 1 : 0;
-    const int count = static_cast<int>(candidates_.size());
-    for (int tip = first; tip < count && !first_is_empty; ++tip) {
-      if (std::find(roles_.begin(), roles_.begin() + role, tip) != roles_.begin() + role) continue;
-      if (candidates_[tip].is_stump && role != static_cast<int>(Tip::kHead)) continue;
-      roles_[role] = tip;
-      TryFrom(role + 1);
-    }
-    roles_[role] = -1;
-    TryFrom(role + 1);
-  }
-
-  [[nodiscard]] double Junction(int role_a, int role_b) const {
-    return JunctionLevel(branches_, candidates_[roles_[role_a]].branch,
-                         candidates_[roles_[role_b]].branch);
-  }
-  [[nodiscard]] double TipDistance(int role) const {
-    return branches_[candidates_[roles_[role]].branch].tip_distance;
-  }
-
-  // |log(length / length)| of a pair of limbs, both counted from where they join.
-  [[nodiscard]] double Inequality(int role_a, int role_b) const {
-    if (roles_[role_a] < 0 || roles_[role_b] < 0) return 0.0;
-    const double level = Junction(role_a, role_b);
-    return std::abs(std::log(std::max(TipDistance(role_a) - level, 1e-6) /
-                             std::max(TipDistance(role_b) - level, 1e-6)));
-  }
-
-  // Standard deviation of log(way / usual way) over all pairs of roles.
-  [[nodiscard]] double WayDeviation() const {
-    double sum = 0.0;
-    double sum_of_squares = 0.0;
-    int pairs = 0;
-    for (int i = 0; i < kTipCount; ++i) {
-      for (int j = i + 1; j < kTipCount; ++j) {
-        if (roles_[i] < 0 || roles_[j] < 0) continue;
-        const double way = TipDistance(i) + TipDistance(j) - 2.0 * Junction(i, j);
-        const double deviation =
-            std::log(std::max(way, 1e-6) / UsualWay(static_cast<Tip>(i), static_cast<Tip>(j)));
-        sum += deviation;
-        sum_of_squares += deviation * deviation;
-        ++pairs;
-      }
-    }
-    if (pairs == 0) return 0.0;
-    const double mean = sum / pairs;
-    return std::sqrt(std::max(0.0, sum_of_squares / pairs - mean * mean));
-  }
-
-  // Mean of |log(girth / usual girth)|.
-  [[nodiscard]] double GirthDeviation() const {
-    double sum = 0.0;
-    int count = 0;
-    for (int i = 0; i < kTipCount; ++i) {
-      if (roles_[i] < 0) continue;
-      sum += std::abs(
-          std::log(std::max(candidates_[roles_[i]].girth, 1e-6) / UsualGirth(static_cast<Tip>(i))));
-      ++count;
-    }
-    return count > 0 ? sum / count : 0.0;
-  }
-
-  [[nodiscard]] int UnusedTips() const {
-    int unused = 0;
-    for (int c = 0; c < static_cast<int>(candidates_.size()); ++c) {
-      if (candidates_[c].is_stump || (rig_ && !HoldsAny(candidates_[c]))) continue;
-      if (std::find(roles_.begin(), roles_.end(), c) == roles_.end()) ++unused;
-    }
-    return unused;
-  }
-
-  // Tips whose role the skeleton gives to others.
-  [[nodiscard]] int Contradictions() const {
-    int contradictions = 0;
-    for (int role = 0; rig_ && role < kTipCount; ++role) {
-      if (roles_[role] < 0) continue;
-      const auto [first, last] = EndsOf(static_cast<Tip>(role));
-      const std::array<bool, kRigEndCount>& holds = candidates_[roles_[role]].holds;
-      const bool holds_its_end =
-          holds[static_cast<std::size_t>(first)] || holds[static_cast<std::size_t>(last)];
-      if (!holds_its_end) ++contradictions;
-    }
-    return contradictions;
-  }
-
-  [[nodiscard]] double Misfit() const {
-    const int used =
-        static_cast<int>(std::count_if(roles_.begin(), roles_.end(), [](int r) { return r >= 0; }));
-    const double inequality =
-        Inequality(static_cast<int>(Tip::kHandA), static_cast<int>(Tip::kHandB)) +
-        Inequality(static_cast<int>(Tip::kFootA), static_cast<int>(Tip::kFootB));
-    return WayDeviation() + kUnequalPairCost * inequality + kGirthCost * GirthDeviation() +
-           kEmptyRoleCost * (kTipCount - used) + kUnusedTipCost * UnusedTips() +
-           kContradictionCost * Contradictions();
-  }
-
-  std::span<const Branch> branches_;
-  std::span<const Candidate> candidates_;
-  const std::optional<RigEnds>& rig_;
-  Roles roles_ = {-1, -1, -1, -1, -1};
-  Roles best_ = {-1, -1, -1, -1, -1};
-  double best_misfit_ = std::numeric_limits<double>::infinity();
-};
 
 // All vertices that can be reached from the tip without sinking to the level.
 std::vector<std::uint32_t> VerticesAbove(const SurfaceGraph& graph,
@@ -322,10 +139,11 @@ double FirstJunction(std::span<const Branch> branches, int branch, std::span<con
 }
 
 // The tips that stand out, but for what is as wide as a trunk, and stumps after them.
-std::vector<Candidate> Candidates(std::span<const Branch> branches,
-                                  std::span<const double> distance,
-                                  std::span<const double> vertex_areas, const SurfaceGraph& graph,
-                                  const ThreadPool& pool, const std::optional<RigEnds>& rig) {
+std::vector<TipCandidate> Candidates(std::span<const Branch> branches,
+                                     std::span<const double> distance,
+                                     std::span<const double> vertex_areas,
+                                     const SurfaceGraph& graph, const ThreadPool& pool,
+                                     const std::optional<RigEnds>& rig) {
   std::vector<int> tall;
   std::vector<int> stumps;
   for (int b = 0; b < static_cast<int>(branches.size()); ++b) {
@@ -338,7 +156,7 @@ std::vector<Candidate> Candidates(std::span<const Branch> branches,
   if (tall.size() < 2) return {};  // a ball, a cube: one way out is none
   if (tall.size() > kMaxCandidates) tall.resize(kMaxCandidates);
   if (stumps.size() > kMaxStumps) stumps.resize(kMaxStumps);
-  std::vector<Candidate> candidates(tall.size() + stumps.size());
+  std::vector<TipCandidate> candidates(tall.size() + stumps.size());
   pool.ForEach(candidates.size(), [&](std::size_t i) {
     const bool is_stump = i >= tall.size();
     const int b = is_stump ? stumps[i - tall.size()] : tall[i];
@@ -354,7 +172,7 @@ std::vector<Candidate> Candidates(std::span<const Branch> branches,
     }
   });
   std::erase_if(candidates,
-                [](const Candidate& c) { return !c.is_stump && c.girth > kMaxLimbGirth; });
+                [](const TipCandidate& c) { return !c.is_stump && c.girth > kMaxLimbGirth; });
   return candidates;
 }
 
@@ -364,13 +182,12 @@ Extremities FromSources(const std::vector<GeodesicSource>& sources,
   Extremities result;
   result.distance = graph.Distances(sources, pool);
   const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump, pool);
-  std::vector<Candidate> candidates =
+  std::vector<TipCandidate> candidates =
       Candidates(branches, result.distance, vertex_areas, graph, pool, rig);
-  RoleFinder finder(branches, candidates, rig);
-  finder.Run();
-  result.misfit = finder.misfit();
+  const TipRoles found = FindTipRoles(branches, candidates, rig);
+  result.misfit = found.misfit;
   for (int role = 0; role < kTipCount; ++role) {
-    const int candidate = finder.roles()[role];
+    const int candidate = found.candidates[role];
     if (candidate < 0) continue;
     const Branch& branch = branches[candidates[candidate].branch];
     Limb limb = {branch.tip, 0.0, branch.tip_distance, {}, {}};
@@ -378,7 +195,7 @@ Extremities FromSources(const std::vector<GeodesicSource>& sources,
     const bool holds_left = candidates[candidate].holds[static_cast<std::size_t>(left)];
     const bool holds_right = candidates[candidate].holds[static_cast<std::size_t>(right)];
     if (holds_left != holds_right) limb.is_left = holds_left;
-    for (const int other : finder.roles()) {
+    for (const int other : found.candidates) {
       if (other < 0 || other == candidate) continue;
       limb.junction = std::max(limb.junction, JunctionLevel(branches, candidates[candidate].branch,
                                                             candidates[other].branch));

@@ -13,12 +13,6 @@
 
 namespace capfit::body {
 
-// Centroids of the rings of equal distance of one limb, from its junction to its tip.
-using LevelCentroids = std::vector<Eigen::Vector3d>;
-
-// Number of rings a limb is cut into.
-inline constexpr int kLevels = 24;
-
 // The axes in the coordinates of the points that they were found from.
 struct IntrinsicFrame {
   Eigen::Vector3d left = Eigen::Vector3d::UnitX();  // normal of the symmetry plane

@@ -134,7 +134,7 @@ class Search {
     std::vector<Attempt> small(attempts.begin(), large);
     attempts.erase(attempts.begin(), large);
     Sort(small);
-    for (std::uint64_t seed = 10; !small.empty() && Grow(seed, small) && !meter_.IsCancelled();) {
+    for (std::uint64_t seed = 10; Grow(seed, small) && !meter_.IsCancelled();) {
       seed += kMostGrown * variants_;
     }
     attempts.insert(attempts.end(), small.begin(), small.end());
@@ -157,6 +157,8 @@ class Search {
 
   // One round of growth from the best of the attempts; whether there was any.
   bool Grow(std::uint64_t seed, std::vector<Attempt>& attempts) {
+    // Of so few primitives no layout is smaller than the budget; of standard layouts none is.
+    if (attempts.empty()) return false;
     const int most = std::clamp(kGrownTimesPrimitives / std::max(1, usual_), 1, kMostGrown);
     attempts.resize(std::min(attempts.size(), static_cast<std::size_t>(most)));
     std::vector<Attempt> grown(attempts.size() * variants_);

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,8 +18,6 @@
 
 namespace capfit::body {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Surface {
   std::vector<Eigen::Vector3d> points;
@@ -35,7 +34,7 @@ Surface Tube(int around, int along, double length) {
   Surface tube;
   for (int i = 0; i <= along; ++i) {
     for (int k = 0; k < around; ++k) {
-      const double angle = 2.0 * kPi * k / around;
+      const double angle = 2.0 * std::numbers::pi * k / around;
       tube.points.emplace_back(std::cos(angle), std::sin(angle), length * i / along);
     }
   }
@@ -59,7 +58,7 @@ Surface Tube(int around, int along, double length) {
 TEST(CutSurface, TubeSectionsHaveTheirClosedForms) {
   const Surface tube = Tube(64, 40, 4.0);
   const CutSurface surface(tube.points, tube.triangles);
-  const double polygon_area = 0.5 * 64 * std::sin(2.0 * kPi / 64);
+  const double polygon_area = 0.5 * 64 * std::sin(2.0 * std::numbers::pi / 64);
   for (const double tilt : {0.0, 0.3, 0.6}) {
     const CutPlane plane = {{0.1, 0.0, 2.03}, {std::sin(tilt), 0.0, std::cos(tilt)}};
     const auto loops = surface.Cut(plane);
@@ -70,7 +69,8 @@ TEST(CutSurface, TubeSectionsHaveTheirClosedForms) {
     EXPECT_NEAR(plane.Height(loops[0].centroid), 0.0, 1e-12);
     EXPECT_NEAR(loops[0].Max(Eigen::Vector3d::UnitX()), 1.0, 1e-9);
   }
-  EXPECT_NEAR(surface.Cut({{0, 0, 1.01}, {0, 0, 1}})[0].girth, 64 * 2 * std::sin(kPi / 64), 1e-9);
+  EXPECT_NEAR(surface.Cut({{0, 0, 1.01}, {0, 0, 1}})[0].girth,
+              64 * 2 * std::sin(std::numbers::pi / 64), 1e-9);
   EXPECT_TRUE(surface.Cut({{0, 0, 9}, {0, 0, 1}}).empty());
 }
 
@@ -98,7 +98,7 @@ TEST(SurfaceGraph, DistancesOnATubeAreNearThoseOnTheUnrolledSheet) {
   const auto distance = graph.Distances(std::vector<GeodesicSource>{{source, 0.0}});
   for (int i = 5; i <= 55; ++i) {
     for (int k = 0; k < around; ++k) {
-      const double angle = 2.0 * kPi * std::min(k, around - k) / around;
+      const double angle = 2.0 * std::numbers::pi * std::min(k, around - k) / around;
       const double truth = std::hypot(angle, 6.0 * i / 60 - 3.0);
       EXPECT_GE(distance[i * around + k], 0.99 * truth);
       EXPECT_LE(distance[i * around + k], 1.12 * truth + 1e-9);

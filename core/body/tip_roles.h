@@ -1,0 +1,45 @@
+// Which of the tips that a surface runs out into is which: head, hands, feet.
+#ifndef CAPFIT_CORE_BODY_TIP_ROLES_H_
+#define CAPFIT_CORE_BODY_TIP_ROLES_H_
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/body/branches.h"
+#include "core/body/extremities.h"
+#include "core/body/rig_ends.h"
+
+namespace capfit::body {
+
+// A tip that may be an extremity.
+struct TipCandidate {
+  int branch = 0;
+  double girth = 0.0;  // mean, from its junction to the tip
+  bool is_stump = false;
+  double junction = 0.0;
+  std::vector<std::uint32_t> vertices;        // those farther than the junction
+  std::array<bool, kRigEndCount> holds = {};  // which ends of the skeleton are among these
+};
+
+// The ends of a skeleton that a role may stand for: first and last.
+[[nodiscard]] std::pair<RigEnd, RigEnd> EndsOf(Tip tip);
+
+struct TipRoles {
+  std::array<int, kTipCount> candidates = {-1, -1, -1, -1, -1};  // of each role, -1: none
+  double misfit = 0.0;                                           // see Extremities
+};
+
+// The roles with which the proportions fit best: the lengths of the ways between the tips, the
+// girths, both of a pair alike, few tips without a role and few roles without a tip, and no
+// contradiction to the skeleton. Tries every way.
+[[nodiscard]] TipRoles FindTipRoles(std::span<const Branch> branches,
+                                    std::span<const TipCandidate> candidates,
+                                    const std::optional<RigEnds>& rig);
+
+}  // namespace capfit::body
+
+#endif  // CAPFIT_CORE_BODY_TIP_ROLES_H_
