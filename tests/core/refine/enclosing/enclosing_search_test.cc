@@ -15,7 +15,7 @@ std::vector<capsule::MirroredSet> Find(const capsule::Budget& budget,
   const ThreadPool pool(threads);
   NullObserver observer;
   WorkMeter meter(observer);
-  return FindEnclosingGraphs(TubeTask(), budget, starts, pool, meter);
+  return FindEnclosingGraphs(TubeTask(), budget, starts, /*until=*/1.0, pool, meter);
 }
 
 TEST(EnclosingSearchTest, KeepsToEveryLimit) {
