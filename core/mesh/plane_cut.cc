@@ -45,18 +45,17 @@ class PiecesByEdge {
 
 }  // namespace
 
-void CutTriangle(std::span<const Eigen::Vector3d> points, const Triangle& triangle,
-                 const std::array<double, 3>& heights, std::vector<CutPiece>& pieces) {
-  const int above = (heights[0] >= 0.0) + 2 * (heights[1] >= 0.0) + 4 * (heights[2] >= 0.0);
-  if (above == 0 || above == 7) return;
+void CutPassedTriangle(std::span<const Eigen::Vector3d> points, const Triangle& triangle,
+                       const std::array<double, 3>& heights, std::size_t above,
+                       std::vector<CutPiece>& pieces) {
   // Outward normals: the outline comes in where the triangle's edge goes down, from corner `in` to
   // the next, and goes out where it rises from corner `out`.
   constexpr std::array<std::size_t, 8> kIn = {0, 0, 1, 1, 2, 0, 2, 0};
   constexpr std::array<std::size_t, 8> kOut = {0, 2, 0, 2, 1, 1, 0, 0};
   constexpr std::array<std::size_t, 3> kNext = {1, 2, 0};
-  std::size_t low = kIn[static_cast<std::size_t>(above)];
+  std::size_t low = kIn[above];
   std::size_t high = kNext[low];
-  const std::size_t out = kOut[static_cast<std::size_t>(above)];
+  const std::size_t out = kOut[above];
   if (triangle[low] > triangle[high]) std::swap(low, high);
   // From the lower index, so that both triangles at the edge get the same bits. The heights' signs
   // differ: never 0 / 0.

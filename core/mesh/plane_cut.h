@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,8 +28,13 @@ struct CutPiece {
 // Adds the triangle's piece, if there is one. `heights`: of its corners over the plane; 0 counts as
 // above, so that every loop of a closed surface closes, whatever the plane touches. The surface's
 // inside lies to the left of a piece where the plane's normal points to the viewer.
-void CutTriangle(std::span<const Eigen::Vector3d> points, const Triangle& triangle,
-                 const std::array<double, 3>& heights, std::vector<CutPiece>& pieces);
+inline void CutTriangle(std::span<const Eigen::Vector3d> points, const Triangle& triangle,
+                        const std::array<double, 3>& heights, std::vector<CutPiece>& pieces);
+
+// The same for a triangle that the plane passes. `above`: bit k tells of corner k.
+void CutPassedTriangle(std::span<const Eigen::Vector3d> points, const Triangle& triangle,
+                       const std::array<double, 3>& heights, std::size_t above,
+                       std::vector<CutPiece>& pieces);
 
 struct CutLoop {
   std::vector<std::uint32_t> pieces;  // by index, in order
@@ -37,6 +43,15 @@ struct CutLoop {
 
 // All loops, in the order of their first piece. O(pieces).
 [[nodiscard]] std::vector<CutLoop> LinkPieces(const std::vector<CutPiece>& pieces);
+
+// Here, because most triangles end with the first question.
+inline void CutTriangle(std::span<const Eigen::Vector3d> points, const Triangle& triangle,
+                        const std::array<double, 3>& heights, std::vector<CutPiece>& pieces) {
+  const std::size_t above =
+      (heights[0] >= 0.0 ? 1U : 0U) + (heights[1] >= 0.0 ? 2U : 0U) + (heights[2] >= 0.0 ? 4U : 0U);
+  if (above == 0 || above == 7) return;
+  CutPassedTriangle(points, triangle, heights, above, pieces);
+}
 
 }  // namespace capfit::mesh
 
