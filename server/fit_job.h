@@ -86,6 +86,8 @@ class FitJob {
   void NoteUnknownFields(const google::protobuf::Message& request);
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> RunGuarded(FitObserver& observer);
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> Compute(FitObserver& observer);
+  // Nothing where this result is not known.
+  [[nodiscard]] std::optional<pipeline::FitResult> FindKept(const std::string& key);
   // What a result is kept under.
   [[nodiscard]] std::string CacheKey() const;
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> Fit(FitObserver& observer);

@@ -7,8 +7,10 @@
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -31,8 +33,13 @@ std::chrono::milliseconds Milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000.0));
 }
 
+// Results that are kept are part of the budget, and leave most of it to calls.
+std::int64_t CacheBytes(const ServerConfig& config) {
+  return std::min(config.cache_bytes, config.max_held_bytes / 4);
+}
+
 AdmissionLimits LimitsOf(const ServerConfig& config) {
-  return {config.max_held_bytes,
+  return {config.max_held_bytes - CacheBytes(config),
           config.max_queued_seconds,
           config.max_concurrent_fits + config.max_queued_fits,
           config.max_concurrent_fits,
@@ -41,8 +48,10 @@ AdmissionLimits LimitsOf(const ServerConfig& config) {
 }
 
 // Once per process, before the first server is built.
-void EnablePlugins() {
+void PrepareProcess() {
   static const bool done = [] {
+    // Whoever reads the log, or a Redis, may go while something is written to it.
+    std::signal(SIGPIPE, SIG_IGN);
     // gRPC's own health service brings no descriptor; naming the generated one links it in, so that
     // reflection can describe the service.
     grpc::health::v1::HealthCheckRequest::descriptor();
@@ -82,16 +91,19 @@ void LimitConnections(const ConnectionLimits& limits, grpc::ServerBuilder& build
 
 // In the order in which they need each other.
 struct Server::Parts {
-  Parts(const ServerConfig& config_in, FitBackend backend_in, CallerCheck callers_in)
+  Parts(const ServerConfig& config_in, FitBackend backend_in, CallerCheck callers_in,
+        std::unique_ptr<Metrics> metrics_in, std::unique_ptr<SharedCache> shared_cache_in)
       : config(config_in),
         backend(std::move(backend_in)),
         pool(config.threads),
         admission(LimitsOf(config)),
-        cache(config.cache_bytes),
+        cache(CacheBytes(config)),
+        metrics(std::move(metrics_in)),
+        shared_cache(std::move(shared_cache_in)),
         executor(config.max_concurrent_fits),
-        service(
-            {config, backend, pool, admission, cost, executor, metrics, cache, watchdog, stop_at},
-            std::move(callers_in), DescribeServer(config, pool.threads(), backend)) {}
+        service({config, backend, pool, admission, cost, executor, *metrics, cache, *shared_cache,
+                 watchdog, stop_at},
+                std::move(callers_in), DescribeServer(config, pool.threads(), backend)) {}
 
   const ServerConfig config;
   const FitBackend backend;
@@ -101,8 +113,9 @@ struct Server::Parts {
   std::atomic<Watchdog::Clock::time_point> stop_at{Watchdog::Clock::time_point::max()};
   Watchdog watchdog;
   ResultCache cache;
+  const std::unique_ptr<Metrics> metrics;
+  const std::unique_ptr<SharedCache> shared_cache;
   FitExecutor executor;
-  Metrics metrics;
   Service service;
   // gRPC asks them with each handshake, but does not keep them.
   std::shared_ptr<grpc::ServerCredentials> credentials;
@@ -115,25 +128,30 @@ struct Server::Parts {
             static_cast<std::int64_t>(executor.running()),
             admission.ExpectedWaitSeconds(),
             admission.held_bytes(),
-            config.max_held_bytes,
+            admission.limits().max_held_bytes,
             pool.threads(),
-            cache.bytes()};
+            cache.bytes(),
+            shared_cache->is_up()};
   }
 };
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config,
                                                       FitBackend backend) {
-  EnablePlugins();
+  PrepareProcess();
   CAPFIT_ASSIGN_OR_RETURN(CallerCheck callers, CallerCheck::Create(config));
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
   if (config.tls.is_on()) {
     CAPFIT_ASSIGN_OR_RETURN(credentials, TlsCredentials(config.tls));
   }
-  auto parts = std::make_unique<Parts>(config, std::move(backend), std::move(callers));
+  auto metrics = std::make_unique<Metrics>();
+  CAPFIT_ASSIGN_OR_RETURN(std::unique_ptr<SharedCache> shared_cache,
+                          SharedCache::Create(config, *metrics));
+  auto parts = std::make_unique<Parts>(config, std::move(backend), std::move(callers),
+                                       std::move(metrics), std::move(shared_cache));
   if (!config.metrics_listen.empty()) {
     CAPFIT_ASSIGN_OR_RETURN(
         parts->metrics_endpoint,
-        parts->metrics.Serve(config.metrics_listen, [now = parts.get()] { return now->Now(); }));
+        parts->metrics->Serve(config.metrics_listen, [now = parts.get()] { return now->Now(); }));
   }
   grpc::ServerBuilder builder;
   builder.RegisterService(&parts->service);
@@ -172,7 +190,7 @@ int Server::metrics_port() const {
 }
 
 std::string Server::MetricsText() const {
-  return parts_->metrics.Text([this] { return parts_->Now(); });
+  return parts_->metrics->Text([this] { return parts_->Now(); });
 }
 
 std::shared_ptr<grpc::Channel> Server::InProcessChannel() {
