@@ -19,6 +19,7 @@
 #include "core/base/status.h"
 #include "grpc/health/v1/health.pb.h"
 #include "server/caller_check.h"
+#include "server/reset_guard.h"
 #include "server/server_info.h"
 #include "server/service.h"
 #include "server/tls_credentials.h"
@@ -162,6 +163,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   // A second server on the same port is a mistake, not a way to share the load.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   LimitConnections(config.connection, builder);
+  CountResets(std::make_shared<ResetGuard>(), builder);
   parts->credentials = std::move(credentials);
   builder.AddListeningPort(config.listen, parts->credentials, &parts->port);
   parts->grpc_server = builder.BuildAndStart();

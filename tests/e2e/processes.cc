@@ -95,6 +95,15 @@ ServerProcess::~ServerProcess() {
 
 void ServerProcess::Signal(int signal) const { kill(pid_, signal); }
 
+double ServerProcess::ResidentMib() const {
+  std::ifstream in("/proc/" + std::to_string(pid_) + "/statm");
+  double whole = 0.0;
+  double resident = 0.0;
+  in >> whole >> resident;
+  EXPECT_GT(resident, 0.0);
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
 std::string ServerProcess::Log() const { return ReadText(scratch_.Path("err")); }
 
 int ServerProcess::Wait() {

@@ -49,6 +49,8 @@ class ServerProcess {
 
   [[nodiscard]] const std::string& address() const { return address_; }
   void Signal(int signal) const;
+  // Its resident memory now.
+  [[nodiscard]] double ResidentMib() const;
   // What it has logged so far.
   [[nodiscard]] std::string Log() const;
   // Waits for the end; the exit code, or minus the signal that killed it.
