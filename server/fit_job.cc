@@ -298,7 +298,14 @@ absl::Status FitJob::GaveUp() const {
   return Refused(ErrorReason::kCancelled, "the caller gave up");
 }
 
-grpc::Status FitJob::Close(const char* method, const absl::Status& status) {
+grpc::Status FitJob::Answer(const absl::Status& status) {
+  if (!absl::IsResourceExhausted(status)) return wire::ToGrpcStatus(status);
+  const int wait_ms = RetryMs(status, services_.config.retry_pushback_ms);
+  context_.AddTrailingMetadata(kPushbackTrailer, std::to_string(wait_ms));
+  return wire::ToGrpcStatus(status, wait_ms);
+}
+
+void FitJob::Close(const char* method, const absl::Status& status) {
   record_.method = method;
   record_.request_id = request_id();
   record_.received_bytes = upload_.received_bytes();
@@ -306,10 +313,6 @@ grpc::Status FitJob::Close(const char* method, const absl::Status& status) {
   record_.status = status;
   spdlog::info("{}", CallLine(record_, services_.config.log_format));
   services_.metrics.Count(record_);
-  if (!absl::IsResourceExhausted(status)) return wire::ToGrpcStatus(status);
-  const int wait_ms = RetryMs(status, services_.config.retry_pushback_ms);
-  context_.AddTrailingMetadata(kPushbackTrailer, std::to_string(wait_ms));
-  return wire::ToGrpcStatus(status, wait_ms);
 }
 
 }  // namespace capfit::server

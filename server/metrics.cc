@@ -60,7 +60,7 @@ double CpuSeconds() {
 
 std::vector<MetricFamily> FamiliesOf(const Gauges& now) {
   const auto number = [](auto value) { return static_cast<double>(value); };
-  return {
+  std::vector<MetricFamily> families = {
       GaugeFamily("capfit_queue_jobs", "Fits that wait", number(now.waiting_fits)),
       GaugeFamily("capfit_running_fits", "Fits that run", number(now.running_fits)),
       GaugeFamily("capfit_expected_wait_seconds", "How long a fit that came now would wait",
@@ -75,6 +75,12 @@ std::vector<MetricFamily> FamiliesOf(const Gauges& now) {
       GaugeFamily("process_resident_memory_bytes", "Resident memory", ResidentBytes()),
       GaugeFamily("process_cpu_seconds_total", "Processor time used, of user and system",
                   CpuSeconds(), prometheus::MetricType::Counter)};
+  if (now.certificate_expiry_seconds > 0.0) {
+    families.push_back(GaugeFamily("capfit_certificate_expiry_timestamp_seconds",
+                                   "When the server's certificate ends, in seconds since 1970",
+                                   now.certificate_expiry_seconds));
+  }
+  return families;
 }
 
 // What ran out, or why else a call was not answered with a result.

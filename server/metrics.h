@@ -22,6 +22,7 @@ struct Gauges {
   int pool_threads = 0;
   std::int64_t cache_bytes = 0;
   bool shared_cache_is_up = false;
+  double certificate_expiry_seconds = 0.0;  // since 1970; 0: there is none
 };
 
 // All names and labels: docs/operations.md. No label has a value that callers choose.

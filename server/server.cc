@@ -1,5 +1,6 @@
 #include "server/server.h"
 
+#include <grpcpp/ext/channelz_service_plugin.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
@@ -118,6 +119,8 @@ struct Server::Parts {
   const std::unique_ptr<SharedCache> shared_cache;
   FitExecutor executor;
   Service service;
+  // Seconds since 1970; 0: there is none. The credentials write it.
+  std::shared_ptr<const std::atomic<double>> certificate_expiry;
   // gRPC asks them with each handshake, but does not keep them.
   std::shared_ptr<grpc::ServerCredentials> credentials;
   int port = 0;
@@ -132,7 +135,8 @@ struct Server::Parts {
             admission.limits().max_held_bytes,
             pool.threads(),
             cache.bytes(),
-            shared_cache->is_up()};
+            shared_cache->is_up(),
+            *certificate_expiry};
   }
 };
 
@@ -140,20 +144,27 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
                                                       FitBackend backend) {
   PrepareProcess();
   CAPFIT_ASSIGN_OR_RETURN(CallerCheck callers, CallerCheck::Create(config));
+  const auto certificate_expiry = std::make_shared<std::atomic<double>>(0.0);
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
   if (config.tls.is_on()) {
-    CAPFIT_ASSIGN_OR_RETURN(credentials, TlsCredentials(config.tls));
+    CAPFIT_ASSIGN_OR_RETURN(credentials,
+                            TlsCredentials(config.tls, [certificate_expiry](absl::Time end) {
+                              *certificate_expiry = absl::ToDoubleSeconds(end - absl::UnixEpoch());
+                            }));
   }
   auto metrics = std::make_unique<Metrics>();
   CAPFIT_ASSIGN_OR_RETURN(std::unique_ptr<SharedCache> shared_cache,
                           SharedCache::Create(config, *metrics));
   auto parts = std::make_unique<Parts>(config, std::move(backend), std::move(callers),
                                        std::move(metrics), std::move(shared_cache));
+  parts->certificate_expiry = certificate_expiry;
   if (!config.metrics_listen.empty()) {
     CAPFIT_ASSIGN_OR_RETURN(
         parts->metrics_endpoint,
         parts->metrics->Serve(config.metrics_listen, [now = parts.get()] { return now->Now(); }));
   }
+  // gRPC has it for the whole process.
+  if (config.channelz) grpc::channelz::experimental::InitChannelzService();
   grpc::ServerBuilder builder;
   builder.RegisterService(&parts->service);
   builder.SetMaxReceiveMessageSize(kMaxReceivedBytes);

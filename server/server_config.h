@@ -50,6 +50,7 @@ struct ServerConfig {
   std::string cache_redis;                // HOST[:PORT] of a Redis to share them through; "": none
   std::string cache_redis_password_file;  // its first line; "": no password
   LogFormat log_format = LogFormat::kText;
+  bool channelz = false;       // gRPC's own tables of connections and calls, for whoever connects
   std::string metrics_listen;  // HOST:PORT for Prometheus; port 0: any free one; empty: nowhere
 };
 

@@ -78,6 +78,9 @@ void AddBudgets(CLI::App& app, ServerConfig& config, std::int64_t& max_held_mb,
 void AddObservation(CLI::App& app, ServerConfig& config) {
   app.add_option("--metrics-listen", config.metrics_listen,
                  "HOST:PORT that serves /metrics to Prometheus; empty: nowhere");
+  app.add_flag(
+      "--channelz", config.channelz,
+      "Serve gRPC's tables of connections and calls (grpc.channelz.v1); asks for no token");
   const auto take_format = [&config](const std::string& word) {
     config.log_format = word == "json" ? LogFormat::kJson : LogFormat::kText;
   };
@@ -189,6 +192,11 @@ absl::Status CheckConfig(const ServerConfig& config) {
                         "is missing: --tls-key and --tls-client-ca are of no use without it");
   }
   if (config.tls.is_on()) CAPFIT_RETURN_IF_ERROR(ReadTlsPems(config.tls).status());
+  if (config.channelz && !IsLoopback(config.listen) && config.tls.client_ca_file.empty()) {
+    return InvalidField(ErrorReason::kConflict, "--channelz",
+                        "tells everybody who calls: it needs --tls-client-ca, or to listen on the "
+                        "loopback only");
+  }
   if (!config.cache_redis.empty()) CAPFIT_RETURN_IF_ERROR(RedisOf(config).status());
   return CallerCheck::Create(config).status();
 }

@@ -41,7 +41,8 @@ struct Outcome {
 // build/<preset>/server/capfit-server on a free port of the loopback, ready when constructed.
 class ServerProcess {
  public:
-  explicit ServerProcess(const std::vector<std::string>& flags = {});
+  // `log`: the file for its standard error; "": one of its own, which Log() reads.
+  explicit ServerProcess(const std::vector<std::string>& flags = {}, const std::string& log = "");
   // Stops it, if nobody has.
   ~ServerProcess();
   ServerProcess(const ServerProcess&) = delete;
