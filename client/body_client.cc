@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "client/result_collector.h"
 #include "client/retries.h"
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/options_conversion.h"
+#include "proto/wire/result_collector.h"
 #include "proto/wire/status_conversion.h"
 
 namespace capfit::client {
@@ -88,7 +88,7 @@ absl::StatusOr<pipeline::FitResult> TryOnce(v1::BodyApproximationService::Stub& 
                                             const ProgressFunction& on_progress, const Send& send) {
   const std::unique_ptr<Stream> stream = stub.ApproximateBody(&context);
   if (stream->Write(first) && send(*stream)) stream->WritesDone();
-  ResultCollector collector(on_progress);
+  wire::ResultCollector collector(on_progress);
   absl::Status broken;
   v1::ApproximateBodyResponse response;
   while (broken.ok() && stream->Read(&response)) broken = collector.Add(response);
@@ -103,6 +103,7 @@ void AddCallMetadata(const std::string& token, const CallOptions& call,
                      grpc::ClientContext& context) {
   AddToken(token, context);
   if (call.is_bulk) context.AddMetadata("capfit-priority", "bulk");
+  if (call.is_fresh) context.AddMetadata("cache-control", "no-cache");
 }
 
 template <typename Send>

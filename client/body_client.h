@@ -32,6 +32,7 @@ struct CallOptions {
   ProgressFunction on_progress;     // may be empty
   int max_attempts = kMaxAttempts;  // >= 1; see retries.h
   bool is_bulk = false;             // may wait behind calls that somebody waits for
+  bool is_fresh = false;            // wants a fit of its own, no result that is kept
 };
 
 // Cheap to copy; safe to use from several threads at once. Calls block. A server that is full or

@@ -78,6 +78,7 @@ absl::StatusOr<LoadCall> UnaryLoad(const ServerFlags& server, const LoadCallOpti
         options.timeout_seconds, options.max_attempts,
         [&](grpc::ClientContext& context) -> absl::StatusOr<v1::ApproximateBodyUnaryResponse> {
           AddToken(security.token, context);
+          if (options.is_fresh) context.AddMetadata("cache-control", "no-cache");
           v1::ApproximateBodyUnaryResponse message;
           const grpc::Status status = stub->ApproximateBodyUnary(&context, request, &message);
           answer.has_pushback = PushbackOf(context).has_value();
@@ -100,6 +101,7 @@ absl::StatusOr<LoadCall> StreamedLoad(const ServerFlags& server, const LoadCallO
     CallOptions call;
     call.timeout_seconds = options.timeout_seconds;
     call.max_attempts = options.max_attempts;
+    call.is_fresh = options.is_fresh;
     return AnswerOf(
         client.ApproximateFile(BytesOf(body), formats::MeshFormat::kUnknown, options.fit, call));
   };

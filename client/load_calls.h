@@ -13,6 +13,7 @@ struct LoadCallOptions {
   pipeline::FitOptions fit;
   double timeout_seconds = 300.0;
   int max_attempts = 1;  // 1: every refusal is counted
+  bool is_fresh = true;  // results that a server has kept are not asked for
 };
 
 // ApproximateBodyUnary: one message each way.

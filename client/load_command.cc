@@ -34,6 +34,7 @@ struct LoadArguments {
   bool is_streamed = false;
   bool is_local = false;
   bool is_strict = false;
+  bool takes_kept = false;
   std::string json;
 };
 
@@ -58,6 +59,7 @@ absl::StatusOr<LoadCall> CallOf(const LoadArguments& arguments) {
   CAPFIT_ASSIGN_OR_RETURN(options.fit, OptionsOf(arguments.fit));
   options.timeout_seconds = arguments.timeout_seconds;
   options.max_attempts = arguments.max_attempts;
+  options.is_fresh = !arguments.takes_kept;
   if (arguments.is_local) return LocalLoad(options);
   return arguments.is_streamed ? StreamedLoad(arguments.server, options)
                                : UnaryLoad(arguments.server, options);
@@ -108,6 +110,10 @@ void AddPlanFlags(CLI::App& command, LoadArguments& arguments) {
                 "Fit in this process on all its cores: what a server there is measured by")
       ->group(kGroup);
   command.add_flag("--strict", arguments.is_strict, "Refused calls are failures too")
+      ->group(kGroup);
+  command
+      .add_flag("--cached", arguments.takes_kept,
+                "Take results that the server has kept too; without it each call is a fit")
       ->group(kGroup);
   command.add_option("--json", arguments.json, "File for the figures as JSON, times in seconds")
       ->type_name("FILE")

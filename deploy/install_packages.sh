@@ -16,19 +16,19 @@ build=(
   g++ cmake ninja-build ccache pkg-config ca-certificates
   libabsl-dev libgrpc++-dev protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libssl-dev
   libopenmesh-dev libeigen3-dev libtbb-dev libdraco-dev libmeshoptimizer-dev
-  libspdlog-dev prometheus-cpp-dev libcli11-dev nlohmann-json3-dev libcairo2-dev
+  libspdlog-dev prometheus-cpp-dev libcli11-dev libhiredis-dev nlohmann-json3-dev libcairo2-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 test=(
   python3 python3-grpcio python3-protobuf python3-numpy python3-jsonschema
   python3-pip python3-setuptools python3-wheel npm git
   protoc-gen-go protoc-gen-go-grpc protobuf-compiler-grpc-java-plugin
-  libbullet-dev liburdfdom-dev mono-mcs openssl prometheus
+  libbullet-dev liburdfdom-dev mono-mcs openssl prometheus redis-server
 )
-deploy=(prometheus nginx haproxy)
+deploy=(prometheus nginx haproxy kubernetes-client python3-yaml)
 bench=(python3 python3-matplotlib)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3 mypy)
-run=(libprometheus-cpp-core1.0 libprometheus-cpp-pull1.0 libgrpc++1.51 libtbb12 libspdlog1.10 libcairo2 libdraco7 libmeshoptimizer2d)
+run=(libprometheus-cpp-core1.0 libprometheus-cpp-pull1.0 libhiredis0.14 libgrpc++1.51 libtbb12 libspdlog1.10 libcairo2 libdraco7 libmeshoptimizer2d)
 
 wanted=()
 for group in "${@:-build}"; do

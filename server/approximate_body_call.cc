@@ -116,7 +116,9 @@ void ApproximateBodyCall::Pump() {
   if (job_is_running_ || (!final_status_ && !results_)) return;
   is_finished_ = true;
   const absl::Status over = job_.is_stopped() ? job_.GaveUp() : absl::OkStatus();
-  Finish(job_.Close("ApproximateBody", final_status_.value_or(over)));
+  const absl::Status status = final_status_.value_or(over);
+  job_.Close("ApproximateBody", status);
+  Finish(job_.Answer(status));
 }
 
 bool ApproximateBodyCall::NextResponse() {

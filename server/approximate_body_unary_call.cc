@@ -1,7 +1,5 @@
 #include "server/approximate_body_unary_call.h"
 
-#include <spdlog/spdlog.h>
-
 #include <utility>
 
 #include "core/base/status.h"
@@ -41,8 +39,9 @@ absl::Status ApproximateBodyUnaryCall::RunJob() {
 }
 
 void ApproximateBodyUnaryCall::End(const absl::Status& status) {
-  const grpc::Status answer = job_.Close("ApproximateBodyUnary", status);
+  const grpc::Status answer = job_.Answer(status);
   const std::lock_guard lock(mutex_);
+  answered_ = status;
   const auto ring = [weak = weak_from_this()] {
     if (const std::shared_ptr<ApproximateBodyUnaryCall> call = weak.lock()) call->ReaderIsLate();
   };
@@ -53,8 +52,8 @@ void ApproximateBodyUnaryCall::End(const absl::Status& status) {
 void ApproximateBodyUnaryCall::ReaderIsLate() {
   const std::lock_guard lock(mutex_);
   if (is_done_) return;
-  spdlog::warn("ApproximateBodyUnary id={} cut off: its answer was not read for {} s",
-               QuotedText(job_.request_id()), services_.config.read_idle_seconds);
+  is_late_ = true;
+  job_.Stop(StopCause::kReader);
   context_.TryCancel();
 }
 
@@ -69,6 +68,8 @@ void ApproximateBodyUnaryCall::OnDone() {
     is_done_ = true;
     services_.watchdog.Drop(alarm_);
   }
+  // Not before: only now is it known whether the answer was taken.
+  job_.Close("ApproximateBodyUnary", is_late_ && answered_.ok() ? job_.GaveUp() : answered_);
   job_.Leave();
   const std::shared_ptr<ApproximateBodyUnaryCall> last = std::move(self_);
 }

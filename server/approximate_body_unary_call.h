@@ -57,6 +57,8 @@ class ApproximateBodyUnaryCall final
   std::shared_ptr<ApproximateBodyUnaryCall> self_;  // until OnDone
   std::mutex mutex_;
   Watchdog::Alarm alarm_;
+  absl::Status answered_;
+  bool is_late_ = false;
   bool is_done_ = false;
 };
 

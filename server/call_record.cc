@@ -26,7 +26,7 @@ Fields FieldsOf(const CallRecord& record) {
   fields["priority"] = record.is_bulk ? "bulk" : "interactive";
   fields["bytes"] = record.received_bytes;
   fields["faces"] = record.faces;
-  fields["cached"] = record.is_cached;
+  fields["cached"] = CachedName(record.cached);
   fields["queued_seconds"] = Milli(record.queued_seconds);
   fields["fit_seconds"] = Milli(record.fit_seconds);
   fields["seconds"] = Milli(record.seconds);
@@ -46,7 +46,8 @@ std::string Dump(const Fields& value) {
 
 // Words of our own need no quotes.
 bool IsOurOwn(const std::string& key) {
-  return key == "priority" || key == "status" || key == "reason" || key == "traceparent";
+  return key == "priority" || key == "status" || key == "reason" || key == "traceparent" ||
+         key == "cached";
 }
 
 }  // namespace
@@ -78,6 +79,18 @@ double WastedSeconds(const CallRecord& record) {
     default:
       return 0.0;
   }
+}
+
+const char* CachedName(Cached cached) {
+  switch (cached) {
+    case Cached::kMemory:
+      return "memory";
+    case Cached::kRedis:
+      return "redis";
+    case Cached::kNo:
+      break;
+  }
+  return "no";
 }
 
 std::string CodeName(const CallRecord& record) {

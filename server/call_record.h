@@ -11,6 +11,9 @@
 
 namespace capfit::server {
 
+// Who kept the result of a call that was answered without a fit.
+enum class Cached { kNo, kMemory, kRedis };
+
 // Nothing of the body itself. Texts of callers are as they came: whoever writes them escapes them.
 struct CallRecord {
   std::string method;
@@ -20,7 +23,7 @@ struct CallRecord {
   std::string peer;
   std::string options;  // the budget, mode and quality that were asked for; empty without a header
   bool is_bulk = false;
-  bool is_cached = false;  // answered without a fit
+  Cached cached = Cached::kNo;
   std::int64_t received_bytes = 0;
   std::int64_t faces = 0;  // about
   double queued_seconds = 0.0;
@@ -42,6 +45,9 @@ enum class LogFormat { kText, kJson };
 
 // Seconds that were computed for nobody: the fit ran, and its call ended without its result.
 [[nodiscard]] double WastedSeconds(const CallRecord& record);
+
+// "no", "memory" or "redis".
+[[nodiscard]] const char* CachedName(Cached cached);
 
 // "OK", "CANCELLED", ...: the code's name.
 [[nodiscard]] std::string CodeName(const CallRecord& record);

@@ -12,6 +12,7 @@
 #include "server/metrics.h"
 #include "server/result_cache.h"
 #include "server/server_config.h"
+#include "server/shared_cache.h"
 #include "server/watchdog.h"
 
 namespace capfit::server {
@@ -26,6 +27,7 @@ struct CallServices {
   FitExecutor& executor;
   Metrics& metrics;
   ResultCache& cache;
+  SharedCache& shared_cache;
   Watchdog& watchdog;
   // When a stopping server's grace ends; never before it stops.
   const std::atomic<std::chrono::steady_clock::time_point>& stop_at;

@@ -65,6 +65,10 @@ absl::StatusOr<bool> IsBulk(const grpc::CallbackServerContext& context) {
       {{"limit", "interactive, bulk"}});
 }
 
+bool WantsFreshFit(const grpc::CallbackServerContext& context) {
+  return MetadataOf(context, kCacheKey) == "no-cache";
+}
+
 std::string TraceOf(const grpc::CallbackServerContext& context) {
   std::string trace = MetadataOf(context, kTraceKey);
   return IsTraceParent(trace) ? trace : "";

@@ -12,6 +12,8 @@ namespace capfit::server {
 
 // Metadata of a call: interactive (also without it) or bulk.
 inline constexpr char kPriorityKey[] = "capfit-priority";
+// Metadata of a call that must not be answered from a cache.
+inline constexpr char kCacheKey[] = "cache-control";
 // W3C trace context, passed through: into the log, and back as initial metadata.
 inline constexpr char kTraceKey[] = "traceparent";
 
@@ -28,6 +30,10 @@ inline constexpr char kTraceKey[] = "traceparent";
 
 // INVALID_ARGUMENT for any other word than the two.
 [[nodiscard]] absl::StatusOr<bool> IsBulk(const grpc::CallbackServerContext& context);
+
+// Whether the caller wants a fit of its own: `cache-control: no-cache`. Such a call is neither
+// answered with a kept result nor is its own kept. Other words are ignored, as in HTTP.
+[[nodiscard]] bool WantsFreshFit(const grpc::CallbackServerContext& context);
 
 // As it came where it has the form that the standard asks for, else nothing: what is passed on goes
 // into the logs of others.

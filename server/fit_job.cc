@@ -198,7 +198,7 @@ absl::StatusOr<pipeline::FitResult> FitJob::Run(FitObserver& observer) {
   holding_->EndFit();
   upload_.DropFile();
   if (!result.ok()) return InCallersWords(result.status());
-  if (!record_.is_cached) {
+  if (record_.cached == Cached::kNo) {
     services_.cost.Learn(SizeOfFit(), record_.fit_seconds);
     record_.stage_seconds = result->stage_seconds;
   }
@@ -223,15 +223,27 @@ absl::StatusOr<pipeline::FitResult> FitJob::Compute(FitObserver& observer) {
   // A read that ends because the caller is gone looks like the end of the upload; only the context
   // knows already.
   if (IsOver() || context_.IsCancelled()) return GaveUp();
-  if (!services_.cache.is_on()) return Fit(observer);
+  const bool has_cache = services_.cache.is_on() || services_.shared_cache.is_on();
+  if (!has_cache || WantsFreshFit(context_)) return Fit(observer);
   const std::string key = CacheKey();
+  if (std::optional<pipeline::FitResult> kept = FindKept(key)) return *std::move(kept);
+  absl::StatusOr<pipeline::FitResult> result = Fit(observer);
+  if (!result.ok()) return result;
+  services_.cache.Keep(key, *result);
+  services_.shared_cache.Keep(key, *result);
+  return result;
+}
+
+std::optional<pipeline::FitResult> FitJob::FindKept(const std::string& key) {
   if (const ResultCache::Result kept = services_.cache.Find(key)) {
-    record_.is_cached = true;
+    record_.cached = Cached::kMemory;
     return *kept;
   }
-  absl::StatusOr<pipeline::FitResult> result = Fit(observer);
-  if (result.ok()) services_.cache.Keep(key, *result);
-  return result;
+  std::optional<pipeline::FitResult> kept = services_.shared_cache.Find(key);
+  if (!kept) return std::nullopt;
+  record_.cached = Cached::kRedis;
+  services_.cache.Keep(key, *kept);
+  return kept;
 }
 
 std::string FitJob::CacheKey() const {
@@ -286,7 +298,14 @@ absl::Status FitJob::GaveUp() const {
   return Refused(ErrorReason::kCancelled, "the caller gave up");
 }
 
-grpc::Status FitJob::Close(const char* method, const absl::Status& status) {
+grpc::Status FitJob::Answer(const absl::Status& status) {
+  if (!absl::IsResourceExhausted(status)) return wire::ToGrpcStatus(status);
+  const int wait_ms = RetryMs(status, services_.config.retry_pushback_ms);
+  context_.AddTrailingMetadata(kPushbackTrailer, std::to_string(wait_ms));
+  return wire::ToGrpcStatus(status, wait_ms);
+}
+
+void FitJob::Close(const char* method, const absl::Status& status) {
   record_.method = method;
   record_.request_id = request_id();
   record_.received_bytes = upload_.received_bytes();
@@ -294,10 +313,6 @@ grpc::Status FitJob::Close(const char* method, const absl::Status& status) {
   record_.status = status;
   spdlog::info("{}", CallLine(record_, services_.config.log_format));
   services_.metrics.Count(record_);
-  if (!absl::IsResourceExhausted(status)) return wire::ToGrpcStatus(status);
-  const int wait_ms = RetryMs(status, services_.config.retry_pushback_ms);
-  context_.AddTrailingMetadata(kPushbackTrailer, std::to_string(wait_ms));
-  return wire::ToGrpcStatus(status, wait_ms);
 }
 
 }  // namespace capfit::server

@@ -71,9 +71,10 @@ class FitJob {
 
   [[nodiscard]] const std::string& request_id() const { return upload_.header().request_id(); }
 
-  // The last thing of a call: one log line, and the status for the wire. For RESOURCE_EXHAUSTED the
-  // trailer says when to come again.
-  [[nodiscard]] grpc::Status Close(const char* method, const absl::Status& status);
+  // The status for the wire. For RESOURCE_EXHAUSTED the trailer says when to come again.
+  [[nodiscard]] grpc::Status Answer(const absl::Status& status);
+  // The last thing of a call: one log line, and its metrics.
+  void Close(const char* method, const absl::Status& status);
   // Gives back what it holds.
   void Leave() { holding_.reset(); }
 
@@ -86,6 +87,8 @@ class FitJob {
   void NoteUnknownFields(const google::protobuf::Message& request);
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> RunGuarded(FitObserver& observer);
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> Compute(FitObserver& observer);
+  // Nothing where this result is not known.
+  [[nodiscard]] std::optional<pipeline::FitResult> FindKept(const std::string& key);
   // What a result is kept under.
   [[nodiscard]] std::string CacheKey() const;
   [[nodiscard]] absl::StatusOr<pipeline::FitResult> Fit(FitObserver& observer);

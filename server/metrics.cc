@@ -60,7 +60,7 @@ double CpuSeconds() {
 
 std::vector<MetricFamily> FamiliesOf(const Gauges& now) {
   const auto number = [](auto value) { return static_cast<double>(value); };
-  return {
+  std::vector<MetricFamily> families = {
       GaugeFamily("capfit_queue_jobs", "Fits that wait", number(now.waiting_fits)),
       GaugeFamily("capfit_running_fits", "Fits that run", number(now.running_fits)),
       GaugeFamily("capfit_expected_wait_seconds", "How long a fit that came now would wait",
@@ -70,9 +70,17 @@ std::vector<MetricFamily> FamiliesOf(const Gauges& now) {
       GaugeFamily("capfit_max_held_bytes", "That budget", number(now.max_held_bytes)),
       GaugeFamily("capfit_pool_threads", "Threads that compute", number(now.pool_threads)),
       GaugeFamily("capfit_cache_bytes", "Memory that cached results hold", number(now.cache_bytes)),
+      GaugeFamily("capfit_shared_cache_up", "1 while the shared cache answers",
+                  now.shared_cache_is_up ? 1.0 : 0.0),
       GaugeFamily("process_resident_memory_bytes", "Resident memory", ResidentBytes()),
       GaugeFamily("process_cpu_seconds_total", "Processor time used, of user and system",
                   CpuSeconds(), prometheus::MetricType::Counter)};
+  if (now.certificate_expiry_seconds > 0.0) {
+    families.push_back(GaugeFamily("capfit_certificate_expiry_timestamp_seconds",
+                                   "When the server's certificate ends, in seconds since 1970",
+                                   now.certificate_expiry_seconds));
+  }
+  return families;
 }
 
 // What ran out, or why else a call was not answered with a result.
@@ -142,8 +150,10 @@ struct Metrics::Parts {
       Counters("capfit_wasted_seconds_total", "Time of fits whose result nobody got").Add({});
   Family<Counter>& refused =
       Counters("capfit_refused_total", "Calls without a result, by what ran out or by reason");
-  Counter& cache_hits =
-      Counters("capfit_cache_hits_total", "Calls that were answered without a fit").Add({});
+  Family<Counter>& cache_hits = Counters(
+      "capfit_cache_hits_total", "Calls that were answered without a fit, by who kept the result");
+  Family<Counter>& cache_errors =
+      Counters("capfit_cache_errors_total", "What was wrong with the shared cache");
 };
 
 Metrics::Metrics() : parts_(std::make_unique<Parts>()) {}
@@ -156,7 +166,9 @@ void Metrics::Count(const CallRecord& record) {
   parts_->received_bytes.Increment(static_cast<double>(record.received_bytes));
   parts_->wasted_seconds.Increment(WastedSeconds(record));
   if (record.fit_seconds > 0.0) parts_->queue_seconds.Observe(record.queued_seconds);
-  if (record.is_cached) parts_->cache_hits.Increment();
+  if (record.cached != Cached::kNo) {
+    parts_->cache_hits.Add({{"tier", CachedName(record.cached)}}).Increment();
+  }
   if (!record.status.ok()) {
     parts_->refused.Add({{"reason", RefusalOf(record.status)}}).Increment();
   }
@@ -172,6 +184,10 @@ void Metrics::Count(const std::string& method, const absl::Status& status) {
   CallRecord record;
   record.status = status;
   parts_->calls.Add({{"method", method}, {"code", CodeName(record)}}).Increment();
+}
+
+void Metrics::CountCacheError(const char* kind) {
+  parts_->cache_errors.Add({{"kind", kind}}).Increment();
 }
 
 std::string Metrics::Text(const std::function<Gauges()>& gauges) const {

@@ -21,6 +21,8 @@ struct Gauges {
   std::int64_t max_held_bytes = 0;
   int pool_threads = 0;
   std::int64_t cache_bytes = 0;
+  bool shared_cache_is_up = false;
+  double certificate_expiry_seconds = 0.0;  // since 1970; 0: there is none
 };
 
 // All names and labels: docs/operations.md. No label has a value that callers choose.
@@ -33,6 +35,9 @@ class Metrics {
   void Count(const CallRecord& record);
   // A call without a record is over: GetServerInfo, or one that was refused before it began.
   void Count(const std::string& method, const absl::Status& status);
+
+  // The shared cache failed in this way; one of a few words.
+  void CountCacheError(const char* kind);
 
   // In Prometheus' text format, with what `gauges` gives and what the process has used.
   [[nodiscard]] std::string Text(const std::function<Gauges()>& gauges) const;

@@ -1,5 +1,6 @@
 #include "server/server.h"
 
+#include <grpcpp/ext/channelz_service_plugin.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
@@ -7,8 +8,10 @@
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -17,6 +20,7 @@
 #include "core/base/status.h"
 #include "grpc/health/v1/health.pb.h"
 #include "server/caller_check.h"
+#include "server/reset_guard.h"
 #include "server/server_info.h"
 #include "server/service.h"
 #include "server/tls_credentials.h"
@@ -31,8 +35,13 @@ std::chrono::milliseconds Milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000.0));
 }
 
+// Results that are kept are part of the budget, and leave most of it to calls.
+std::int64_t CacheBytes(const ServerConfig& config) {
+  return std::min(config.cache_bytes, config.max_held_bytes / 4);
+}
+
 AdmissionLimits LimitsOf(const ServerConfig& config) {
-  return {config.max_held_bytes,
+  return {config.max_held_bytes - CacheBytes(config),
           config.max_queued_seconds,
           config.max_concurrent_fits + config.max_queued_fits,
           config.max_concurrent_fits,
@@ -41,8 +50,10 @@ AdmissionLimits LimitsOf(const ServerConfig& config) {
 }
 
 // Once per process, before the first server is built.
-void EnablePlugins() {
+void PrepareProcess() {
   static const bool done = [] {
+    // Whoever reads the log, or a Redis, may go while something is written to it.
+    std::signal(SIGPIPE, SIG_IGN);
     // gRPC's own health service brings no descriptor; naming the generated one links it in, so that
     // reflection can describe the service.
     grpc::health::v1::HealthCheckRequest::descriptor();
@@ -82,16 +93,19 @@ void LimitConnections(const ConnectionLimits& limits, grpc::ServerBuilder& build
 
 // In the order in which they need each other.
 struct Server::Parts {
-  Parts(const ServerConfig& config_in, FitBackend backend_in, CallerCheck callers_in)
+  Parts(const ServerConfig& config_in, FitBackend backend_in, CallerCheck callers_in,
+        std::unique_ptr<Metrics> metrics_in, std::unique_ptr<SharedCache> shared_cache_in)
       : config(config_in),
         backend(std::move(backend_in)),
         pool(config.threads),
         admission(LimitsOf(config)),
-        cache(config.cache_bytes),
+        cache(CacheBytes(config)),
+        metrics(std::move(metrics_in)),
+        shared_cache(std::move(shared_cache_in)),
         executor(config.max_concurrent_fits),
-        service(
-            {config, backend, pool, admission, cost, executor, metrics, cache, watchdog, stop_at},
-            std::move(callers_in), DescribeServer(config, pool.threads(), backend)) {}
+        service({config, backend, pool, admission, cost, executor, *metrics, cache, *shared_cache,
+                 watchdog, stop_at},
+                std::move(callers_in), DescribeServer(config, pool.threads(), backend)) {}
 
   const ServerConfig config;
   const FitBackend backend;
@@ -101,9 +115,12 @@ struct Server::Parts {
   std::atomic<Watchdog::Clock::time_point> stop_at{Watchdog::Clock::time_point::max()};
   Watchdog watchdog;
   ResultCache cache;
+  const std::unique_ptr<Metrics> metrics;
+  const std::unique_ptr<SharedCache> shared_cache;
   FitExecutor executor;
-  Metrics metrics;
   Service service;
+  // Seconds since 1970; 0: there is none. The credentials write it.
+  std::shared_ptr<const std::atomic<double>> certificate_expiry;
   // gRPC asks them with each handshake, but does not keep them.
   std::shared_ptr<grpc::ServerCredentials> credentials;
   int port = 0;
@@ -115,26 +132,39 @@ struct Server::Parts {
             static_cast<std::int64_t>(executor.running()),
             admission.ExpectedWaitSeconds(),
             admission.held_bytes(),
-            config.max_held_bytes,
+            admission.limits().max_held_bytes,
             pool.threads(),
-            cache.bytes()};
+            cache.bytes(),
+            shared_cache->is_up(),
+            *certificate_expiry};
   }
 };
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config,
                                                       FitBackend backend) {
-  EnablePlugins();
+  PrepareProcess();
   CAPFIT_ASSIGN_OR_RETURN(CallerCheck callers, CallerCheck::Create(config));
+  const auto certificate_expiry = std::make_shared<std::atomic<double>>(0.0);
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
   if (config.tls.is_on()) {
-    CAPFIT_ASSIGN_OR_RETURN(credentials, TlsCredentials(config.tls));
+    CAPFIT_ASSIGN_OR_RETURN(credentials,
+                            TlsCredentials(config.tls, [certificate_expiry](absl::Time end) {
+                              *certificate_expiry = absl::ToDoubleSeconds(end - absl::UnixEpoch());
+                            }));
   }
-  auto parts = std::make_unique<Parts>(config, std::move(backend), std::move(callers));
+  auto metrics = std::make_unique<Metrics>();
+  CAPFIT_ASSIGN_OR_RETURN(std::unique_ptr<SharedCache> shared_cache,
+                          SharedCache::Create(config, *metrics));
+  auto parts = std::make_unique<Parts>(config, std::move(backend), std::move(callers),
+                                       std::move(metrics), std::move(shared_cache));
+  parts->certificate_expiry = certificate_expiry;
   if (!config.metrics_listen.empty()) {
     CAPFIT_ASSIGN_OR_RETURN(
         parts->metrics_endpoint,
-        parts->metrics.Serve(config.metrics_listen, [now = parts.get()] { return now->Now(); }));
+        parts->metrics->Serve(config.metrics_listen, [now = parts.get()] { return now->Now(); }));
   }
+  // gRPC has it for the whole process.
+  if (config.channelz) grpc::channelz::experimental::InitChannelzService();
   grpc::ServerBuilder builder;
   builder.RegisterService(&parts->service);
   builder.SetMaxReceiveMessageSize(kMaxReceivedBytes);
@@ -144,6 +174,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   // A second server on the same port is a mistake, not a way to share the load.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   LimitConnections(config.connection, builder);
+  CountResets(std::make_shared<ResetGuard>(), builder);
   parts->credentials = std::move(credentials);
   builder.AddListeningPort(config.listen, parts->credentials, &parts->port);
   parts->grpc_server = builder.BuildAndStart();
@@ -172,7 +203,7 @@ int Server::metrics_port() const {
 }
 
 std::string Server::MetricsText() const {
-  return parts_->metrics.Text([this] { return parts_->Now(); });
+  return parts_->metrics->Text([this] { return parts_->Now(); });
 }
 
 std::shared_ptr<grpc::Channel> Server::InProcessChannel() {

@@ -44,8 +44,13 @@ struct ServerConfig {
   double drain_delay_seconds = 0.0;  // between NOT_SERVING and refusing new calls; [0, 600]
   double drain_seconds = 30.0;       // running calls may finish within this; [0, 3600]
   std::string log_level = "info";    // trace, debug, info, warn, error, off
-  std::int64_t cache_bytes = 0;      // of results that are kept to be given again; 0: none
+  // Of results that are kept to be given again, at most a quarter of max_held_bytes, which they are
+  // part of; 0: none.
+  std::int64_t cache_bytes = 64LL * 1024 * 1024;
+  std::string cache_redis;                // HOST[:PORT] of a Redis to share them through; "": none
+  std::string cache_redis_password_file;  // its first line; "": no password
   LogFormat log_format = LogFormat::kText;
+  bool channelz = false;       // gRPC's own tables of connections and calls, for whoever connects
   std::string metrics_listen;  // HOST:PORT for Prometheus; port 0: any free one; empty: nowhere
 };
 

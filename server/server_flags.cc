@@ -15,6 +15,7 @@
 #include "server/caller_check.h"
 #include "server/exposure.h"
 #include "server/settings.h"
+#include "server/shared_cache.h"
 #include "server/tls_files.h"
 
 namespace capfit::server {
@@ -47,9 +48,13 @@ void AddLimits(CLI::App& app, ServerConfig& config, std::int64_t& max_upload_mb)
 void AddBudgets(CLI::App& app, ServerConfig& config, std::int64_t& max_held_mb,
                 std::int64_t& cache_mb) {
   app.add_option("--cache-mb", cache_mb,
-                 "Memory for results that are given again for the same mesh and options, in MiB; "
-                 "0: none are kept")
+                 "Memory for results that are given again for the same mesh and options, in MiB: "
+                 "of --max-held-mb, at most a quarter; 0: none are kept")
       ->check(CLI::Range(0, 1024 * 1024));
+  app.add_option("--cache-redis", config.cache_redis,
+                 "HOST[:PORT] of a Redis through which servers share results; empty: none");
+  app.add_option("--cache-redis-password-file", config.cache_redis_password_file,
+                 "File whose first line is the password of that Redis");
   app.add_option("--max-held-mb", max_held_mb,
                  "Memory for uploads and answers of all calls, in MiB; beyond: RESOURCE_EXHAUSTED")
       ->check(CLI::Range(16, 1024 * 1024));
@@ -73,6 +78,9 @@ void AddBudgets(CLI::App& app, ServerConfig& config, std::int64_t& max_held_mb,
 void AddObservation(CLI::App& app, ServerConfig& config) {
   app.add_option("--metrics-listen", config.metrics_listen,
                  "HOST:PORT that serves /metrics to Prometheus; empty: nowhere");
+  app.add_flag(
+      "--channelz", config.channelz,
+      "Serve gRPC's tables of connections and calls (grpc.channelz.v1); asks for no token");
   const auto take_format = [&config](const std::string& word) {
     config.log_format = word == "json" ? LogFormat::kJson : LogFormat::kText;
   };
@@ -184,6 +192,12 @@ absl::Status CheckConfig(const ServerConfig& config) {
                         "is missing: --tls-key and --tls-client-ca are of no use without it");
   }
   if (config.tls.is_on()) CAPFIT_RETURN_IF_ERROR(ReadTlsPems(config.tls).status());
+  if (config.channelz && !IsLoopback(config.listen) && config.tls.client_ca_file.empty()) {
+    return InvalidField(ErrorReason::kConflict, "--channelz",
+                        "tells everybody who calls: it needs --tls-client-ca, or to listen on the "
+                        "loopback only");
+  }
+  if (!config.cache_redis.empty()) CAPFIT_RETURN_IF_ERROR(RedisOf(config).status());
   return CallerCheck::Create(config).status();
 }
 

@@ -8,10 +8,14 @@
 #include <string>
 #include <utility>
 
+#include "absl/time/clock.h"
 #include "server/file_watch.h"
 
 namespace capfit::server {
 namespace {
+
+// Who renews by hand has two weeks to do it.
+constexpr absl::Duration kEnoughTime = absl::Hours(14 * 24);
 
 grpc_ssl_server_certificate_config* ToConfig(const TlsPems& pems) {
   const grpc_ssl_pem_key_cert_pair pair = {pems.key.c_str(), pems.certificate.c_str()};
@@ -25,10 +29,13 @@ grpc_ssl_server_certificate_config* ToConfig(const TlsPems& pems) {
 // breaks every connection). The C interface under both asks at each handshake; that is used here.
 class ReloadingCredentials final : public grpc::ServerCredentials {
  public:
-  ReloadingCredentials(const TlsConfig& config, TlsPems first)
+  ReloadingCredentials(const TlsConfig& config, TlsPems first,
+                       std::function<void(absl::Time)> on_read)
       : config_(config),
+        on_read_(std::move(on_read)),
         watch_({config.certificate_file, config.key_file, config.client_ca_file}),
         next_(std::make_unique<TlsPems>(std::move(first))) {
+    Tell(next_->valid_until);
     const auto request = config.client_ca_file.empty()
                              ? GRPC_SSL_DONT_REQUEST_CLIENT_CERTIFICATE
                              : GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY;
@@ -67,13 +74,23 @@ class ReloadingCredentials final : public grpc::ServerCredentials {
     if (pems.ok()) {
       next_ = std::make_unique<TlsPems>(*std::move(pems));
       spdlog::info("certificate read again from {}", config_.certificate_file);
+      Tell(next_->valid_until);
     } else {
       spdlog::error("the former certificate stays in use: {}",
                     std::string(pems.status().message()));
     }
   }
 
+  void Tell(absl::Time valid_until) const {
+    on_read_(valid_until);
+    const absl::Duration left = valid_until - absl::Now();
+    if (left > kEnoughTime) return;
+    spdlog::warn("the certificate in {} expires in {} days", config_.certificate_file,
+                 absl::ToInt64Hours(left) / 24);
+  }
+
   const TlsConfig config_;
+  const std::function<void(absl::Time)> on_read_;
   std::mutex mutex_;
   FileWatch watch_;
   std::unique_ptr<TlsPems> next_;  // not yet given to gRPC
@@ -82,10 +99,11 @@ class ReloadingCredentials final : public grpc::ServerCredentials {
 
 }  // namespace
 
-absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> TlsCredentials(const TlsConfig& config) {
+absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> TlsCredentials(
+    const TlsConfig& config, const std::function<void(absl::Time)>& on_read) {
   absl::StatusOr<TlsPems> pems = ReadTlsPems(config);
   if (!pems.ok()) return pems.status();
-  return std::make_shared<ReloadingCredentials>(config, *std::move(pems));
+  return std::make_shared<ReloadingCredentials>(config, *std::move(pems), on_read);
 }
 
 }  // namespace capfit::server

@@ -4,6 +4,7 @@
 
 #include <grpcpp/security/server_credentials.h>
 
+#include <functional>
 #include <memory>
 
 #include "absl/status/statusor.h"
@@ -15,8 +16,12 @@ namespace capfit::server {
 // its gets through. Connections that begin a second or more after a file has changed use the new
 // ones; running connections go on. The credentials must live as long as the server. New files that
 // ReadTlsPems refuses are named in the log, and the former stay in use. Errors as ReadTlsPems.
+//
+// `on_read` is told until when each certificate is valid that is used from then on: of the first
+// one before this returns, of later ones from any thread. The log warns of one that has less than
+// two weeks left.
 [[nodiscard]] absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> TlsCredentials(
-    const TlsConfig& config);
+    const TlsConfig& config, const std::function<void(absl::Time)>& on_read);
 
 }  // namespace capfit::server
 

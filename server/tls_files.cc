@@ -62,6 +62,12 @@ absl::Status CheckDates(const X509& certificate, const std::string& path) {
   return absl::OkStatus();
 }
 
+absl::Time EndOf(const X509& certificate) {
+  tm end = {};
+  ASN1_TIME_to_tm(X509_get0_notAfter(&certificate), &end);
+  return absl::FromTM(end, absl::UTCTimeZone());
+}
+
 // A passphrase is never asked for: nobody sits in front of a server.
 int NoPassphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*data*/) { return 0; }
 
@@ -89,6 +95,7 @@ absl::StatusOr<TlsPems> ReadTlsPems(const TlsConfig& config) {
                  absl::StrCat("is not the key of the certificate in ", config.certificate_file));
   }
   CAPFIT_RETURN_IF_ERROR(CheckDates(*certificate, config.certificate_file));
+  pems.valid_until = EndOf(*certificate);
   if (config.client_ca_file.empty()) return pems;
   CAPFIT_ASSIGN_OR_RETURN(pems.client_ca, ReadFile(config.client_ca_file));
   CAPFIT_ASSIGN_OR_RETURN(const Certificate authority,

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "absl/time/time.h"
 
 namespace capfit::server {
 
@@ -22,6 +23,7 @@ struct TlsPems {
   std::string certificate;
   std::string key;
   std::string client_ca;
+  absl::Time valid_until;  // the certificate
 };
 
 // INVALID_ARGUMENT with the file's path where one cannot be read, is no PEM, is not valid at this

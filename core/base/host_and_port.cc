@@ -54,7 +54,8 @@ bool IsDigits(const std::string& text) {
 
 }  // namespace
 
-absl::StatusOr<std::string> WithPort(const std::string& address, int lowest_port) {
+absl::StatusOr<std::string> WithPort(const std::string& address, int lowest_port,
+                                     int default_port) {
   if (HasScheme(address)) return address;
   const Pieces pieces = Split(address);
   const bool has_blank = std::any_of(address.begin(), address.end(), [](unsigned char letter) {
@@ -63,7 +64,7 @@ absl::StatusOr<std::string> WithPort(const std::string& address, int lowest_port
   if (pieces.host.empty() || has_blank) {
     return Wrong(address, "is no address, must be HOST, HOST:PORT or [IPV6]:PORT");
   }
-  if (!pieces.port) return absl::StrCat(pieces.host, ":", kDefaultPort);
+  if (!pieces.port) return absl::StrCat(pieces.host, ":", default_port);
   int port = -1;
   if (!IsDigits(*pieces.port) || !absl::SimpleAtoi(*pieces.port, &port) || port < lowest_port ||
       port > kHighestPort) {

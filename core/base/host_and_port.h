@@ -15,7 +15,8 @@ inline constexpr int kDefaultPort = 50051;
 // "[::1]:50051". Addresses with a scheme of gRPC's ("unix:/run/capfit", "dns:///host:7") stay as
 // they are. INVALID_ARGUMENT "'host:70000' has port 70000, must be a whole number in [1, 65535]":
 // `lowest_port` is 0 where any free port may be asked for.
-[[nodiscard]] absl::StatusOr<std::string> WithPort(const std::string& address, int lowest_port = 1);
+[[nodiscard]] absl::StatusOr<std::string> WithPort(const std::string& address, int lowest_port = 1,
+                                                   int default_port = kDefaultPort);
 
 }  // namespace capfit
 

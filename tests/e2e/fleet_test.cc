@@ -164,5 +164,28 @@ TEST(ServerStart, EndsWithAMessageWhereItCannotServe) {
   EXPECT_THAT(bad.err, HasSubstr("/nowhere cannot be read"));
 }
 
+TEST(ServerStart, ALogOnAFullDiskStopsNothing) {
+  ServerProcess server({"--log-level", "trace"}, "/dev/full");
+  const Scratch scratch;
+  const std::string body = scratch.Path("body.obj");
+  ASSERT_EQ(RunCapfit({"mannequin", "-o", body, "--faces", "2000"}).exit_code, 0);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(RunCapfit({"approximate", body, "-o", scratch.Path("r.json"), "--server",
+                         server.address(), "--quiet"})
+                  .exit_code,
+              0);
+  }
+  server.Signal(SIGTERM);
+  EXPECT_EQ(server.Wait(), 0);
+}
+
+TEST(ServerStart, ChannelzIsOnlyForThisMachineOrForCertificates) {
+  const Outcome open = RunServer({"--listen", "0.0.0.0:0", "--insecure-listen", "--channelz"});
+  EXPECT_EQ(open.exit_code, 1);
+  EXPECT_THAT(open.err, HasSubstr("--channelz tells everybody who calls"));
+  const ServerProcess server({"--channelz"});
+  EXPECT_EQ(RunCapfit({"info", "--server", server.address()}).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace capfit::e2e

@@ -72,12 +72,12 @@ Outcome RunCapfit(const std::vector<std::string>& arguments, const std::string& 
   return RunProgram(CAPFIT_CLIENT_PROGRAM, arguments, in_path);
 }
 
-ServerProcess::ServerProcess(const std::vector<std::string>& flags) {
+ServerProcess::ServerProcess(const std::vector<std::string>& flags, const std::string& log) {
   const std::string port_file = scratch_.Path("port");
   std::vector<std::string> arguments = {"--listen", "127.0.0.1:0", "--port-file", port_file};
   arguments.insert(arguments.end(), flags.begin(), flags.end());
   pid_ = Spawn(CAPFIT_SERVER_PROGRAM, arguments, "/dev/null", scratch_.Path("out"),
-               scratch_.Path("err"));
+               log.empty() ? scratch_.Path("err") : log);
   for (int i = 0; i < 600 && !std::filesystem::exists(port_file); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -94,6 +94,15 @@ ServerProcess::~ServerProcess() {
 }
 
 void ServerProcess::Signal(int signal) const { kill(pid_, signal); }
+
+double ServerProcess::ResidentMib() const {
+  std::ifstream in("/proc/" + std::to_string(pid_) + "/statm");
+  double whole = 0.0;
+  double resident = 0.0;
+  in >> whole >> resident;
+  EXPECT_GT(resident, 0.0);
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
 
 std::string ServerProcess::Log() const { return ReadText(scratch_.Path("err")); }
 

@@ -41,7 +41,8 @@ struct Outcome {
 // build/<preset>/server/capfit-server on a free port of the loopback, ready when constructed.
 class ServerProcess {
  public:
-  explicit ServerProcess(const std::vector<std::string>& flags = {});
+  // `log`: the file for its standard error; "": one of its own, which Log() reads.
+  explicit ServerProcess(const std::vector<std::string>& flags = {}, const std::string& log = "");
   // Stops it, if nobody has.
   ~ServerProcess();
   ServerProcess(const ServerProcess&) = delete;
@@ -49,6 +50,8 @@ class ServerProcess {
 
   [[nodiscard]] const std::string& address() const { return address_; }
   void Signal(int signal) const;
+  // Its resident memory now.
+  [[nodiscard]] double ResidentMib() const;
   // What it has logged so far.
   [[nodiscard]] std::string Log() const;
   // Waits for the end; the exit code, or minus the signal that killed it.

@@ -11,6 +11,7 @@
 #include "core/base/status.h"
 #include "proto/wire/status_conversion.h"
 #include "tests/server/fake_fit.h"
+#include "tests/server/raw_connection.h"
 #include "tests/server/service_call.h"
 
 namespace capfit::server {
@@ -147,6 +148,34 @@ TEST(Limits, ReadersThatDoNotReadAreCutOffAndFreeWhatTheyHold) {
   EXPECT_TRUE(WaitFor([&] { return server->held_bytes() == 0; }));
   for (const std::unique_ptr<Call>& call : stalled) EXPECT_FALSE(call->Finish().ok());
   EXPECT_TRUE(IsServed(*server));
+}
+
+// One message as gRPC frames it: not packed, and its length in four bytes.
+std::string Framed(const std::string& message) {
+  std::string frame(1, '\0');
+  for (int shift = 24; shift >= 0; shift -= 8) {
+    frame += static_cast<char>(message.size() >> shift & 0xff);
+  }
+  return frame + message;
+}
+
+TEST(Limits, AUnaryReaderThatDoesNotReadIsCutOffAndRecordedSo) {
+  const auto server = StartServer(InstantBackend(200'000), ShortTimes());  // 800 KB of gaps
+  v1::ApproximateBodyUnaryRequest request;
+  *request.mutable_mesh()->mutable_arrays() = Chunk().chunk().arrays();
+  RawConnection reader(server->port());
+  reader.BeginHttp2();
+  reader.SendCall(1, "/capfit.v1.BodyApproximationService/ApproximateBodyUnary");
+  constexpr char kEndOfStream = 1;
+  reader.SendFrame(FrameType::kData, 1, Framed(request.SerializeAsString()), kEndOfStream);
+  // It lets 64 KB come and never asks for more.
+  EXPECT_TRUE(WaitFor([&] {
+    return server->MetricsText().find("capfit_refused_total{reason=\"READER_TOO_SLOW\"} 1") !=
+           std::string::npos;
+  }));
+  EXPECT_TRUE(WaitFor([&] { return server->held_bytes() == 0; }));
+  EXPECT_EQ(server->MetricsText().find("code=\"OK\",method=\"ApproximateBodyUnary\""),
+            std::string::npos);
 }
 
 TEST(Limits, AFitThatTakesTooLongIsStoppedWithAReasonOfItsOwn) {

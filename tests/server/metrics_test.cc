@@ -49,6 +49,7 @@ double ValueOf(const std::string& text, const std::string& name) {
 TEST(Metrics, CountCallsByMethodAndCodeAndTimeTheirStages) {
   ServerConfig config;
   config.metrics_listen = "127.0.0.1:0";
+  config.cache_bytes = 0;  // each call is to be a fit
   const auto server = StartServer(InstantBackend(), config);
   for (int i = 0; i < 3; ++i) {
     Call call(*server);

@@ -8,6 +8,7 @@
 
 #include "core/base/status.h"
 #include "core/refine/layouts/standard_layouts.h"
+#include "proto/wire/enum_conversion.h"
 
 namespace capfit::wire {
 namespace {

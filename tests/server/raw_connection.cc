@@ -19,7 +19,7 @@ std::string BigEndian(std::uint32_t number, int bytes) {
 }
 
 // A header as HPACK writes it without any table; lengths below 127.
-std::string Header(const std::string& name, const std::string& value) {
+std::string HpackHeader(const std::string& name, const std::string& value) {
   return std::string(1, '\0') + static_cast<char>(name.size()) + name +
          static_cast<char>(value.size()) + value;
 }
@@ -54,9 +54,9 @@ void RawConnection::SendFrame(FrameType type, std::uint32_t stream, const std::s
 void RawConnection::SendCall(std::uint32_t stream, const std::string& path) const {
   constexpr char kEndOfHeaders = 4;
   SendFrame(FrameType::kHeaders, stream,
-            Header(":method", "POST") + Header(":scheme", "http") + Header(":path", path) +
-                Header(":authority", "localhost") + Header("te", "trailers") +
-                Header("content-type", "application/grpc"),
+            HpackHeader(":method", "POST") + HpackHeader(":scheme", "http") +
+                HpackHeader(":path", path) + HpackHeader(":authority", "localhost") +
+                HpackHeader("te", "trailers") + HpackHeader("content-type", "application/grpc"),
             kEndOfHeaders);
 }
 

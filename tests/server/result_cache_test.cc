@@ -66,7 +66,8 @@ TEST(ResultCache, TheSameRequestGetsTheSameBitsWithoutAFit) {
   const std::string first = AnswerTo(*server, {Header("id"), Chunk()});
   EXPECT_EQ(AnswerTo(*server, {Header("id"), Chunk()}), first);
   EXPECT_EQ(fits, 1);
-  EXPECT_NE(server->MetricsText().find("\ncapfit_cache_hits_total 1\n"), std::string::npos);
+  EXPECT_NE(server->MetricsText().find("\ncapfit_cache_hits_total{tier=\"memory\"} 1\n"),
+            std::string::npos);
   // Another id is no other mesh; another mesh or option is.
   EXPECT_NE(AnswerTo(*server, {Header("other"), Chunk()}), first);
   EXPECT_EQ(fits, 1);
@@ -78,6 +79,27 @@ TEST(ResultCache, TheSameRequestGetsTheSameBitsWithoutAFit) {
   seeded.mutable_header()->mutable_options()->set_seed(5);
   AnswerTo(*server, {seeded, Chunk()});
   EXPECT_EQ(fits, 3);
+}
+
+TEST(ResultCache, WhoWantsAFreshFitGetsOneAndLeavesNoTrace) {
+  std::atomic<int> fits{0};
+  FitBackend backend = InstantBackend();
+  backend.fit = [&fits, fit = backend.fit](const auto& soup, const auto& options, const auto& pool,
+                                           FitObserver& observer) {
+    ++fits;
+    return fit(soup, options, pool, observer);
+  };
+  const auto server = StartServer(backend);
+  for (int i = 0; i < 2; ++i) {
+    Call call(LoopbackChannel(*server), {{"cache-control", "no-cache"}});
+    call.Send({Header(), Chunk()});
+    EXPECT_TRUE(call.Finish().ok());
+  }
+  EXPECT_EQ(fits, 2);
+  AnswerTo(*server, {Header(), Chunk()});
+  EXPECT_EQ(fits, 3) << "kept neither before";
+  AnswerTo(*server, {Header(), Chunk()});
+  EXPECT_EQ(fits, 3) << "kept by default";
 }
 
 }  // namespace

@@ -86,6 +86,27 @@ TEST(TlsCredentials, NewFilesHoldForNewConnectionsAndWrongOnesChangeNothing) {
   EXPECT_TRUE(running->GetServerInfo().ok());
 }
 
+TEST(TlsCredentials, WhenTheCertificateEndsIsAMetricThatFollowsTheFile) {
+  const auto expiry = [](const Server& server) {
+    constexpr char kName[] = "\ncapfit_certificate_expiry_timestamp_seconds ";
+    const std::string text = server.MetricsText();
+    const std::size_t at = text.find(kName);
+    return at == std::string::npos ? 0.0 : std::atof(text.c_str() + at + sizeof(kName) - 1);
+  };
+  const double now = absl::ToDoubleSeconds(absl::Now() - absl::UnixEpoch());
+  const Identity identity("ends");
+  const auto server = StartSecured(identity.config);
+  EXPECT_NEAR(expiry(*server), now + 3600.0, 300.0);
+  const CertificateAndKey longer = MakeCertificate(identity.authority, -60, 90 * 86'400);
+  WriteTestFile("ends.key", longer.key);
+  WriteTestFile("ends.pem", longer.certificate);
+  EXPECT_TRUE(Soon([&] {
+    static_cast<void>(AskInfo(*server, identity.security));
+    return expiry(*server) > now + 89 * 86'400.0;
+  }));
+  EXPECT_EQ(expiry(*StartSecured({})), 0.0) << "no TLS";
+}
+
 TEST(TlsFiles, WhatIsWrongIsNamed) {
   const Identity identity("named");
   ServerConfig config = identity.config;

@@ -1,4 +1,4 @@
-#include "client/result_collector.h"
+#include "proto/wire/result_collector.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "server/response_sequence.h"
 #include "tests/server/fake_fit.h"
 
-namespace capfit::client {
+namespace capfit::wire {
 namespace {
 
 using Response = v1::ApproximateBodyResponse;
@@ -84,4 +84,4 @@ TEST(ResultCollector, PartsOfALaterContractAreIgnored) {
 }
 
 }  // namespace
-}  // namespace capfit::client
+}  // namespace capfit::wire

@@ -1,6 +1,6 @@
 // Puts the messages of an answer together to one result, and holds the server to the contract.
-#ifndef CAPFIT_CLIENT_RESULT_COLLECTOR_H_
-#define CAPFIT_CLIENT_RESULT_COLLECTOR_H_
+#ifndef CAPFIT_PROTO_WIRE_RESULT_COLLECTOR_H_
+#define CAPFIT_PROTO_WIRE_RESULT_COLLECTOR_H_
 
 #include <cstdint>
 #include <functional>
@@ -9,7 +9,7 @@
 #include "capfit/v1/service.pb.h"
 #include "core/pipeline/fit.h"
 
-namespace capfit::client {
+namespace capfit::wire {
 
 // Use: Add() each message in order, then Finish(). Errors are INTERNAL: out of order, twice,
 // missing or malformed. Parts of a later version of the contract are ignored.
@@ -31,6 +31,6 @@ class ResultCollector {
   std::int64_t export_bytes_ = 0;  // of the file whose pieces come
 };
 
-}  // namespace capfit::client
+}  // namespace capfit::wire
 
-#endif  // CAPFIT_CLIENT_RESULT_COLLECTOR_H_
+#endif  // CAPFIT_PROTO_WIRE_RESULT_COLLECTOR_H_

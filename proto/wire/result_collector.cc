@@ -1,4 +1,4 @@
-#include "client/result_collector.h"
+#include "proto/wire/result_collector.h"
 
 #include <limits>
 #include <utility>
@@ -10,7 +10,7 @@
 #include "proto/wire/result_conversion.h"
 #include "proto/wire/skinning_conversion.h"
 
-namespace capfit::client {
+namespace capfit::wire {
 namespace {
 
 using Response = v1::ApproximateBodyResponse;
@@ -47,38 +47,38 @@ absl::Status ResultCollector::Add(const v1::ApproximateBodyResponse& response) {
 absl::Status ResultCollector::AddPart(const v1::ApproximateBodyResponse& response) {
   switch (response.part_case()) {
     case Response::kProgress: {
-      const std::optional<Stage> stage = wire::FromWire(response.progress().stage());
+      const std::optional<Stage> stage = FromWire(response.progress().stage());
       if (stage && on_progress_) on_progress_(*stage, response.progress().fraction_done());
       return absl::OkStatus();
     }
     case Response::kWarning:
-      result_.warnings.push_back(wire::WarningFromWire(response.warning()));
+      result_.warnings.push_back(WarningFromWire(response.warning()));
       return absl::OkStatus();
     case Response::kLandmarks:
-      wire::LandmarksFromWire(response.landmarks(), result_);
+      LandmarksFromWire(response.landmarks(), result_);
       return absl::OkStatus();
     case Response::kFeaturePolygon: {
       CAPFIT_ASSIGN_OR_RETURN(pipeline::PolygonResult polygon,
-                              wire::PolygonFromWire(response.feature_polygon()));
+                              PolygonFromWire(response.feature_polygon()));
       result_.polygons.push_back(std::move(polygon));
       return absl::OkStatus();
     }
     case Response::kPrimitives:
-      return wire::PrimitivesFromWire(response.primitives(), result_);
+      return PrimitivesFromWire(response.primitives(), result_);
     case Response::kSkinning:
       if (!response.skinning().has_dense()) {
-        return wire::FewWeightsFromWire(response.skinning(), result_);
+        return FewWeightsFromWire(response.skinning(), result_);
       }
       if (!result_.weights) result_.weights.emplace();
-      return wire::AppendWeights(response.skinning(), *result_.weights);
+      return AppendWeights(response.skinning(), *result_.weights);
     case Response::kVertexGaps:
       vertex_count_ = response.vertex_gaps().total_vertex_count();
-      return wire::AppendGaps(response.vertex_gaps(), result_.vertex_gaps);
+      return AppendGaps(response.vertex_gaps(), result_.vertex_gaps);
     case Response::kExportChunk:
       export_bytes_ = response.export_chunk().total_bytes();
-      return wire::AppendExport(response.export_chunk(), result_.exports);
+      return AppendExport(response.export_chunk(), result_.exports);
     case Response::kSummary:
-      return wire::SummaryFromWire(response.summary(), result_);
+      return SummaryFromWire(response.summary(), result_);
     case Response::PART_NOT_SET:
       break;
   }
@@ -106,4 +106,4 @@ absl::StatusOr<pipeline::FitResult> ResultCollector::Finish() && {
   return std::move(result_);
 }
 
-}  // namespace capfit::client
+}  // namespace capfit::wire

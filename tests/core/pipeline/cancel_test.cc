@@ -1,0 +1,126 @@
+// How soon a fit ends that its caller has given up, wherever it is by then.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/mannequin/mannequin.h"
+#include "core/pipeline/fit.h"
+
+namespace capfit::pipeline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+class GivenUp final : public FitObserver {
+ public:
+  void OnStage(Stage stage, double /*fraction_done*/) override { stage_ = stage; }
+  [[nodiscard]] bool IsCancelled() const override { return is_given_up_; }
+  // The stage that is under way, and when this was.
+  Stage GiveUp() {
+    const Stage stage = stage_;
+    when_ = Clock::now();
+    is_given_up_ = true;
+    return stage;
+  }
+  [[nodiscard]] Clock::time_point when() const { return when_; }
+
+ private:
+  std::atomic<Stage> stage_{Stage::kMesh};
+  std::atomic<bool> is_given_up_{false};
+  Clock::time_point when_;
+};
+
+struct Case {
+  std::string name;
+  int faces = 20'000;
+  FitOptions options;
+  friend void PrintTo(const Case& c, std::ostream* os) { *os << c.name; }
+};
+
+class CancelTest : public testing::TestWithParam<Case> {
+ protected:
+  static formats::PolygonSoup Body() {
+    mannequin::MannequinOptions options;
+    options.faces = GetParam().faces;
+    return mannequin::MakeMannequin(options).value();
+  }
+};
+
+// Cancelled at so many moments, evenly over the time that a whole fit takes.
+constexpr int kMoments = 16;
+// Of a whole fit, which takes as much longer on a slow machine: a fit that never looked would go on
+// for half of it in the middle of all moments. What is printed is what counts.
+constexpr double kMostOfWhole = 0.3;
+
+TEST_P(CancelTest, EndsSoonAtEachMomentAndSaysThatItWasCancelled) {
+  const formats::PolygonSoup soup = Body();
+  const ThreadPool pool(2);
+  NullObserver nobody;
+  const Clock::time_point begin = Clock::now();
+  ASSERT_TRUE(Fit(soup, GetParam().options, pool, nobody).ok());
+  const double whole_seconds = SecondsSince(begin);
+  std::vector<double> waits;
+  std::array<double, kStageCount> worst{};
+  for (int i = 0; i < kMoments; ++i) {
+    GivenUp observer;
+    Stage stage = Stage::kMesh;
+    std::thread caller([&] {
+      std::this_thread::sleep_for(
+          std::chrono::duration<double>(whole_seconds * (i + 0.5) / kMoments));
+      stage = observer.GiveUp();
+    });
+    const auto result = Fit(soup, GetParam().options, pool, observer);
+    const Clock::time_point end = Clock::now();
+    caller.join();
+    if (result.ok()) continue;  // over before its moment came
+    EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled) << result.status();
+    const double wait = std::chrono::duration<double>(end - observer.when()).count();
+    waits.push_back(wait);
+    double& stage_worst = worst[static_cast<std::size_t>(stage)];
+    stage_worst = std::max(stage_worst, wait);
+  }
+  ASSERT_GT(waits.size(), kMoments / 3U);
+  std::sort(waits.begin(), waits.end());
+  EXPECT_LT(waits[waits.size() / 2], kMostOfWhole * whole_seconds);
+  std::printf("%s: %.2f s whole; milliseconds until it ends: median %.1f, worst %.1f;",
+              GetParam().name.c_str(), whole_seconds, 1e3 * waits[waits.size() / 2],
+              1e3 * waits.back());
+  for (int i = 0; i < kStageCount; ++i) {
+    const double seconds = worst[static_cast<std::size_t>(i)];
+    if (seconds > 0.0) {
+      std::printf(" %s %.0f", std::string(StageName(static_cast<Stage>(i))).c_str(), 1e3 * seconds);
+    }
+  }
+  std::printf("\n");
+}
+
+FitOptions With(Quality quality, SkinningMode skinning, FitMode fit = FitMode::kEnclose) {
+  FitOptions options;
+  options.quality = quality;
+  options.skinning = skinning;
+  options.fit = fit;
+  return options;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ways, CancelTest,
+    testing::Values(Case{"PaperDense", 20'000, With(Quality::kPaper, SkinningMode::kDense)},
+                    Case{"PaperOfManyFaces", 300'000, With(Quality::kPaper, SkinningMode::kNone)},
+                    Case{"Tight", 20'000, With(Quality::kTight, SkinningMode::kNone)},
+                    Case{"BestTightSparse", 20'000,
+                         With(Quality::kTight, SkinningMode::kSparse, FitMode::kBestFit)}),
+    [](const auto& one) { return one.param.name; });
+
+}  // namespace
+}  // namespace capfit::pipeline
