@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -44,8 +45,15 @@ using grpc::experimental::Interceptor;
 using grpc::experimental::InterceptorBatchMethods;
 using grpc::experimental::ServerRpcInfo;
 
+// Whether a call of the method may be asked, where its end is intercepted, if it was cancelled. Of
+// gRPC's own services with threads of their own (reflection, channelz) IsCancelled would end in
+// this interceptor again, without end.
+bool MayBeAsked(std::string_view method) {
+  return method.starts_with("/capfit.v1.") || method.starts_with("/grpc.health.v1.");
+}
+
 // Not the calls' own objects: gRPC makes none of those for a call that was reset before its
-// message.
+// message. Who cannot be asked counts as given up: nobody has use for so many of those either.
 class ResetCounter final : public Interceptor {
  public:
   ResetCounter(std::shared_ptr<ResetGuard> guard, ServerRpcInfo& call)
@@ -53,7 +61,7 @@ class ResetCounter final : public Interceptor {
 
   void Intercept(InterceptorBatchMethods* methods) override {
     if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::POST_RECV_CLOSE) &&
-        call_.server_context()->IsCancelled()) {
+        (!MayBeAsked(call_.method()) || call_.server_context()->IsCancelled())) {
       guard_->CountReset(call_.server_context()->peer());
     }
     methods->Proceed();

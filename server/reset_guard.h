@@ -42,7 +42,8 @@ class ResetGuard {
   std::set<std::string> cut_;          // peers, in this window
 };
 
-// Counts the calls of all services of a server, also of methods that there are not.
+// Counts the calls of all services of a server that are given up; of reflection, channelz and
+// methods that there are not all calls.
 void CountResets(const std::shared_ptr<ResetGuard>& guard, grpc::ServerBuilder& builder);
 
 // Ends the TCP connection of this process whose other end is `peer` ("ipv4:192.0.2.7:4711"),

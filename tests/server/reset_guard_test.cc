@@ -37,6 +37,25 @@ TEST(ResetGuard, WhoGivesUpNowAndThenIsLeftAlone) {
   EXPECT_FALSE(connection.EndsWithin(/*seconds=*/2));
 }
 
+// Whole calls and calls given up; the server lives on.
+TEST(ResetGuard, LeavesGrpcsOwnServicesAlone) {
+  const auto server = StartSecured({});
+  RawConnection connection(server->port());
+  connection.BeginHttp2();
+  const std::string list_services("\0\0\0\0\x02\x3a\0", 7);
+  constexpr char kEndOfStream = 1;
+  for (std::uint32_t stream = 1; stream < 100; stream += 2) {
+    connection.SendCall(stream, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo");
+    if (stream % 4 == 1) {
+      connection.SendFrame(FrameType::kData, stream, list_services, kEndOfStream);
+    } else {
+      connection.SendFrame(FrameType::kResetStream, stream, std::string("\0\0\0\x08", 4));
+    }
+  }
+  EXPECT_FALSE(connection.EndsWithin(/*seconds=*/1));
+  EXPECT_TRUE(AskInfo(*server, {}).ok());
+}
+
 TEST(CutConnection, FindsOnlyWhatIsThere) {
   EXPECT_FALSE(CutConnection("ipv4:192.0.2.7:4711"));
   EXPECT_FALSE(CutConnection("unix:/run/capfit"));
