@@ -190,7 +190,8 @@ TEST(Urdf, WritesASphereOnceForEachLink) {
 TEST(Tables, HaveALineForEach) {
   const Exported exported = WriteTables(Small());
   ASSERT_EQ(exported.files.size(), 2U);
-  EXPECT_THAT(exported.files[0].bytes, HasSubstr("\n2,left_hand_1,torso,,0.5,0,0.25,0.3,1,0.5,0,0.25\n"));
+  EXPECT_THAT(exported.files[0].bytes,
+              HasSubstr("\n2,left_hand_1,torso,,0.5,0,0.25,0.3,1,0.5,0,0.25\n"));
   EXPECT_THAT(exported.files[1].bytes,
               HasSubstr("\n0,waist_1__chest_1,torso,,0,1,0.5,0.1,0.2,0\n"));
 }
