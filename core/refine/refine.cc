@@ -215,8 +215,8 @@ Spacings SpacingsFor(int primitives) {
   return {usual, std::clamp(kFineSpacing * share, kLeastSpacing, usual)};
 }
 
-// Standard layouts that fill the budget. They come from long searches over many bodies, and a short
-// one seldom comes to them by itself.
+// Standard layouts that fill the budget. They were chosen for how well they serve many bodies, and
+// a short search seldom comes to them by itself.
 std::vector<capsule::MirroredSet> StandardStarts(const body::Body& body,
                                                  const RefineOptions& options, int primitives) {
   std::vector<capsule::MirroredSet> starts;

@@ -111,8 +111,7 @@ TEST(Metrics, APortThatIsTakenIsAnErrorThatNamesIt) {
 
 TEST(Metrics, PleasePrometheusOwnTool) {
   if (std::system("command -v promtool > /dev/null") != 0) {
-    std::cerr << "SKIPPED: promtool (package prometheus) is not there\n";
-    GTEST_SKIP() << "promtool is missing";
+    GTEST_SKIP() << "SKIPPED: no promtool: apt-get install prometheus";
   }
   const auto server = StartServer(InstantBackend());
   Call call(*server);

@@ -24,7 +24,8 @@ using testing::HasSubstr;
 class SharedCacheTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!RedisProcess::IsInstalled()) GTEST_SKIP() << "no redis-server: apt-get install it";
+    if (!RedisProcess::IsInstalled())
+      GTEST_SKIP() << "SKIPPED: no redis-server: apt-get install redis-server";
   }
 
   // A replica that keeps nothing itself, connected to `address` unless told otherwise.

@@ -3,7 +3,8 @@
 //
 //   make_standard_layout SPHERES        as many capsules
 //
-// Prints spheres and capsules as they stand in the table, to be copied.
+// Prints spheres and capsules as they stand in the table, to be copied. (The fit that it makes them
+// of starts from the table that is there as well: of 32 spheres the same table may come out again.)
 #include <algorithm>
 #include <array>
 #include <cstdio>
