@@ -28,7 +28,7 @@ test=(
 deploy=(prometheus nginx haproxy kubernetes-client python3-yaml)
 bench=(python3 python3-matplotlib)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev git python3 mypy)
-run=(libprometheus-cpp-core1.0 libprometheus-cpp-pull1.0 libhiredis0.14 libgrpc++1.51 libtbb12 libspdlog1.10 libcairo2 libdraco7 libmeshoptimizer2d)
+run=(libprometheus-cpp-core1.0 libprometheus-cpp-pull1.0 libhiredis0.14 libgrpc++1.51 libtbb12 libspdlog1.10 libcairo2 libopenmesh1 libdraco7 libmeshoptimizer2d)
 
 wanted=()
 for group in "${@:-build}"; do

@@ -148,6 +148,15 @@ void Holding::HoldAnyway(std::int64_t bytes) {
   Add(bytes + kBytesOfACall - bytes_);
 }
 
+absl::Status Holding::CheckPatience(double wait_seconds, double patience_seconds) const {
+  if (wait_seconds <= 0.0 || wait_seconds < patience_seconds) return absl::OkStatus();
+  return admission_.Full(
+      "deadline",
+      absl::StrFormat("this fit would wait %.1f s for its turn, and its deadline passes in %.1f s",
+                      wait_seconds, std::max(0.0, patience_seconds)),
+      wait_seconds - patience_seconds);
+}
+
 absl::Status Holding::BeginFit(double expected_seconds) {
   const std::lock_guard lock(admission_.mutex_);
   Admission::Use& use = admission_.clients_[client_];

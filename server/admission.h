@@ -27,7 +27,7 @@ inline constexpr std::int64_t kBytesOfACall = 64LL * 1024;
 // The fact of a refusal that says when to come again, in milliseconds.
 inline constexpr char kRetryFact[] = "retry_ms";
 // The fact that says what ran out: "held_bytes", "queued_seconds" or "queued_fits", each for all or
-// for the client ("client_held_bytes", ...).
+// for the client ("client_held_bytes", ...), or the caller's time, "deadline".
 inline constexpr char kResourceFact[] = "resource";
 
 // The sums over all calls. Safe from any thread. Nothing is ever waited for: who cannot have
@@ -85,6 +85,9 @@ class Holding {
   [[nodiscard]] absl::Status HoldBytes(std::int64_t bytes);
   // The same without asking: for what is there already.
   void HoldAnyway(std::int64_t bytes);
+  // Refuses a fit that would have its turn only after its caller has gone: who has
+  // `patience_seconds` left must wait less. Takes nothing.
+  [[nodiscard]] absl::Status CheckPatience(double wait_seconds, double patience_seconds) const;
   // From now on a fit of this call waits or runs, until EndFit.
   [[nodiscard]] absl::Status BeginFit(double expected_seconds);
   void EndFit();

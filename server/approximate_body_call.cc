@@ -20,9 +20,12 @@ ApproximateBodyCall* ApproximateBodyCall::Start(grpc::CallbackServerContext* con
 
 void ApproximateBodyCall::Begin() {
   const std::lock_guard lock(mutex_);
-  const absl::Status status = job_.Admit();
-  if (!status.ok()) return End(status);
-  AwaitMessage();
+  refusal_ = job_.Admit();
+  if (refusal_.ok()) {
+    AwaitMessage();
+  } else {
+    SetAlarm(kRefusedReadSeconds, &ApproximateBodyCall::Refuse);
+  }
   StartRead(&request_);
 }
 
@@ -30,6 +33,7 @@ void ApproximateBodyCall::OnReadDone(bool ok) {
   {
     const std::lock_guard lock(mutex_);
     if (final_status_) return;  // the watchdog was quicker
+    if (!refusal_.ok()) return Refuse();
     if (ok) {
       TakeMessage();
     } else if (!is_submitted_) {
@@ -159,6 +163,8 @@ void ApproximateBodyCall::AwaitMessage() {
   SetAlarm(std::min(services_.config.upload_idle_seconds, left),
            &ApproximateBodyCall::UploadIsLate);
 }
+
+void ApproximateBodyCall::Refuse() { End(refusal_); }
 
 void ApproximateBodyCall::UploadIsLate() {
   const ServerConfig& config = services_.config;

@@ -13,6 +13,10 @@
 
 namespace capfit::server {
 
+// A stream that is refused before it begins reads its first message before it says so, for no
+// longer than this: who never sends one is known by that (reset_guard.h).
+inline constexpr double kRefusedReadSeconds = 0.5;
+
 // gRPC's threads run the On...Done callbacks, which only move bytes; the fit runs on the executor,
 // with this object as its observer. At most one write is under way, and the next message is made
 // when the reader has taken the last; of progress only the latest is kept. An upload that pauses
@@ -56,6 +60,7 @@ class ApproximateBodyCall final
   // Calls `late` after `seconds`, unless the alarm is dropped or set again.
   void SetAlarm(double seconds, void (ApproximateBodyCall::*late)());
   void AwaitMessage();
+  void Refuse();
   void UploadIsLate();
   void ReaderIsLate();
 
@@ -75,6 +80,7 @@ class ApproximateBodyCall final
   bool is_finished_ = false;
   std::optional<v1::Progress> progress_;
   std::optional<ResponseSequence> results_;
+  absl::Status refusal_;  // known from the begin, told after the first message
   std::optional<absl::Status> final_status_;
   v1::ApproximateBodyResponse response_;  // the one being written
 };

@@ -31,9 +31,9 @@ FitExecutor::Ticket FitExecutor::Submit(WaitingFit fit, std::function<void()> jo
   Ticket ticket = 0;
   {
     const std::lock_guard lock(mutex_);
-    const bool is_long = fit.expected_seconds > kLongFitSeconds;
+    const double expected_seconds = fit.expected_seconds;
     ticket = queue_.Add(std::move(fit), NowSeconds());
-    jobs_.emplace(ticket, Job{std::move(job), is_long});
+    jobs_.emplace(ticket, Job{std::move(job), expected_seconds, ticket});
   }
   // All: the one that is woken might be kept from a long fit while another is not.
   wake_.notify_all();
@@ -53,17 +53,27 @@ std::size_t FitExecutor::waiting() const {
 
 std::size_t FitExecutor::running() const {
   const std::lock_guard lock(mutex_);
-  return running_;
+  return running_.size();
+}
+
+double FitExecutor::ExpectedWaitSeconds(const WaitingFit& fit) const {
+  const std::lock_guard lock(mutex_);
+  if (queue_.size() == 0 && running_.size() < threads_.size()) return 0.0;
+  const double now = NowSeconds();
+  double seconds = queue_.SecondsBefore(fit, now);
+  for (const auto& [ticket, end] : running_) seconds += std::max(0.0, end - now);
+  return seconds / static_cast<double>(threads_.size());
 }
 
 FitExecutor::Job FitExecutor::Next() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    const std::optional<Ticket> ticket = queue_.TakeNext(NowSeconds(), running_long_ < most_long_);
+    const double now = NowSeconds();
+    const std::optional<Ticket> ticket = queue_.TakeNext(now, running_long_ < most_long_);
     if (ticket) {
       Job job = std::move(jobs_.extract(*ticket).mapped());
-      ++running_;
-      if (job.is_long) ++running_long_;
+      running_.emplace(*ticket, now + job.expected_seconds);
+      if (job.is_long()) ++running_long_;
       return job;
     }
     if (stopping_ && queue_.size() == 0) return {};
@@ -74,10 +84,10 @@ FitExecutor::Job FitExecutor::Next() {
 void FitExecutor::Done(const Job& job) {
   {
     const std::lock_guard lock(mutex_);
-    --running_;
-    if (job.is_long) --running_long_;
+    running_.erase(job.ticket);
+    if (job.is_long()) --running_long_;
   }
-  if (job.is_long) wake_.notify_all();
+  if (job.is_long()) wake_.notify_all();
 }
 
 void FitExecutor::Work() {

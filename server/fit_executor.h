@@ -31,6 +31,9 @@ class FitExecutor {
   Ticket Submit(WaitingFit fit, std::function<void()> job);
   // Takes a job that has not begun out of the queue and gives it back; empty when it has begun.
   [[nodiscard]] std::function<void()> Withdraw(Ticket ticket);
+  // How long `fit` would wait for its turn if it came now and nobody after it, as expected: for
+  // what goes before it, and for what is left of the fits that run.
+  [[nodiscard]] double ExpectedWaitSeconds(const WaitingFit& fit) const;
   // Jobs that wait.
   [[nodiscard]] std::size_t waiting() const;
   // Jobs that run.
@@ -39,7 +42,9 @@ class FitExecutor {
  private:
   struct Job {
     std::function<void()> run;
-    bool is_long = false;
+    double expected_seconds = 0.0;
+    Ticket ticket = 0;
+    [[nodiscard]] bool is_long() const { return expected_seconds > kLongFitSeconds; }
   };
   void Work();
   // The next job, as soon as one may run; one without a function at the end.
@@ -51,7 +56,7 @@ class FitExecutor {
   std::condition_variable wake_;
   FitQueue queue_;
   std::map<Ticket, Job> jobs_;
-  std::size_t running_ = 0;
+  std::map<Ticket, double> running_;  // when each is expected to end, in seconds of steady_clock
   int running_long_ = 0;
   bool stopping_ = false;
   std::vector<std::thread> threads_;

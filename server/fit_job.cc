@@ -141,9 +141,14 @@ absl::Status FitJob::Enqueue(std::function<void()> run) {
         ExpectedResultBytes(options_, upload_.vertex_count(), upload_.held_bytes())));
   }
   const double seconds = services_.cost.ExpectedSeconds(SizeOfFit());
+  WaitingFit fit{record_.client, record_.is_bulk, seconds};
+  const double patience_seconds =
+      std::chrono::duration<double>(deadline_ - std::chrono::system_clock::now()).count();
+  CAPFIT_RETURN_IF_ERROR(
+      holding_->CheckPatience(services_.executor.ExpectedWaitSeconds(fit), patience_seconds));
   CAPFIT_RETURN_IF_ERROR(holding_->BeginFit(seconds));
   queued_at_ = Clock::now();
-  ticket_ = services_.executor.Submit({record_.client, record_.is_bulk, seconds}, std::move(run));
+  ticket_ = services_.executor.Submit(std::move(fit), std::move(run));
   return absl::OkStatus();
 }
 

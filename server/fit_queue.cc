@@ -26,11 +26,8 @@ std::optional<FitQueue::Ticket> FitQueue::TakeNext(double now_seconds, bool allo
   auto best = waiting_.end();
   double least = 0.0;
   for (auto entry = waiting_.begin(); entry != waiting_.end(); ++entry) {
-    const WaitingFit& fit = entry->second.fit;
-    if (!allow_long && fit.expected_seconds > kLongFitSeconds) continue;
-    const double sum = fit.expected_seconds + GotLately(fit.client, now_seconds) +
-                       (fit.is_bulk ? kBulkHandicapSeconds : 0.0) -
-                       (now_seconds - entry->second.since_seconds);
+    if (!allow_long && entry->second.fit.expected_seconds > kLongFitSeconds) continue;
+    const double sum = SumOf(entry->second, now_seconds);
     if (best != waiting_.end() && sum >= least) continue;
     best = entry;
     least = sum;
@@ -40,6 +37,20 @@ std::optional<FitQueue::Ticket> FitQueue::TakeNext(double now_seconds, bool allo
   Charge(best->second.fit, now_seconds);
   waiting_.erase(best);
   return ticket;
+}
+
+double FitQueue::SumOf(const Entry& entry, double now_seconds) const {
+  return entry.fit.expected_seconds + GotLately(entry.fit.client, now_seconds) +
+         (entry.fit.is_bulk ? kBulkHandicapSeconds : 0.0) - (now_seconds - entry.since_seconds);
+}
+
+double FitQueue::SecondsBefore(const WaitingFit& fit, double now_seconds) const {
+  const double own_sum = SumOf({fit, now_seconds}, now_seconds);
+  double seconds = 0.0;
+  for (const auto& [ticket, entry] : waiting_) {
+    if (SumOf(entry, now_seconds) <= own_sum) seconds += entry.fit.expected_seconds;
+  }
+  return seconds;
 }
 
 double FitQueue::GotLately(const std::string& client, double now_seconds) const {

@@ -39,6 +39,8 @@ class FitQueue {
   Ticket Add(WaitingFit fit, double now_seconds);
   // Nothing when no fit waits, or only long ones and `allow_long` is false. Charges its client.
   [[nodiscard]] std::optional<Ticket> TakeNext(double now_seconds, bool allow_long);
+  // The expected seconds of those that would be taken before `fit` if it came now. O(n).
+  [[nodiscard]] double SecondsBefore(const WaitingFit& fit, double now_seconds) const;
   // False when it has been taken already.
   bool Remove(Ticket ticket);
   [[nodiscard]] std::size_t size() const { return waiting_.size(); }
@@ -52,6 +54,8 @@ class FitQueue {
     double seconds = 0.0;
     double as_of_seconds = 0.0;
   };
+  // What the order goes by; the least is next.
+  [[nodiscard]] double SumOf(const Entry& entry, double now_seconds) const;
   [[nodiscard]] double GotLately(const std::string& client, double now_seconds) const;
   void Charge(const WaitingFit& fit, double now_seconds);
 

@@ -72,6 +72,8 @@ std::vector<MetricFamily> FamiliesOf(const Gauges& now) {
       GaugeFamily("capfit_cache_bytes", "Memory that cached results hold", number(now.cache_bytes)),
       GaugeFamily("capfit_shared_cache_up", "1 while the shared cache answers",
                   now.shared_cache_is_up ? 1.0 : 0.0),
+      GaugeFamily("capfit_lost_log_lines_total", "Lines of the log that could not be written",
+                  number(now.lost_log_lines), prometheus::MetricType::Counter),
       GaugeFamily("process_resident_memory_bytes", "Resident memory", ResidentBytes()),
       GaugeFamily("process_cpu_seconds_total", "Processor time used, of user and system",
                   CpuSeconds(), prometheus::MetricType::Counter)};

@@ -22,6 +22,7 @@ struct Gauges {
   int pool_threads = 0;
   std::int64_t cache_bytes = 0;
   bool shared_cache_is_up = false;
+  std::int64_t lost_log_lines = 0;
   double certificate_expiry_seconds = 0.0;  // since 1970; 0: there is none
 };
 

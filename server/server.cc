@@ -20,6 +20,7 @@
 #include "core/base/status.h"
 #include "grpc/health/v1/health.pb.h"
 #include "server/caller_check.h"
+#include "server/log_sink.h"
 #include "server/reset_guard.h"
 #include "server/server_info.h"
 #include "server/service.h"
@@ -66,6 +67,9 @@ void PrepareProcess() {
 
 // A handshake that is not over by then ends: as long as a slow line needs.
 constexpr int kHandshakeMilliseconds = 10'000;
+// What is read of a connection at once is parsed even if the connection is cut meanwhile: 500
+// streams that are begun and reset.
+constexpr int kMostReadBytes = 64 * 1024;
 // A client that does not answer a ping within this is gone.
 constexpr int kKeepaliveTimeoutMilliseconds = 20'000;
 // Clients may ping as often as this; one that pings more often is sent away (ENHANCE_YOUR_CALM).
@@ -76,6 +80,7 @@ void LimitConnections(const ConnectionLimits& limits, grpc::ServerBuilder& build
   for (const auto& [name, value] : {
            std::pair{GRPC_ARG_MAX_METADATA_SIZE, limits.max_metadata_bytes},
            std::pair{GRPC_ARG_MAX_CONCURRENT_STREAMS, limits.max_streams},
+           std::pair{GRPC_ARG_TCP_MAX_READ_CHUNK_SIZE, kMostReadBytes},
            std::pair{GRPC_ARG_MAX_CONNECTION_AGE_MS, milliseconds(limits.max_age_seconds)},
            std::pair{GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS,
                      milliseconds(limits.max_age_grace_seconds)},
@@ -136,6 +141,7 @@ struct Server::Parts {
             pool.threads(),
             cache.bytes(),
             shared_cache->is_up(),
+            LostLogLines(),
             *certificate_expiry};
   }
 };
@@ -174,13 +180,15 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   // A second server on the same port is a mistake, not a way to share the load.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   LimitConnections(config.connection, builder);
-  CountResets(std::make_shared<ResetGuard>(), builder);
+  const auto reset_guard = std::make_shared<ResetGuard>(parts->watchdog);
+  CountResets(reset_guard, builder);
   parts->credentials = std::move(credentials);
   builder.AddListeningPort(config.listen, parts->credentials, &parts->port);
   parts->grpc_server = builder.BuildAndStart();
   if (parts->grpc_server == nullptr) {
     return absl::UnavailableError(absl::StrCat("cannot listen on ", config.listen));
   }
+  reset_guard->Guard(parts->port);
   parts->grpc_server->GetHealthCheckService()->SetServingStatus(
       v1::BodyApproximationService::service_full_name(), true);
   return std::unique_ptr<Server>(new Server(std::move(parts)));

@@ -1,7 +1,6 @@
 // capfit-server: reads its settings, serves until SIGTERM or SIGINT, drains, exits 0.
 #include <pthread.h>
 #include <signal.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <string>
 
 #include "server/log_format.h"
+#include "server/log_sink.h"
 #include "server/server.h"
 #include "server/server_flags.h"
 
@@ -40,7 +40,8 @@ bool WritePortFile(const std::string& path, int port) {
 int Run(int argc, const char* const* argv) {
   ServerConfig config;
   if (const std::optional<int> exit_code = ParseFlags(argc, argv, config)) return *exit_code;
-  spdlog::set_default_logger(spdlog::stderr_color_mt("capfit-server"));
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("capfit-server", std::make_shared<LogSink>()));
   SetLogFormat(config.log_format);
   spdlog::set_level(spdlog::level::from_str(config.log_level));
   if (const absl::Status status = CheckConfig(config); !status.ok()) {

@@ -1,19 +1,47 @@
 #include "server/service.h"
 
+#include <atomic>
+#include <memory>
+#include <utility>
+
 #include "proto/wire/status_conversion.h"
 #include "server/approximate_body_call.h"
 #include "server/approximate_body_unary_call.h"
+#include "server/watchdog.h"
 
 namespace capfit::server {
 namespace {
 
 using BodyStream = grpc::ServerBidiReactor<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>;
 
-// Ends before it begins.
-class RefusedStream final : public BodyStream {
+// Ends after its first message, or soon without one.
+class RefusedStream final : public BodyStream, public std::enable_shared_from_this<RefusedStream> {
  public:
-  explicit RefusedStream(const absl::Status& status) { Finish(wire::ToGrpcStatus(status)); }
-  void OnDone() override { delete this; }
+  static RefusedStream* Start(const absl::Status& status, Watchdog& watchdog) {
+    const auto stream = std::make_shared<RefusedStream>(status);
+    stream->self_ = stream;
+    watchdog.Set(Watchdog::After(kRefusedReadSeconds), [weak = std::weak_ptr(stream)] {
+      if (const std::shared_ptr<RefusedStream> lives = weak.lock()) lives->Refuse();
+    });
+    stream->StartRead(&stream->request_);
+    return stream.get();
+  }
+
+  // For Start only.
+  explicit RefusedStream(const absl::Status& status) : status_(wire::ToGrpcStatus(status)) {}
+
+  void OnReadDone(bool /*ok*/) override { Refuse(); }
+  void OnDone() override { const std::shared_ptr<RefusedStream> last = std::move(self_); }
+
+ private:
+  void Refuse() {
+    if (!is_finished_.exchange(true)) Finish(status_);
+  }
+
+  const grpc::Status status_;
+  std::atomic<bool> is_finished_{false};
+  v1::ApproximateBodyRequest request_;
+  std::shared_ptr<RefusedStream> self_;  // until OnDone
 };
 
 grpc::ServerUnaryReactor* Finished(grpc::CallbackServerContext& context,
@@ -34,7 +62,7 @@ absl::StatusOr<std::string> Service::CallerOf(const char* method,
 
 BodyStream* Service::ApproximateBody(grpc::CallbackServerContext* context) {
   const absl::StatusOr<std::string> caller = CallerOf("ApproximateBody", *context);
-  if (!caller.ok()) return new RefusedStream(caller.status());
+  if (!caller.ok()) return RefusedStream::Start(caller.status(), services_.watchdog);
   return ApproximateBodyCall::Start(context, services_, *caller);
 }
 

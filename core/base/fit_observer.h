@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+#include "absl/status/status.h"
+
 namespace capfit {
 
 // The stages of a fit, in the order in which a fit goes through them. Each is the name of a room.
@@ -33,7 +35,8 @@ class FitObserver {
   virtual void OnStage(Stage stage, double fraction_done) = 0;
   // The stage that is under way has come this far, in [0, 1]: from the thread that runs the fit.
   virtual void OnFraction(double fraction_of_stage) { (void)fraction_of_stage; }
-  // Polled between chunks of parallel work, at least every 50 ms or so.
+  // Polled between chunks of parallel work, every few milliseconds. Once true it stays so: what
+  // work leaves behind then is whole enough to be let go of, and nothing more.
   [[nodiscard]] virtual bool IsCancelled() const = 0;
 };
 
@@ -43,6 +46,10 @@ class NullObserver final : public FitObserver {
   void OnStage(Stage, double) override {}
   [[nodiscard]] bool IsCancelled() const override { return false; }
 };
+
+// CANCELLED with its reason once the observer cancels. For between two steps that take some
+// milliseconds each.
+[[nodiscard]] absl::Status CheckCancelled(const FitObserver& observer);
 
 }  // namespace capfit
 

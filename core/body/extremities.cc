@@ -76,14 +76,15 @@ std::vector<GeodesicSource> MiddleOfTheBody(std::span<const Eigen::Vector3d> poi
 // where the centroid may be at a thigh that is lifted, or a hand that rests on a hip. `distance` is
 // from any place on the trunk.
 std::vector<GeodesicSource> MiddleOfTheSurface(std::span<const double> distance,
-                                               const SurfaceGraph& graph, const ThreadPool& pool) {
+                                               const SurfaceGraph& graph, const ThreadPool& pool,
+                                               const FitObserver& observer) {
   std::vector<double> nearest_tip(distance.begin(), distance.end());
   std::vector<double> farthest_tip(distance.size(), 0.0);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kSweeps && !observer.IsCancelled(); ++sweep) {
     const auto tip = static_cast<std::uint32_t>(
         std::max_element(nearest_tip.begin(), nearest_tip.end()) - nearest_tip.begin());
     const std::vector<double> from_tip =
-        graph.Distances(std::array{GeodesicSource{tip, 0.0}}, pool);
+        graph.Distances(std::array{GeodesicSource{tip, 0.0}}, pool, observer);
     for (std::size_t v = 0; v < from_tip.size(); ++v) {
       nearest_tip[v] = sweep == 0 ? from_tip[v] : std::min(nearest_tip[v], from_tip[v]);
       farthest_tip[v] = std::max(farthest_tip[v], from_tip[v]);
@@ -178,10 +179,13 @@ std::vector<TipCandidate> Candidates(std::span<const Branch> branches,
 
 Extremities FromSources(const std::vector<GeodesicSource>& sources,
                         std::span<const double> vertex_areas, const SurfaceGraph& graph,
-                        const ThreadPool& pool, const std::optional<RigEnds>& rig) {
+                        const ThreadPool& pool, const FitObserver& observer,
+                        const std::optional<RigEnds>& rig) {
   Extremities result;
-  result.distance = graph.Distances(sources, pool);
+  result.distance = graph.Distances(sources, pool, observer);
+  if (observer.IsCancelled()) return result;
   const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump, pool);
+  if (observer.IsCancelled()) return result;
   std::vector<TipCandidate> candidates =
       Candidates(branches, result.distance, vertex_areas, graph, pool, rig);
   const TipRoles found = FindTipRoles(branches, candidates, rig);
@@ -217,18 +221,24 @@ int Extremities::found() const {
 
 Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
                             std::span<const double> vertex_areas, const SurfaceGraph& graph,
-                            const ThreadPool& pool, const std::optional<RigEnds>& rig) {
+                            const ThreadPool& pool, const FitObserver& observer,
+                            const std::optional<RigEnds>& rig) {
+  const auto from = [&](const std::vector<GeodesicSource>& sources) {
+    return FromSources(sources, vertex_areas, graph, pool, observer, rig);
+  };
   const std::vector<GeodesicSource> sources = MiddleOfTheBody(points);
-  Extremities best = FromSources(sources, vertex_areas, graph, pool, rig);
+  Extremities best = from(sources);
+  if (observer.IsCancelled()) return best;
   if (best.misfit <= kGoodMisfit && best.found() == kTipCount) return best;
-  Extremities whole =
-      FromSources(MiddleOfTheSurface(best.distance, graph, pool), vertex_areas, graph, pool, rig);
+  Extremities whole = from(MiddleOfTheSurface(best.distance, graph, pool, observer));
+  if (observer.IsCancelled()) return best;
   // Only for a whole body is that middle near the waist.
   if (whole.found() == kTipCount && whole.misfit < best.misfit) best = std::move(whole);
   if (best.misfit <= kFairMisfit) return best;
   const auto patches = PatchesOf(sources, points, vertex_areas, graph);
   for (std::size_t i = 0; i < patches.size() && i < kMaxMiddles; ++i) {
-    Extremities other = FromSources(patches[i], vertex_areas, graph, pool, rig);
+    Extremities other = from(patches[i]);
+    if (observer.IsCancelled()) return best;
     if (other.misfit < best.misfit) best = std::move(other);
   }
   return best;

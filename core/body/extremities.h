@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/body/branches.h"
 #include "core/body/rig_ends.h"
 #include "core/body/surface_graph.h"
@@ -45,10 +46,12 @@ struct Extremities {
 // the ways between them (the head is near the hands, the feet are far from all) and from how thick
 // the limbs are. Where a skeleton tells which vertices belong to head, hands and feet, a tip that
 // does not hold the one of its role counts as a bad fit, and one that holds none (of a hat, a
-// sword, a tail) may go without a role. O(n log n).
+// sword, a tail) may go without a role. O(n log n). What comes back once the observer cancels means
+// nothing.
 [[nodiscard]] Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
                                           std::span<const double> vertex_areas,
                                           const SurfaceGraph& graph, const ThreadPool& pool,
+                                          const FitObserver& observer,
                                           const std::optional<RigEnds>& rig = std::nullopt);
 
 }  // namespace capfit::body

@@ -296,17 +296,12 @@ absl::Status CheckRequired(const Body& body, const PartSelection& required) {
                  absl::StrCat("required but not found on this body: ", missing));
 }
 
-// Between the steps below, none of which takes long.
-absl::Status CheckCancelled(const FitObserver& observer) {
-  if (!observer.IsCancelled()) return absl::OkStatus();
-  return Refused(ErrorReason::kCancelled, "cancelled while the body was understood");
-}
-
 // Landmarks, segments and curves, once the frame is known.
 class Anatomist {
  public:
   Anatomist(const BodyOptions& options, const Rig& rig, const SurfaceGraph& graph,
-            const Extremities& extremities, const ThreadPool& pool, Body& body)
+            const Extremities& extremities, const ThreadPool& pool, const FitObserver& observer,
+            Body& body)
       : options_(options),
         rig_(rig),
         extremities_(extremities),
@@ -317,10 +312,12 @@ class Anatomist {
     shape_.graph = &graph;
     shape_.surface = &surface_;
     shape_.pool = &pool;
+    shape_.observer = &observer;
     shape_.top_m = body.height_m;
   }
 
-  absl::Status Run(const IntrinsicFrame& frame, double stature_m, const FitObserver& observer) {
+  absl::Status Run(const IntrinsicFrame& frame, double stature_m) {
+    const FitObserver& observer = *shape_.observer;
     shape_.stature_m = stature_m;
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
     AssignSides(extremities_, frame, shape_);
@@ -369,14 +366,15 @@ class Anatomist {
 absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& options,
                               const ThreadPool& pool, const FitObserver& observer) {
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  WorkingCopy copy = MakeWorkingCopy(mesh, pool);
+  WorkingCopy copy = MakeWorkingCopy(mesh, pool, observer);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  const SurfaceGraph graph(copy.points, copy.triangles, copy.mates, pool);
+  const SurfaceGraph graph(copy.points, copy.triangles, copy.mates, pool, observer);
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   const Rig rig = ReadRig(options.skeleton);
   const std::optional<RigEnds> rig_ends = FindRigEnds(rig, copy, pool);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   const Extremities extremities =
-      FindExtremities(copy.points, copy.vertex_areas, graph, pool, rig_ends);
+      FindExtremities(copy.points, copy.vertex_areas, graph, pool, observer, rig_ends);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   std::vector<Warning> warnings;
   CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame,
@@ -398,8 +396,8 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                std::move(warnings)};
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
-  Anatomist anatomist(options, rig, graph, extremities, pool, body);
-  CAPFIT_RETURN_IF_ERROR(anatomist.Run(frame, ways.stature_m, observer));
+  Anatomist anatomist(options, rig, graph, extremities, pool, observer, body);
+  CAPFIT_RETURN_IF_ERROR(anatomist.Run(frame, ways.stature_m));
   return body;
 }
 

@@ -50,6 +50,7 @@ struct Fields {
 
 void MakeProfiles(const Fields& fields, Shape& shape) {
   shape.pool->ForEach(4, [&](std::size_t limb) {
+    if (shape.observer->IsCancelled()) return;
     const std::size_t side = limb % 2;
     const Extremities& leg = fields.legs[side].distance.empty() ? *fields.body : fields.legs[side];
     if (limb < 2) MakeProfile(shape, leg, shape.legs[side], shape.leg_profiles[side]);
@@ -211,17 +212,20 @@ double UnfoldedStature(const Shape& shape, const Landmarks& landmarks) {
 absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
                      std::vector<Warning>& warnings) {
   MakeProfiles(fields, shape);
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
   if (!shape.legs[kLeft] && !shape.legs[kRight] && !shape.arms[kLeft] && !shape.arms[kRight]) {
     return Refused(ErrorReason::kNotABody, "not a human body: no arm and no leg was found on it");
   }
   WarnOfMissingLimbs(shape, warnings);
   FindEnds(shape, landmarks);
   WarnOfMissingEnds(shape, warnings);
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
   shape.pool->ForEach(3, [&](std::size_t place) {
     const int side = static_cast<int>(place);
     if (place < 2 && shape.arms[place]) FindShoulder(shape, side, landmarks);
     if (place == 2 && shape.legs[kLeft] && shape.legs[kRight]) FindCrotch(shape, landmarks);
   });
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
   FindTrunkBase(shape, landmarks);
   for (const int side : {kLeft, kRight}) {
     if (shape.legs[side]) FindThigh(shape, side, landmarks);
@@ -230,6 +234,7 @@ absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
   for (const int side : {kLeft, kRight}) {
     if (shape.arms[side]) FindElbow(shape, side, landmarks);
   }
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
   FindNeck(shape, landmarks);
   FindTrunkSections(shape, landmarks);
   return absl::OkStatus();
@@ -245,6 +250,7 @@ absl::Status FindLandmarks(const Extremities& extremities, Shape& shape, Landmar
   shape.stature_m = Stature(shape);
   Fields fields = {&extremities, {}};
   if (LegsBeginTooFarDown(shape)) MeasureLegsFromFeet(shape, fields);
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
   const Shape before = shape;
   const Landmarks told = landmarks;
   const std::size_t warned = warnings.size();

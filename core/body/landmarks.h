@@ -13,7 +13,8 @@ namespace capfit::body {
 // Fills in what `landmarks` (the caller's own) leaves open and the parts of `shape` that say what
 // there is: profiles, stature, has_head and so on. A limb without enough of a tube is dropped.
 // Each part that is missing is a warning PART_MISSING. Errors: FAILED_PRECONDITION with reason
-// PART_MISSING where two legs do not part, NOT_A_BODY where no limb is left.
+// PART_MISSING where two legs do not part, NOT_A_BODY where no limb is left;
+// CANCELLED once shape.observer cancels.
 [[nodiscard]] absl::Status FindLandmarks(const Extremities& extremities, Shape& shape,
                                          Landmarks& landmarks, std::vector<Warning>& warnings);
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/body/cross_section.h"
@@ -31,6 +32,7 @@ struct Shape {
   const SurfaceGraph* graph = nullptr;
   const CutSurface* surface = nullptr;
   const ThreadPool* pool = nullptr;
+  const FitObserver* observer = nullptr;
   double top_m = 0.0;  // extent along Y; the lowest point is at 0
   // Height of the head's top, or of the neck's; top_m without either. Set by FindLandmarks.
   double crown_m = 0.0;
@@ -58,8 +60,8 @@ struct Shape {
 [[nodiscard]] inline std::array<std::vector<double>, 2> DistancesFromFeet(const Shape& shape) {
   std::array<std::vector<double>, 2> distances;
   shape.pool->ForEach(distances.size(), [&](std::size_t side) {
-    distances[side] =
-        shape.graph->Distances(std::array{GeodesicSource{shape.legs[side]->tip, 0.0}});
+    distances[side] = shape.graph->Distances(std::array{GeodesicSource{shape.legs[side]->tip, 0.0}},
+                                             ThreadPool(1), *shape.observer);
   });
   return distances;
 }

@@ -13,9 +13,10 @@ namespace capfit::body {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// How often a link may be looked at, on average, in buckets. A body needs less than two; a row of
-// vertices much closer than a bucket is wide would ask for more the longer it is.
-constexpr std::size_t kMostLooks = 6;
+// How often a link of a region may be looked at, on average, in buckets. A body needs less than
+// two; a row of vertices much closer than a bucket is wide would ask for more the longer it is, and
+// each look from a hub may leave a vertex to be taken up again.
+constexpr std::size_t kMostLooks = 4;
 // Width of a bucket as a share of the mean edge: wider ones take vertices up again more often.
 constexpr double kBucketShare = 1.0 / 3.0;
 
@@ -44,7 +45,8 @@ double UnfoldedLength(const Eigen::Vector3d& p, const Eigen::Vector3d& b, const 
 
 SurfaceGraph::SurfaceGraph(std::span<const Eigen::Vector3d> points,
                            std::span<const mesh::Triangle> triangles,
-                           std::span<const mesh::HalfEdge> mates, const ThreadPool& pool)
+                           std::span<const mesh::HalfEdge> mates, const ThreadPool& pool,
+                           const FitObserver& observer)
     : offsets_(points.size() + 1, 0) {
   for (const mesh::Triangle& t : triangles) {
     for (const std::uint32_t corner : t) ++offsets_[corner + 1];
@@ -54,6 +56,7 @@ SurfaceGraph::SurfaceGraph(std::span<const Eigen::Vector3d> points,
   for (std::size_t v = 0; v < points.size(); ++v) {
     region_[v] =
         static_cast<std::uint8_t>((points[v].x() < 0.0 ? 1 : 0) + (points[v].y() < 0.0 ? 2 : 0));
+    region_links_[region_[v]] += offsets_[v + 1] - offsets_[v];
   }
   next_.resize(offsets_.back());
   links_.resize(offsets_.back());
@@ -67,6 +70,7 @@ SurfaceGraph::SurfaceGraph(std::span<const Eigen::Vector3d> points,
   const Surface surface = {points, triangles, mates, slot};
   const double length =
       SumOverChunks(pool, triangles.size(), 0.0, [&](std::size_t begin, std::size_t end) {
+        if (observer.IsCancelled()) return 0.0;
         AddShortcuts(surface, begin, end);
         return AddEdges(surface, begin, end);
       });
@@ -125,12 +129,18 @@ void SurfaceGraph::AddShortcuts(const Surface& surface, std::size_t begin, std::
   }
 }
 
-// Dijkstra's own way: slower than buckets on bodies, but no mesh can make it look at a link twice.
+// Dijkstra's own way: slower than buckets on bodies, but no mesh can make it look at a link twice,
+// so a vertex that waits in many buckets must be taken up once.
 void SurfaceGraph::FinishInOrder(std::span<const std::uint32_t> open,
                                  std::vector<double>& distance) const {
+  std::vector<bool> is_queued(distance.size(), false);
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (const std::uint32_t vertex : open) queue.emplace(distance[vertex], vertex);
+  for (const std::uint32_t vertex : open) {
+    if (is_queued[vertex]) continue;
+    is_queued[vertex] = true;
+    queue.emplace(distance[vertex], vertex);
+  }
   const auto offer = [&](std::uint32_t vertex, double candidate) {
     if (candidate >= distance[vertex]) return;
     distance[vertex] = candidate;
@@ -152,11 +162,13 @@ void SurfaceGraph::FinishInOrder(std::span<const std::uint32_t> open,
 // when the bucket is empty.
 class SurfaceGraph::Search {
  public:
-  Search(const SurfaceGraph& graph, std::uint8_t region, std::vector<double>& distance)
+  Search(const SurfaceGraph& graph, std::uint8_t region, const FitObserver& observer,
+         std::vector<double>& distance)
       : graph_(graph),
         region_(region),
+        observer_(observer),
         distance_(distance),
-        looks_left_(kMostLooks * graph.links_.size()) {}
+        looks_left_(kMostLooks * graph.region_links_[region]) {}
 
   void Offer(std::uint32_t vertex, double candidate) {
     if (candidate >= distance_[vertex]) return;
@@ -167,9 +179,9 @@ class SurfaceGraph::Search {
     first_ = std::min(first_, bucket);
   }
 
-  // Until nothing can be improved within the region, or there were too many looks.
+  // Until nothing can be improved within the region, or there were too many looks, or nobody waits.
   void Run() {
-    for (std::size_t k = first_; k < buckets_.size(); ++k) {
+    for (std::size_t k = first_; k < buckets_.size() && !observer_.IsCancelled(); ++k) {
       while (!buckets_[k].empty()) {
         const std::uint32_t vertex = buckets_[k].back();
         const std::size_t looks = graph_.offsets_[vertex + 1] - graph_.offsets_[vertex];
@@ -214,6 +226,7 @@ class SurfaceGraph::Search {
 
   const SurfaceGraph& graph_;
   std::uint8_t region_;
+  const FitObserver& observer_;
   std::vector<double>& distance_;  // of this region's vertices
   std::size_t looks_left_;
   std::size_t first_ = 0;  // no bucket before it holds anything
@@ -224,11 +237,12 @@ class SurfaceGraph::Search {
 // The shortest paths are the same in whatever order they are found, so regions are searched side by
 // side, and again with what came in over their borders until nothing does.
 std::vector<double> SurfaceGraph::Distances(std::span<const GeodesicSource> sources,
-                                            const ThreadPool& pool) const {
+                                            const ThreadPool& pool,
+                                            const FitObserver& observer) const {
   std::vector<double> distance(vertex_count(), kInfinity);
   std::vector<Search> searches;
   for (std::uint8_t region = 0; region < kRegions; ++region) {
-    searches.emplace_back(*this, region, distance);
+    searches.emplace_back(*this, region, observer, distance);
   }
   std::vector<GeodesicSource> arriving(sources.begin(), sources.end());
   while (!arriving.empty()) {
@@ -236,6 +250,7 @@ std::vector<double> SurfaceGraph::Distances(std::span<const GeodesicSource> sour
       searches[region_[s.vertex]].Offer(s.vertex, s.distance);
     }
     pool.ForEach(kRegions, [&](std::size_t region) { searches[region].Run(); });
+    if (observer.IsCancelled()) break;
     arriving.clear();
     std::vector<std::uint32_t> open;
     for (Search& search : searches) {

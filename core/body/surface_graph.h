@@ -3,11 +3,13 @@
 #define CAPFIT_CORE_BODY_SURFACE_GRAPH_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/mesh/body_mesh.h"
 
@@ -25,14 +27,18 @@ struct GeodesicSource {
 // diagonals all run the same way), and the way a quad was cut into triangles hardly matters.
 class SurfaceGraph {
  public:
-  // `mates` are those of the triangles' half-edges. O(vertices + triangles).
+  // `mates` are those of the triangles' half-edges. O(vertices + triangles). Not whole once the
+  // observer cancels.
   SurfaceGraph(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles,
-               std::span<const mesh::HalfEdge> mates, const ThreadPool& pool = ThreadPool(1));
+               std::span<const mesh::HalfEdge> mates, const ThreadPool& pool = ThreadPool(1),
+               const FitObserver& observer = NullObserver());
 
   // Shortest path length from the sources to every vertex; infinity where there is no path. The
-  // result does not depend on the order of vertices, faces or sources. Close to O(vertices).
+  // result does not depend on the order of vertices, faces or sources. Close to O(vertices). Once
+  // the observer cancels, what was not reached yet stays infinite.
   [[nodiscard]] std::vector<double> Distances(std::span<const GeodesicSource> sources,
-                                              const ThreadPool& pool = ThreadPool(1)) const;
+                                              const ThreadPool& pool = ThreadPool(1),
+                                              const FitObserver& observer = NullObserver()) const;
 
   [[nodiscard]] std::size_t vertex_count() const { return offsets_.size() - 1; }
   // The vertices that share an edge with `vertex`.
@@ -65,6 +71,7 @@ class SurfaceGraph {
   // By the signs of x and y: the quarters around the middle of a body, from where it is searched.
   static constexpr std::uint8_t kRegions = 4;
   std::vector<std::uint8_t> region_;
+  std::array<std::size_t, kRegions> region_links_{};
   double buckets_per_unit_ = 1.0;
 };
 

@@ -144,6 +144,7 @@ std::optional<Eigen::Vector3d> CrotchBetweenHanging(const Shape& shape, const Th
 // vertex decides.
 Eigen::Vector3d HalfWayBetweenFeet(const Shape& shape) {
   const auto [left, right] = DistancesFromFeet(shape);
+  if (shape.observer->IsCancelled()) return Eigen::Vector3d::Zero();
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < left.size(); ++v) {
     nearest = std::min(nearest, std::max(left[v], right[v]));

@@ -273,7 +273,8 @@ void AddAreas(const ThreadPool& pool, WorkingCopy& copy) {
 
 }  // namespace
 
-WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool) {
+WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool,
+                            const FitObserver& observer) {
   WorkingCopy copy;
   copy.centroid = CentroidOf(mesh, pool);
   copy.unit = std::sqrt(mesh.area());
@@ -288,8 +289,11 @@ WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool) 
       [&](std::size_t v) { points[v] = (mesh.vertices()[v] - copy.centroid) / copy.unit; });
   copy.axes = PrincipalAxes(points, pool);
   for_each_vertex([&](std::size_t v) { points[v] = Snap(copy.axes * points[v], kCoordinateGrid); });
+  if (observer.IsCancelled()) return copy;
   copy.mesh_vertex = SortByKey(CurveKeys(points, pool), points);
+  if (observer.IsCancelled()) return copy;
   TriangleSorter(mesh, pool, copy).Run();
+  if (observer.IsCancelled()) return copy;
   copy.points.resize(count);
   for_each_vertex([&](std::size_t v) { copy.points[v] = points[copy.mesh_vertex[v]]; });
   AddAreas(pool, copy);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/mesh/body_mesh.h"
 
@@ -35,8 +36,9 @@ struct WorkingCopy {
   }
 };
 
-// O(vertices + triangles).
-[[nodiscard]] WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool);
+// O(vertices + triangles). Not whole where the observer cancels.
+[[nodiscard]] WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool,
+                                          const FitObserver& observer);
 
 }  // namespace capfit::body
 

@@ -194,7 +194,9 @@ PolygonApproximation OneCircle(const section::Polygon& outline, bool symmetric) 
 
 PolygonApproximation ApproximatePolygon(const section::FeaturePolygon& polygon, int circle_count,
                                         const CircleOptions& options, const FitObserver& observer) {
-  if (circle_count <= 1) return OneCircle(polygon.outline, options.symmetric);
+  if (circle_count <= 1 || observer.IsCancelled()) {
+    return OneCircle(polygon.outline, options.symmetric);
+  }
   PolygonApproximation whole =
       Covering(FitWhole(polygon.outline, circle_count, options, observer), polygon, options);
   if (!UsesSplit(polygon, circle_count)) return whole;

@@ -32,8 +32,8 @@ struct PolygonApproximation {
 // (III-E) with circles for every piece are fitted piece by piece, judged against the whole outline,
 // unless circles that ignore the split waste far less. Where `options.symmetric`, the outline must
 // mirror in x = 0 to the bit, and so do the circles. Deterministic for a seed; about a millisecond
-// for three circles, three for six. When the observer cancels, the circles still cover but are not
-// the best.
+// for three circles, three for six. When the observer cancels, the circles still cover but may be
+// fewer, and are not the best.
 [[nodiscard]] PolygonApproximation ApproximatePolygon(const section::FeaturePolygon& polygon,
                                                       int circle_count,
                                                       const CircleOptions& options,

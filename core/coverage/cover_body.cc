@@ -64,6 +64,14 @@ constexpr double kRoundShare = 0.4;
 constexpr double kGrownUntil = 0.95;
 constexpr double kVolumeSpacing = 0.015;  // of samples, relative to the body's size
 
+// Of a set that may cover nothing.
+CoverReport NothingProved() {
+  CoverReport report;
+  report.max_vertex_distance_m = std::numeric_limits<double>::infinity();
+  report.certified_gap_m = std::numeric_limits<double>::infinity();
+  return report;
+}
+
 class Coverer {
  public:
   Coverer(const tighten::CoverTarget& target, const CoverOptions& options, const ThreadPool& pool,
@@ -85,15 +93,14 @@ class Coverer {
     } else {
       Grow();
     }
+    if (meter_.IsCancelled()) return NothingProved();
     meter_.Expect(1.0, 1);
     if (options_.keeps_swallowed) ShowSwallowed();
     report_.max_vertex_distance_m = MaxVertexDistance();
     report_.volume_m3 = Volume();
     report_.certified_gap_m = CertifiedGap(target_, set_, 0.05 * options_.max_gap_m, pool_);
     // Growing ends with a proof for every triangle, which may be sharper by the tolerance.
-    if (!meter_.IsCancelled()) {
-      report_.certified_gap_m = std::min(report_.certified_gap_m, MaxGap());
-    }
+    report_.certified_gap_m = std::min(report_.certified_gap_m, MaxGap());
     report_.added_points = static_cast<int>(between_.size());
     if (!options_.keeps_swallowed) RemoveSwallowed();
     return report_;
@@ -124,11 +131,12 @@ class Coverer {
   }
 
   void TightenAndGrow() {
+    if (meter_.IsCancelled()) return;
     const capsule::PrimitiveSet before = set_;
     const double volume_before = Volume();
     Tighten();
     Grow();
-    if (Volume() <= kSuspectGrowth * volume_before || meter_.IsCancelled()) return;
+    if (meter_.IsCancelled() || Volume() <= kSuspectGrowth * volume_before) return;
     const capsule::PrimitiveSet tightened = std::exchange(set_, before);
     const std::vector<Eigen::Vector3d> between = std::exchange(between_, {});
     const CoverReport report = std::exchange(report_, {});
@@ -147,8 +155,11 @@ class Coverer {
 
   void Tighten() {
     if (options_.loosen) {
-      const tighten::SparsePoints coarse = tighten::MakeSparse(
-          FoldedPoints(), tighten::AreaWeights(target_), kSparseSpacing * size_);
+      if (meter_.IsCancelled()) return;
+      const std::vector<double> weights = tighten::AreaWeights(target_);
+      if (meter_.IsCancelled()) return;
+      const tighten::SparsePoints coarse =
+          tighten::MakeSparse(FoldedPoints(), weights, kSparseSpacing * size_);
       const tighten::PointGrid grid(coarse.points_m);
       Expect(kLooseUntil, kLoosePhase);
       RunPhase(kLoosePhase, {{grid, AllowedAtVertices(), coarse.weights}}, /*seed=*/1);
@@ -157,7 +168,7 @@ class Coverer {
     RunPhase(kTightPhase, {{grid_, AllowedAtVertices()}}, /*seed=*/101);
     // What sticks out between vertices shows only where the vertices are in, and asking for it
     // moves the set on to other such places: a few rounds leave little to growing.
-    for (int round = 0; round < kRounds && Collect(); ++round) {
+    for (int round = 0; round < kRounds && !meter_.IsCancelled() && Collect(); ++round) {
       const tighten::PointGrid between(between_, fold_);
       Expect(meter_.until() + kRoundShare * (kLastUntil - meter_.until()), kLastPhase);
       RunPhase(kLastPhase, {{grid_, AllowedAtVertices()}, {between, AllowedBetween()}},
@@ -211,6 +222,7 @@ class Coverer {
   // Vertices first, then what lies between them. Solids only grow here, so no point is met twice
   // and the rounds come to an end.
   void Grow() {
+    if (meter_.IsCancelled()) return;
     meter_.Expect(kGrownUntil, 1);
     do {
       const std::vector<Demand> demands = OpenDemands();
@@ -263,12 +275,7 @@ class Coverer {
 CoverReport CoverBody(const tighten::CoverTarget& target, const CoverOptions& options,
                       const ThreadPool& pool, FitObserver& observer, capsule::PrimitiveSet& set) {
   if (target.points_m.empty() || set.spheres.empty()) {
-    CoverReport report;
-    if (!target.points_m.empty()) {
-      report.max_vertex_distance_m = std::numeric_limits<double>::infinity();
-      report.certified_gap_m = std::numeric_limits<double>::infinity();
-    }
-    return report;
+    return target.points_m.empty() ? CoverReport{} : NothingProved();
   }
   return Coverer(target, options, pool, observer, set).Run();
 }

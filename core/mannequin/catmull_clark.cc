@@ -1,205 +1,154 @@
 #include "core/mannequin/catmull_clark.h"
 
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Subdivider/Uniform/CatmullClarkT.hh>
 #include <algorithm>
-#include <numeric>
+#include <cassert>
+#include <map>
 #include <utility>
 
 namespace capfit::mannequin {
 namespace {
 
 using Eigen::Vector3d;
+using OpenMesh::EdgeHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
 
-// An undirected edge with the quads on its two sides (of a closed mesh).
-struct EdgeRecord {
-  Edge ends;
-  std::array<std::uint32_t, 2> quads;
-  bool is_sharp = false;
-};
+using Point = OpenMesh::Vec3d;
+using Mesh = OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 
-// The edges of a closed mesh, and which of them each quad has: edges_of_quad[q][k] joins its
-// corners k and k + 1.
-struct EdgeTable {
-  std::vector<EdgeRecord> edges;
-  std::vector<Quad> edges_of_quad;
-};
+// A closed mesh of quads that is subdivided again and again: by OpenMesh, which knows no sharp
+// edges and no limits; those are added here.
+class Subdivision {
+ public:
+  explicit Subdivision(const QuadMesh& cage) : quads_(cage.quads) {
+    for (const Vector3d& p : cage.vertices) mesh_.add_vertex({p.x(), p.y(), p.z()});
+    for (const Quad& q : cage.quads) {
+      [[maybe_unused]] const auto face =
+          mesh_.add_face({Handle(q[0]), Handle(q[1]), Handle(q[2]), Handle(q[3])});
+      assert(face.is_valid());  // the cage is a manifold
+    }
+    for (const Edge& e : cage.creases) {
+      const HalfedgeHandle h = mesh_.find_halfedge(Handle(e[0]), Handle(e[1]));
+      if (h.is_valid()) sharp_edges_.push_back(mesh_.edge_handle(h));
+    }
+  }
 
-std::uint64_t EdgeKey(std::uint32_t a, std::uint32_t b) {
-  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
-}
+  // The children of quad q are 4q .. 4q + 3, at the corners 0 .. 3, and all keep the parent's
+  // directions: child corner 0 is the one towards the parent's corner 0.
+  [[nodiscard]] const std::vector<Quad>& quads() const { return quads_; }
 
-// A side of a quad: 4 * quad + k, and the higher of its two vertices.
-struct Side {
-  std::uint32_t high;
-  std::uint32_t id;
-};
+  void Refine() {
+    const auto first_middle = static_cast<int>(mesh_.n_vertices());
+    const auto first_half = static_cast<int>(mesh_.n_edges());
+    std::vector<MovedVertex> moved =
+        SharpVertices([](const Point& p, const Point& sum) { return 0.75 * p + 0.125 * sum; });
+    for (const EdgeHandle e : sharp_edges_) {
+      moved.emplace_back(VertexHandle(first_middle + e.idx()), mesh_.calc_edge_midpoint(e));
+    }
+    std::vector<Quad> children = Children();
+    subdivider_(mesh_, 1);
+    for (const auto& [vertex, point] : moved) mesh_.set_point(vertex, point);
+    // The second halves of the split edges follow all edges in the same order.
+    const std::vector<EdgeHandle> halves = sharp_edges_;
+    for (const EdgeHandle e : halves) sharp_edges_.emplace_back(first_half + e.idx());
+    quads_ = std::move(children);
+  }
 
-// The sides by their lower vertex: those of vertex v are [starts[v], starts[v + 1]).
-struct SidesByVertex {
-  std::vector<std::uint32_t> starts;
-  std::vector<Side> sides;
-};
+  // Where the vertices end up after infinitely many steps.
+  [[nodiscard]] std::vector<Vector3d> LimitPoints() const {
+    std::vector<Vector3d> points;
+    points.reserve(mesh_.n_vertices());
+    for (const VertexHandle v : mesh_.vertices()) points.push_back(ToEigen(SmoothLimit(v)));
+    const auto sharp =
+        SharpVertices([](const Point& p, const Point& sum) { return (4.0 * p + sum) / 6.0; });
+    for (const auto& [vertex, point] : sharp) points[Index(vertex)] = ToEigen(point);
+    return points;
+  }
 
-SidesByVertex SortSides(const QuadMesh& mesh) {
-  SidesByVertex sorted{std::vector<std::uint32_t>(mesh.vertices.size() + 1, 0),
-                       std::vector<Side>(4 * mesh.quads.size())};
-  const auto for_each = [&](const auto& visit) {
-    for (std::uint32_t q = 0; q < mesh.quads.size(); ++q) {
-      for (std::uint32_t k = 0; k < 4; ++k) {
-        const auto [low, high] = std::minmax(mesh.quads[q][k], mesh.quads[q][(k + 1) % 4]);
-        visit(low, Side{high, 4 * q + k});
+ private:
+  using MovedVertex = std::pair<VertexHandle, Point>;
+
+  static VertexHandle Handle(std::uint32_t vertex) {
+    return VertexHandle(static_cast<int>(vertex));
+  }
+  static Vector3d ToEigen(const Point& p) { return {p[0], p[1], p[2]}; }
+  template <typename AnyHandle>
+  static std::uint32_t Index(AnyHandle handle) {
+    return static_cast<std::uint32_t>(handle.idx());
+  }
+
+  // The vertices on which sharp edges meet, moved by a rule for their place and the sum of what is
+  // at the other ends of those edges. Where only one ends it ends smoothly.
+  template <typename Rule>
+  [[nodiscard]] std::vector<MovedVertex> SharpVertices(const Rule& rule) const {
+    std::map<VertexHandle, std::pair<Point, int>> ends;  // sum, count
+    for (const EdgeHandle e : sharp_edges_) {
+      for (const int side : {0, 1}) {
+        const HalfedgeHandle h = mesh_.halfedge_handle(e, side);
+        auto& [sum, count] =
+            ends.try_emplace(mesh_.from_vertex_handle(h), Point(0.0, 0.0, 0.0), 0).first->second;
+        sum += mesh_.point(mesh_.to_vertex_handle(h));
+        ++count;
       }
     }
-  };
-  for_each([&](std::uint32_t low, const Side&) { ++sorted.starts[low + 1]; });
-  std::partial_sum(sorted.starts.begin(), sorted.starts.end(), sorted.starts.begin());
-  std::vector<std::uint32_t> next = sorted.starts;
-  for_each([&](std::uint32_t low, const Side& side) { sorted.sides[next[low]++] = side; });
-  return sorted;
-}
+    std::vector<MovedVertex> moved;
+    for (const auto& [v, end] : ends) {
+      if (end.second >= 2) moved.emplace_back(v, rule(mesh_.point(v), end.first));
+    }
+    return moved;
+  }
 
-EdgeTable BuildEdges(const QuadMesh& mesh) {
-  const SidesByVertex sorted = SortSides(mesh);
-  EdgeTable table;
-  table.edges.reserve(sorted.sides.size() / 2);
-  table.edges_of_quad.resize(mesh.quads.size());
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    for (std::uint32_t i = sorted.starts[v]; i < sorted.starts[v + 1]; ++i) {
-      for (std::uint32_t j = i + 1; j < sorted.starts[v + 1]; ++j) {
-        const Side& first = sorted.sides[i];
-        const Side& second = sorted.sides[j];
-        if (first.high != second.high) continue;
-        const auto id = static_cast<std::uint32_t>(table.edges.size());
-        table.edges.push_back({{v, first.high}, {first.id / 4, second.id / 4}});
-        table.edges_of_quad[first.id / 4][first.id % 4] = id;
-        table.edges_of_quad[second.id / 4][second.id % 4] = id;
+  // (n^2 p + 4 sum of neighbours + sum of the corners across the quads) / (n (n + 5)).
+  [[nodiscard]] Point SmoothLimit(VertexHandle v) const {
+    Point neighbours(0.0, 0.0, 0.0);
+    Point across(0.0, 0.0, 0.0);
+    double n = 0.0;
+    for (auto h = mesh_.cvoh_iter(v); h.is_valid(); ++h, ++n) {
+      neighbours += mesh_.point(mesh_.to_vertex_handle(*h));
+      across += mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(*h)));
+    }
+    return (n * n * mesh_.point(v) + 4.0 * neighbours + across) / (n * (n + 5.0));
+  }
+
+  // With OpenMesh's numbers: to the vertices come one for each edge, then one for each quad.
+  [[nodiscard]] std::vector<Quad> Children() const {
+    const auto edge_start = static_cast<std::uint32_t>(mesh_.n_vertices());
+    const auto quad_start = static_cast<std::uint32_t>(edge_start + mesh_.n_edges());
+    std::vector<Quad> children;
+    children.reserve(4 * quads_.size());
+    for (const Quad& v : quads_) {
+      HalfedgeHandle h = mesh_.find_halfedge(Handle(v[0]), Handle(v[1]));
+      const std::uint32_t c = quad_start + Index(mesh_.face_handle(h));
+      Quad e;
+      for (std::uint32_t& middle : e) {
+        middle = edge_start + Index(mesh_.edge_handle(h));
+        h = mesh_.next_halfedge_handle(h);
       }
+      children.push_back({v[0], e[0], c, e[3]});
+      children.push_back({e[0], v[1], e[1], c});
+      children.push_back({c, e[1], v[2], e[2]});
+      children.push_back({e[3], c, e[2], v[3]});
     }
+    return children;
   }
-  return table;
-}
 
-void MarkCreases(const QuadMesh& mesh, EdgeTable& table) {
-  std::vector<std::uint64_t> keys;
-  for (const Edge& e : mesh.creases) keys.push_back(EdgeKey(e[0], e[1]));
-  std::sort(keys.begin(), keys.end());
-  if (keys.empty()) return;
-  for (EdgeRecord& edge : table.edges) {
-    edge.is_sharp =
-        std::binary_search(keys.begin(), keys.end(), EdgeKey(edge.ends[0], edge.ends[1]));
-  }
-}
-
-// What the rules of a vertex need of its neighbourhood.
-struct Star {
-  Vector3d quad_sum = Vector3d::Zero();   // centroids of the quads around
-  Vector3d edge_sum = Vector3d::Zero();   // the other ends of its edges
-  Vector3d sharp_sum = Vector3d::Zero();  // the other ends of its sharp edges
-  int valence = 0;
-  int sharp_count = 0;
+  Mesh mesh_;
+  OpenMesh::Subdivider::Uniform::CatmullClarkT<Mesh, double> subdivider_;
+  std::vector<Quad> quads_;
+  std::vector<EdgeHandle> sharp_edges_;
 };
-
-Vector3d Centroid(const QuadMesh& mesh, const Quad& q) {
-  return 0.25 * ((mesh.vertices[q[0]] + mesh.vertices[q[2]]) +
-                 (mesh.vertices[q[1]] + mesh.vertices[q[3]]));
-}
-
-std::vector<Star> BuildStars(const QuadMesh& mesh, const EdgeTable& table) {
-  std::vector<Star> stars(mesh.vertices.size());
-  for (const Quad& q : mesh.quads) {
-    const Vector3d centroid = Centroid(mesh, q);
-    for (const std::uint32_t v : q) stars[v].quad_sum += centroid;
-  }
-  for (const EdgeRecord& edge : table.edges) {
-    for (int side = 0; side < 2; ++side) {
-      Star& star = stars[edge.ends[static_cast<std::size_t>(side)]];
-      const Vector3d& other = mesh.vertices[edge.ends[static_cast<std::size_t>(1 - side)]];
-      star.edge_sum += other;
-      ++star.valence;
-      if (!edge.is_sharp) continue;
-      star.sharp_sum += other;
-      ++star.sharp_count;
-    }
-  }
-  return stars;
-}
-
-Vector3d RefinedVertex(const Vector3d& p, const Star& star) {
-  if (star.sharp_count >= 2) return 0.75 * p + 0.125 * star.sharp_sum;
-  const double n = star.valence;
-  return (star.quad_sum / n + star.edge_sum / n + (n - 2.0) * p) / n;
-}
-
-// Where the vertex ends up after infinitely many steps.
-Vector3d LimitVertex(const Vector3d& p, const Star& star) {
-  if (star.sharp_count >= 2) return (4.0 * p + star.sharp_sum) / 6.0;
-  // In terms of centroids c and neighbours e: (n (n - 1) p + 2 sum(e) + 4 sum(c)) / (n (n + 5)).
-  const double n = star.valence;
-  return (n * (n - 1.0) * p + 2.0 * star.edge_sum + 4.0 * star.quad_sum) / (n * (n + 5.0));
-}
-
-Vector3d EdgePoint(const QuadMesh& mesh, const EdgeRecord& edge) {
-  Vector3d middle = 0.5 * (mesh.vertices[edge.ends[0]] + mesh.vertices[edge.ends[1]]);
-  if (edge.is_sharp) return middle;
-  return 0.5 * middle + 0.25 * (Centroid(mesh, mesh.quads[edge.quads[0]]) +
-                                Centroid(mesh, mesh.quads[edge.quads[1]]));
-}
-
-// One step. The children of quad q are 4q .. 4q + 3, at the corners 0 .. 3, and all keep the
-// parent's directions: child corner 0 is the one towards the parent's corner 0.
-QuadMesh Refine(const QuadMesh& mesh) {
-  EdgeTable table = BuildEdges(mesh);
-  MarkCreases(mesh, table);
-  const std::vector<Star> stars = BuildStars(mesh, table);
-  const auto edge_start = static_cast<std::uint32_t>(mesh.vertices.size());
-  const auto quad_start = static_cast<std::uint32_t>(edge_start + table.edges.size());
-  QuadMesh fine;
-  fine.vertices.reserve(quad_start + mesh.quads.size());
-  for (std::size_t i = 0; i < stars.size(); ++i) {
-    fine.vertices.push_back(RefinedVertex(mesh.vertices[i], stars[i]));
-  }
-  for (std::uint32_t i = 0; i < table.edges.size(); ++i) {
-    const EdgeRecord& edge = table.edges[i];
-    fine.vertices.push_back(EdgePoint(mesh, edge));
-    if (!edge.is_sharp) continue;
-    fine.creases.push_back({edge.ends[0], edge_start + i});
-    fine.creases.push_back({edge_start + i, edge.ends[1]});
-  }
-  fine.quads.reserve(4 * mesh.quads.size());
-  for (std::uint32_t q = 0; q < mesh.quads.size(); ++q) {
-    fine.vertices.push_back(Centroid(mesh, mesh.quads[q]));
-    const Quad& v = mesh.quads[q];
-    Quad e = table.edges_of_quad[q];
-    for (std::uint32_t& id : e) id += edge_start;
-    const std::uint32_t c = quad_start + q;
-    fine.quads.push_back({v[0], e[0], c, e[3]});
-    fine.quads.push_back({e[0], v[1], e[1], c});
-    fine.quads.push_back({c, e[1], v[2], e[2]});
-    fine.quads.push_back({e[3], c, e[2], v[3]});
-  }
-  return fine;
-}
-
-std::vector<Vector3d> LimitPoints(const QuadMesh& mesh) {
-  EdgeTable table = BuildEdges(mesh);
-  MarkCreases(mesh, table);
-  const std::vector<Star> stars = BuildStars(mesh, table);
-  std::vector<Vector3d> points;
-  points.reserve(stars.size());
-  for (std::size_t i = 0; i < stars.size(); ++i) {
-    points.push_back(LimitVertex(mesh.vertices[i], stars[i]));
-  }
-  return points;
-}
 
 }  // namespace
 
 SmoothSurface::SmoothSurface(const QuadMesh& cage, int levels) : size_((1 << levels) + 1) {
-  QuadMesh fine = cage;
-  for (int level = 0; level < levels; ++level) fine = Refine(fine);
-  points_ = LimitPoints(fine);
+  Subdivision fine(cage);
+  for (int level = 0; level < levels; ++level) fine.Refine();
+  points_ = fine.LimitPoints();
   const auto size = static_cast<std::size_t>(size_);
   grid_.resize(cage.quads.size() * size * size);
-  for (std::size_t q = 0; q < fine.quads.size(); ++q) {
+  for (std::size_t q = 0; q < fine.quads().size(); ++q) {
     // The base-4 digits of q tell the way down from the cage's face: corner 0 .. 3 at each level.
     std::size_t i = 0;
     std::size_t j = 0;
@@ -210,10 +159,10 @@ SmoothSurface::SmoothSurface(const QuadMesh& cage, int levels) : size_((1 << lev
     }
     const std::size_t face = q >> (2 * levels);
     std::uint32_t* const base = &grid_[(face * size + i) * size + j];
-    base[0] = fine.quads[q][0];
-    base[size] = fine.quads[q][1];
-    base[size + 1] = fine.quads[q][2];
-    base[1] = fine.quads[q][3];
+    base[0] = fine.quads()[q][0];
+    base[size] = fine.quads()[q][1];
+    base[size + 1] = fine.quads()[q][2];
+    base[1] = fine.quads()[q][3];
   }
 }
 

@@ -11,7 +11,8 @@
 namespace capfit::mannequin {
 
 // Points of the limit surface of a closed cage: for each of its faces a grid of (2^levels + 1)^2.
-// Neighbouring faces share the points of their common edge bit for bit.
+// Neighbouring faces share the points of their common edge bit for bit. OpenMesh subdivides; what
+// it does not know (edges that stay sharp, where points end up in the limit) is added.
 class SmoothSurface {
  public:
   // `cage` is closed; 0 <= levels <= 6. O(4^levels * faces), about 1 us for each grid point.

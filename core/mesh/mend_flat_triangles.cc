@@ -2,44 +2,47 @@
 
 #include <Eigen/Geometry>  // cross
 #include <algorithm>
-#include <iterator>
+
+#include "core/mesh/half_edge_mesh.h"
 
 namespace capfit::mesh {
 namespace {
+
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
 
 // Looks at triangles and steps round vertices that one mesh may take: bounds what a wheel of flat
 // triangles can cost.
 constexpr std::size_t kMostMendingSteps = 20'000'000;
 
-constexpr std::uint32_t kDead = 0xFFFFFFFFu;
-
 class FlatTriangleMender {
  public:
-  FlatTriangleMender(std::span<const Eigen::Vector3d> positions, double tolerance, Surface& surface)
-      : positions_(positions), tolerance_(tolerance), surface_(surface) {
-    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
-      if (IsFlat(positions, surface.triangles[t], tolerance)) flat_.push_back(t);
-    }
+  FlatTriangleMender(std::span<const Eigen::Vector3d> positions, double tolerance,
+                     HalfEdgeMesh& mesh)
+      : positions_(positions), tolerance_(tolerance), mesh_(mesh) {
+    mesh.request_vertex_status();  // OpenMesh's collapse needs them
+    mesh.request_edge_status();
+    mesh.request_face_status();
   }
 
   // Each success leaves fewer flat triangles, so this ends.
-  MendedTriangles Run() {
+  MendedTriangles Run(std::span<const FaceHandle> flat) {
     for (bool mended = true; mended && steps_left_ > 0;) {
       mended = false;
-      for (const std::uint32_t t : flat_) mended |= MendFrom(t);
+      for (const FaceHandle t : flat) mended |= MendFrom(t);
     }
-    if (!result_.merged.empty()) RemoveDead();
     return std::move(result_);
   }
 
  private:
   // The triangle, and what its neighbours make of that: a long row of flat triangles is mended in
   // one go, from whichever end there is a way.
-  bool MendFrom(std::uint32_t first) {
+  bool MendFrom(FaceHandle first) {
     bool mended = false;
     open_.push_back(first);
     while (!open_.empty() && steps_left_ > 0) {
-      const std::uint32_t t = open_.back();
+      const FaceHandle t = open_.back();
       open_.pop_back();
       --steps_left_;
       mended |= IsStillFlat(t) && Mend(t);
@@ -47,129 +50,94 @@ class FlatTriangleMender {
     return mended;
   }
 
-  [[nodiscard]] bool IsStillFlat(std::uint32_t t) const {
-    return surface_.triangles[t][0] != kDead &&
-           IsFlat(positions_, surface_.triangles[t], tolerance_);
+  [[nodiscard]] std::uint32_t Start(HalfedgeHandle h) const { return IndexOf(From(h)); }
+  [[nodiscard]] VertexHandle From(HalfedgeHandle h) const { return mesh_.from_vertex_handle(h); }
+  [[nodiscard]] HalfedgeHandle Next(HalfedgeHandle h) const {
+    return mesh_.next_halfedge_handle(h);
   }
-  [[nodiscard]] std::uint32_t Start(HalfEdge h) const { return StartOf(surface_.triangles, h); }
-  [[nodiscard]] std::uint32_t Apex(HalfEdge h) const { return Start(PreviousInTriangle(h)); }
-  [[nodiscard]] double LengthOf(HalfEdge h) const {
-    return (positions_[Start(NextInTriangle(h))] - positions_[Start(h)]).norm();
+  [[nodiscard]] HalfedgeHandle Opposite(HalfedgeHandle h) const {
+    return mesh_.opposite_halfedge_handle(h);
+  }
+  [[nodiscard]] static std::uint32_t IndexOf(VertexHandle v) {
+    return static_cast<std::uint32_t>(v.idx());
+  }
+  [[nodiscard]] double LengthOf(HalfedgeHandle h) const {
+    return (positions_[Start(Next(h))] - positions_[Start(h)]).norm();
+  }
+  [[nodiscard]] bool IsStillFlat(FaceHandle t) const {
+    if (mesh_.status(t).deleted()) return false;
+    const HalfedgeHandle h = mesh_.halfedge_handle(t);
+    return IsFlat(positions_, {Start(h), Start(Next(h)), Start(Next(Next(h)))}, tolerance_);
   }
 
-  bool Mend(std::uint32_t t) {
-    HalfEdge shortest = 3 * t;
-    HalfEdge longest = 3 * t;
-    for (HalfEdge h = 3 * t + 1; h < 3 * t + 3; ++h) {
+  bool Mend(FaceHandle t) {
+    HalfedgeHandle shortest = mesh_.halfedge_handle(t);
+    HalfedgeHandle longest = shortest;
+    for (const HalfedgeHandle h : {Next(shortest), Next(Next(shortest))}) {
       if (LengthOf(h) < LengthOf(shortest)) shortest = h;
       if (LengthOf(h) > LengthOf(longest)) longest = h;
     }
     return LengthOf(shortest) <= tolerance_ ? Merge(shortest) : Flip(longest);
   }
 
-  // The vertices round the start of `first`, each joined to it by an edge.
-  std::vector<std::uint32_t> Ring(HalfEdge first) {
-    std::vector<std::uint32_t> ring;
-    HalfEdge h = first;
-    do {
-      ring.push_back(Start(NextInTriangle(h)));
-      h = surface_.mate[PreviousInTriangle(h)];
-    } while (h != first && ring.size() < steps_left_);
-    steps_left_ -= std::min(ring.size(), steps_left_);
-    std::sort(ring.begin(), ring.end());
-    return ring;
+  void Spend(std::size_t steps) { steps_left_ -= std::min(steps, steps_left_); }
+
+  // At most as many as there are steps left.
+  [[nodiscard]] std::size_t CountEdgesOf(VertexHandle v) const {
+    std::size_t count = 0;
+    for (auto h = mesh_.cvoh_iter(v); h.is_valid() && count < steps_left_; ++h) ++count;
+    return count;
   }
 
-  // (a, b, c) and (b, a, d) become (a, d, c) and (d, b, c).
-  bool Flip(HalfEdge h) {
-    const HalfEdge m = surface_.mate[h];
-    const std::uint32_t a = Start(h);
-    const std::uint32_t b = Start(m);
-    const std::uint32_t c = Apex(h);
-    const std::uint32_t d = Apex(m);
-    if (c == d || IsFlat(positions_, {a, d, c}, tolerance_) ||
-        IsFlat(positions_, {d, b, c}, tolerance_)) {
+  [[nodiscard]] int CountEdges(VertexHandle from, VertexHandle to) const {
+    int count = 0;
+    for (auto v = mesh_.cvv_iter(from); v.is_valid(); ++v) count += *v == to;
+    return count;
+  }
+
+  bool Flip(HalfedgeHandle h) {
+    const VertexHandle apex = mesh_.opposite_vh(h);
+    const VertexHandle beyond = mesh_.opposite_he_opposite_vh(h);
+    const std::uint32_t c = IndexOf(apex);
+    const std::uint32_t d = IndexOf(beyond);
+    if (c == d || IsFlat(positions_, {Start(h), d, c}, tolerance_) ||
+        IsFlat(positions_, {d, Start(Next(h)), c}, tolerance_)) {
       return false;
     }
-    const std::vector<std::uint32_t> ring = Ring(PreviousInTriangle(h));
-    if (steps_left_ == 0 || std::binary_search(ring.begin(), ring.end(), d)) return false;
-    const HalfEdge t0 = h / 3 * 3;
-    const HalfEdge m0 = m / 3 * 3;
-    const HalfEdge beside_ad = surface_.mate[NextInTriangle(m)];
-    const HalfEdge beside_db = surface_.mate[PreviousInTriangle(m)];
-    const HalfEdge beside_bc = surface_.mate[NextInTriangle(h)];
-    const HalfEdge beside_ca = surface_.mate[PreviousInTriangle(h)];
-    surface_.triangles[h / 3] = {a, d, c};
-    surface_.triangles[m / 3] = {d, b, c};
-    Join(t0, beside_ad);
-    Join(t0 + 1, m0 + 2);
-    Join(t0 + 2, beside_ca);
-    Join(m0, beside_db);
-    Join(m0 + 1, beside_bc);
-    for (const HalfEdge beside : {beside_ad, beside_db, beside_bc, beside_ca}) {
-      open_.push_back(beside / 3);
+    Spend(CountEdgesOf(apex));
+    if (steps_left_ == 0 || CountEdges(apex, beyond) > 0) return false;
+    mesh_.TurnEdge(h);
+    for (const HalfedgeHandle side : {h, Opposite(h)}) {
+      open_.push_back(mesh_.face_handle(Opposite(Next(side))));
+      open_.push_back(mesh_.face_handle(Opposite(Next(Next(side)))));
     }
     ++result_.flipped;
     return true;
   }
 
   // Both triangles of the edge vanish; its end with the higher number gives way.
-  bool Merge(HalfEdge h) {
-    if (Start(surface_.mate[h]) < Start(h)) h = surface_.mate[h];
-    const HalfEdge m = surface_.mate[h];
-    const std::uint32_t kept = Start(h);
-    const std::uint32_t gone = Start(m);
-    // The two may share the two neighbours across the edge and no other, and not be all there is
-    // (a tetrahedron), or the surface would fold onto itself.
-    const std::vector<std::uint32_t> ring = Ring(h);
-    const std::vector<std::uint32_t> ring_of_gone = Ring(m);
-    std::vector<std::uint32_t> common;
-    std::set_intersection(ring.begin(), ring.end(), ring_of_gone.begin(), ring_of_gone.end(),
-                          std::back_inserter(common));
-    if (steps_left_ == 0 || common.size() != 2 || ring.size() + ring_of_gone.size() < 7) {
+  bool Merge(HalfedgeHandle h) {
+    if (Start(h) < Start(Opposite(h))) h = Opposite(h);
+    const VertexHandle gone = From(h);
+    const VertexHandle kept = From(Opposite(h));
+    const std::size_t edges = CountEdgesOf(gone) + CountEdgesOf(kept);
+    Spend(edges);
+    // The two may share the two neighbours across the edge and no other, or the surface would fold
+    // onto itself. OpenMesh sees to that, but not where a second edge joins them, nor where they
+    // and the two neighbours are all there is (a tetrahedron).
+    if (steps_left_ == 0 || edges < 7 || CountEdges(gone, kept) != 1 || !mesh_.is_collapse_ok(h)) {
       return false;
     }
-    HalfEdge round = m;
-    do {
-      surface_.triangles[round / 3][round % 3] = kept;
-      open_.push_back(round / 3);
-      round = surface_.mate[PreviousInTriangle(round)];
-    } while (round != m);
-    Join(surface_.mate[NextInTriangle(h)], surface_.mate[PreviousInTriangle(h)]);
-    Join(surface_.mate[NextInTriangle(m)], surface_.mate[PreviousInTriangle(m)]);
-    surface_.triangles[h / 3] = surface_.triangles[m / 3] = {kDead, kDead, kDead};
-    result_.merged.emplace_back(gone, kept);
+    for (auto t = mesh_.cvf_iter(gone); t.is_valid(); ++t) open_.push_back(*t);
+    mesh_.collapse(h);
+    result_.merged.emplace_back(IndexOf(gone), IndexOf(kept));
     return true;
-  }
-
-  void Join(HalfEdge a, HalfEdge b) {
-    surface_.mate[a] = b;
-    surface_.mate[b] = a;
-  }
-
-  void RemoveDead() {
-    std::vector<std::uint32_t> new_index(surface_.triangles.size(), kDead);
-    std::uint32_t kept = 0;
-    for (std::size_t t = 0; t < new_index.size(); ++t) {
-      if (surface_.triangles[t][0] != kDead) new_index[t] = kept++;
-    }
-    for (std::size_t t = 0; t < new_index.size(); ++t) {
-      if (new_index[t] == kDead) continue;
-      surface_.triangles[new_index[t]] = surface_.triangles[t];
-      for (int k = 0; k < 3; ++k) {
-        const HalfEdge mate = surface_.mate[3 * t + k];
-        surface_.mate[3 * new_index[t] + k] = 3 * new_index[mate / 3] + mate % 3;
-      }
-    }
-    surface_.triangles.resize(kept);
-    surface_.mate.resize(3 * std::size_t{kept});
   }
 
   std::span<const Eigen::Vector3d> positions_;
   double tolerance_;
-  Surface& surface_;
-  std::vector<std::uint32_t> flat_;
-  std::vector<std::uint32_t> open_;  // to be looked at next
+  HalfEdgeMesh& mesh_;
+  std::vector<FaceHandle> open_;  // to be looked at next
   std::size_t steps_left_ = kMostMendingSteps;
   MendedTriangles result_;
 };
@@ -188,7 +156,15 @@ bool IsFlat(std::span<const Eigen::Vector3d> positions, const Triangle& triangle
 
 MendedTriangles MendFlatTriangles(std::span<const Eigen::Vector3d> positions, double tolerance,
                                   Surface& surface) {
-  return FlatTriangleMender(positions, tolerance, surface).Run();
+  std::vector<FaceHandle> flat;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (IsFlat(positions, surface.triangles[t], tolerance)) flat.emplace_back(static_cast<int>(t));
+  }
+  if (flat.empty()) return {};
+  HalfEdgeMesh mesh(positions.size(), std::exchange(surface, {}));  // never both in memory
+  MendedTriangles mended = FlatTriangleMender(positions, tolerance, mesh).Run(flat);
+  surface = mesh.ToSurface();
+  return mended;
 }
 
 }  // namespace capfit::mesh

@@ -2,20 +2,22 @@
 #ifndef CAPFIT_CORE_MESH_OPEN_LOOPS_H_
 #define CAPFIT_CORE_MESH_OPEN_LOOPS_H_
 
-#include <optional>
+#include <cstdint>
 #include <vector>
 
-#include "core/mesh/edge_mates.h"
 #include "core/mesh/surface.h"
 
 namespace capfit::mesh {
 
-// Open half-edges, each beginning where the one before ends, the last back at the first.
-using OpenLoop = std::vector<HalfEdge>;
+struct OpenLoop {
+  std::vector<std::uint32_t> vertices;  // each once, in the direction in which a filling runs
+  std::uint32_t triangle = 0;           // one of those along it
+};
 
-// Takes the open half-edges of a consistently oriented surface apart into loops that visit no
-// vertex twice. Nothing where they do not form loops. O(n log n).
-[[nodiscard]] std::optional<std::vector<OpenLoop>> FindOpenLoops(const Surface& surface);
+// The loops of open edges of a consistently oriented surface, in the order of their vertices. Where
+// it touches itself in a vertex of a hole, what lies on either side is a loop by itself.
+// O(n log n); a closed surface costs no more than a look at its mates.
+[[nodiscard]] std::vector<OpenLoop> FindOpenLoops(const Surface& surface);
 
 }  // namespace capfit::mesh
 

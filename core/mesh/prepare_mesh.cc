@@ -66,10 +66,13 @@ class MeshMender {
   }
 
   absl::StatusOr<PreparedMesh> Run() {
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size(), pool_);
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     if (degenerate_ == 0 && !mates.mate.empty() && mates.IsClosedAndOriented()) {
       if (std::optional<PreparedMesh> prepared = TakeAsItCame(mates)) return *std::move(prepared);
     }
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     MeasureUsed();
     Join(std::move(mates));
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
@@ -94,10 +97,7 @@ class MeshMender {
   }
 
  private:
-  [[nodiscard]] absl::Status CheckCancelled() const {
-    if (!observer_.IsCancelled()) return absl::OkStatus();
-    return Refused(ErrorReason::kCancelled, "cancelled while the mesh was mended");
-  }
+  [[nodiscard]] absl::Status CheckCancelled() const { return capfit::CheckCancelled(observer_); }
 
   void Triangulate() {
     TriangulatedFaces faces =

@@ -257,14 +257,16 @@ void PutGaps(double diagonal_m, GapSums sums, AnyMetrics& metrics) {
 
 void PutSurface(const body::Body& body, const FittedSurface& fitted,
                 const std::vector<geometry::TaperedCapsule>& solids, const MeasureOptions& options,
-                const ThreadPool& pool, Metrics& metrics) {
+                const ThreadPool& pool, const FitObserver& observer, Metrics& metrics) {
   const std::vector<double> distances = FittedDistances(fitted, solids, pool);
+  if (observer.IsCancelled()) return;
   if (body.shells) {
     PutShellVertices(*body.shells, options.parts, solids, pool, metrics);
   } else {
     PutVertices(body, fitted, distances, metrics);
   }
   PartGapSums parts = SumVertices(fitted, distances, pool);
+  if (observer.IsCancelled()) return;
   AddSamples(fitted, distances, solids, options.surface_samples, pool, parts);
   const double diagonal_m = fitted.box.diagonal().norm();
   GapSums all;
@@ -293,11 +295,11 @@ Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
   pool.ForEach(has_gaps ? 2 : 1, [&](std::size_t which) {
     if (observer.IsCancelled()) return;
     if (which == 0) {
-      PutVolumes(
-          MeasureVolumes(body.mesh, fitted, solids, PartsOfSolids(set), options.columns, pool),
-          metrics);
+      PutVolumes(MeasureVolumes(body.mesh, fitted, solids, PartsOfSolids(set), options.columns,
+                                pool, observer),
+                 metrics);
     } else {
-      PutSurface(body, fitted, solids, options, pool, metrics);
+      PutSurface(body, fitted, solids, options, pool, observer, metrics);
     }
   });
   return metrics;

@@ -50,8 +50,8 @@ std::vector<SolidParts> PartsOfSolids(const capsule::PrimitiveSet& set) {
 
 Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
                        std::span<const geometry::TaperedCapsule> solids,
-                       std::span<const SolidParts> solid_parts, int columns,
-                       const ThreadPool& pool) {
+                       std::span<const SolidParts> solid_parts, int columns, const ThreadPool& pool,
+                       const FitObserver& observer) {
   Eigen::AlignedBox3d box(mesh.box_min(), mesh.box_max());
   for (const geometry::TaperedCapsule& solid : solids) box.extend(BoxOf(solid));
   const ColumnGrid grid = MakeColumnGrid(box, columns);
@@ -61,7 +61,7 @@ Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
 
   std::vector<Volumes> by_row(grid.y.size());
   pool.ForChunks(grid.y.size(), kRowsPerChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
+    for (std::size_t row = begin; row < end && !observer.IsCancelled(); ++row) {
       by_row[row] = lengths.OfRow(row, body_rows.Cut(row), solid_rows.Cut(row));
     }
   });

@@ -43,11 +43,12 @@ using SolidParts = std::array<body::Part, 2>;
 [[nodiscard]] std::vector<SolidParts> PartsOfSolids(const capsule::PrimitiveSet& set);
 
 // `columns` x `columns` columns along z over everything. `fitted` is exact, but for how columns
-// through two parts are shared out. Rows in parallel, added up in order.
+// through two parts are shared out. Rows in parallel, added up in order; none where the observer
+// cancels.
 [[nodiscard]] Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
                                      std::span<const geometry::TaperedCapsule> solids,
                                      std::span<const SolidParts> solid_parts, int columns,
-                                     const ThreadPool& pool);
+                                     const ThreadPool& pool, const FitObserver& observer);
 
 }  // namespace capfit::metrics
 

@@ -24,11 +24,6 @@
 namespace capfit::pipeline {
 namespace {
 
-absl::Status CheckCancelled(const FitObserver& observer) {
-  if (observer.IsCancelled()) return absl::CancelledError("the caller gave up");
-  return absl::OkStatus();
-}
-
 // Whether joints hold vertices of the mesh.
 absl::Status NoRig() {
   return InvalidField(ErrorReason::kConflict, "options.skinning",
@@ -84,6 +79,7 @@ class BodyFit {
                             TakeBody(soup, options_, pool_, clock_, result_.warnings));
     body_ = std::move(taken.body);
     result_.body_from_caller = body_->body_from_caller;
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
     caller_from_body_ = body_->body_from_caller.Inverse();
     target_ = tighten::TargetOf(*body_, options_.parts);
     result_.effective_options = EffectiveOptions(asked_, body_->body_from_caller);
@@ -164,8 +160,8 @@ class BodyFit {
     clock_.Begin(Stage::kSection);
     const capsule::Budget total = TotalBudget(options_);
     const capsule::Budget chains = ChainBudget(total, OverheadOf(*body_, options_.parts, total));
-    section::FeaturePolygons features =
-        section::ExtractFeaturePolygons(*body_, PlanSections(options_, *body_, chains), pool_);
+    section::FeaturePolygons features = section::ExtractFeaturePolygons(
+        *body_, PlanSections(options_, *body_, chains), pool_, clock_);
     Append(std::move(features.warnings), result_.warnings);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
 
@@ -183,7 +179,7 @@ class BodyFit {
     if (options_.quality == Quality::kPaper && options_.fit == FitMode::kBestFit &&
         !options_.layout) {
       clock_.Begin(Stage::kRefine);
-      set_ = SettleBestFit(*body_, options_, std::move(set_));
+      set_ = SettleBestFit(*body_, options_, clock_, std::move(set_));
     }
     if (options_.want_polygons) {
       result_.polygons = PolygonResults(features.polygons, stage.approximations, caller_from_body_);
@@ -226,6 +222,7 @@ class BodyFit {
     const bool has_shape = options_.quality == Quality::kTight || options_.layout.has_value();
     coverage::CoverReport report = Enclose(has_shape, set_);
     for (Alternative& alternative : alternatives_) {
+      CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
       const coverage::CoverReport other = Enclose(alternative.has_shape, alternative.set);
       if (other.volume_m3 >= report.volume_m3) continue;
       set_ = std::move(alternative.set);
@@ -315,6 +312,7 @@ class BodyFit {
     measure_options.parts = options_.parts;
     result_.metrics = metrics::Measure(*body_, set_, measure_options, pool_, clock_);
     result_.metrics.max_gap_m = max_gap_m_;
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
     if (options_.want_vertex_gaps) {
       result_.vertex_gaps =
           VertexGaps(body_->enclosed().vertex_of_source,

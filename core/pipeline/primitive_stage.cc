@@ -85,13 +85,13 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
 }
 
 capsule::PrimitiveSet SettleBestFit(const body::Body& body, const FitOptions& options,
-                                    capsule::PrimitiveSet set) {
+                                    const FitObserver& observer, capsule::PrimitiveSet set) {
   capsule::Budget total = TotalBudget(options);
   if (options.polygon_error.has_value()) total.max_primitives = set.primitive_count();
   const refine::OccupancyGrid grid = refine::BestFitGrid(body, options.parts);
   double rate_m = kRateFromCirclesM;
-  for (int round = 0; round < kMaxSettlings; ++round) {
-    set = refine::SettleBestFit(grid, rate_m, options.seed, std::move(set));
+  for (int round = 0; round < kMaxSettlings && !observer.IsCancelled(); ++round) {
+    set = refine::SettleBestFit(grid, rate_m, options.seed, observer, std::move(set));
     capsule::RemoveCoveredCapsules(set);
     if (total.Unused(set.count()) <= kUnusedAllowed) break;
     SpendRest(total, set);

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/base/side_by_side.h"
 #include "core/base/status.h"
 #include "core/refine/best_fit/best_fit_objective.h"
 #include "core/refine/best_fit/growth.h"
@@ -48,8 +50,8 @@ constexpr double kFineLooseness = 0.5;  // the shape is found, it need not be fo
 constexpr int kFineTakeInSteps = 2;
 constexpr int kHungSteps = 8;      // for a layout that is kept
 constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
-// Of the enclosing search from layouts for its budget, and of all searches.
-constexpr double kSearchedOwn = 0.6;
+// Of two enclosing searches the one from layouts for its budget, and of all the time both.
+constexpr double kSearchedOwn = 0.65;
 constexpr double kSearched = 0.92;
 constexpr double kFillingShare = 0.75;    // of the budget, that a standard layout must use
 constexpr double kHungShapeFound = 0.45;  // of its time, as measured
@@ -112,13 +114,13 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const capsule::B
   at_first.until = at(kGrown);
   plan.until = at(kExchanged);
   meter.Expect(at(kSettled), 1);
-  objective.Settle(Effort::kRough, graph);
+  objective.Settle(Effort::kRough, meter.observer(), graph);
   RemoveUseless(graph);
   Spare(objective, budget, at_first, pool, meter, graph);
   Grow(objective, budget, at_first, pool, meter, graph);
   Grow(objective, budget, plan, pool, meter, graph);
   meter.Expect(at(kFinished), 1);
-  objective.Settle(Effort::kFinish, graph);
+  objective.Settle(Effort::kFinish, meter.observer(), graph);
   RemoveUseless(graph);
   // What has become useless in the end is spent once more.
   const int used = graph.primitive_count();
@@ -126,7 +128,7 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const capsule::B
   last.piece_cost = kPieceCost;
   last.until = until;
   Grow(objective, budget, last, pool, meter, graph);
-  if (graph.primitive_count() != used) objective.Settle(Effort::kTighten, graph);
+  if (graph.primitive_count() != used) objective.Settle(Effort::kTighten, meter.observer(), graph);
   meter.Expect(until, 1);
   SpendByCutting(objective, budget, meter, graph);
   return graph;
@@ -142,7 +144,8 @@ capsule::MirroredSet FindBestSet(const BestFitObjective& objective, const capsul
     const double until = static_cast<double>(i + 1) / static_cast<double>(starts.size());
     capsule::MirroredSet graph =
         FindSet(objective, budget, pool, until, meter, std::move(starts[i]));
-    // Over the budget only where a cancellation cut the search short.
+    if (meter.IsCancelled()) return graph;
+    // Over the budget only where nothing more could be spared.
     const double value = objective.Value(graph) + budget.Excess(graph.count());
     if (value < least) {
       least = value;
@@ -230,6 +233,29 @@ std::vector<capsule::MirroredSet> StandardStarts(const body::Body& body,
   return starts;
 }
 
+// From each kind of starts a search of its own: which of them leads further shows only at their
+// ends. Side by side, as a search alone cannot use many threads all the time.
+std::vector<capsule::MirroredSet> SearchSideBySide(
+    const EnclosingTask& task, const capsule::Budget& budget,
+    const std::vector<std::vector<capsule::MirroredSet>>& starts, const ThreadPool& pool,
+    WorkMeter& meter) {
+  const double from = meter.until();
+  meter.Expect(kSearched, 1);
+  const std::vector<double> shares = starts.size() == 1
+                                         ? std::vector<double>{1.0}
+                                         : std::vector<double>{kSearchedOwn, 1.0 - kSearchedOwn};
+  SideBySide searches(meter.observer(), from, kSearched, shares);
+  std::vector<std::vector<capsule::MirroredSet>> found(starts.size());
+  searches.Run(pool, [&](std::size_t i, FitObserver& observer) {
+    found[i] = FindEnclosingGraphs(task, budget, starts[i], pool, observer);
+  });
+  std::vector<capsule::MirroredSet> all;
+  for (std::vector<capsule::MirroredSet>& graphs : found) {
+    std::move(graphs.begin(), graphs.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
 std::vector<capsule::MirroredSet> FindEnclosing(const body::Body& body,
                                                 const tighten::CoverTarget& target,
                                                 const RefineOptions& options,
@@ -237,23 +263,22 @@ std::vector<capsule::MirroredSet> FindEnclosing(const body::Body& body,
   const capsule::Budget& budget = options.budget;
   const int primitives = budget.UsualPrimitives();
   const Spacings spacings = SpacingsFor(primitives);
-  const EnclosingTask task(target, body.is_symmetric, options.tolerance_m, spacings.usual);
+  // Each thins the points out on one thread, for some milliseconds on large meshes.
+  std::array<std::optional<EnclosingTask>, 2> tasks;
+  pool.ForEach(tasks.size(), [&](std::size_t i) {
+    tasks[i].emplace(target, body.is_symmetric, options.tolerance_m,
+                     i == 0 ? spacings.usual : spacings.fine);
+  });
   // Up to twice as many: what is spared in a good layout leaves a better one than growth finds.
   const int most_spared = primitives > kFewPrimitives ? 0 : primitives;
-  const std::vector<capsule::MirroredSet> starts =
-      StartingGraphs(FitKind::kEnclose, body, options.parts, budget, /*sizes=*/2, most_spared);
-  const std::vector<capsule::MirroredSet> standard = StandardStarts(body, options, primitives);
-  // Two searches: which of the two kinds of starts leads further shows only at their ends.
-  const double until = standard.empty() ? kSearched : kSearchedOwn;
-  std::vector<capsule::MirroredSet> found =
-      FindEnclosingGraphs(task, budget, starts, until, pool, meter);
-  if (!standard.empty()) {
-    std::vector<capsule::MirroredSet> more =
-        FindEnclosingGraphs(task, budget, standard, kSearched, pool, meter);
-    std::move(more.begin(), more.end(), std::back_inserter(found));
-  }
-  const EnclosingTask fine(target, body.is_symmetric, options.tolerance_m, spacings.fine);
-  std::vector<capsule::MirroredSet> finished = Finish(fine, found, pool, meter);
+  std::vector<std::vector<capsule::MirroredSet>> starts = {
+      StartingGraphs(FitKind::kEnclose, body, options.parts, budget, /*sizes=*/2, most_spared)};
+  std::vector<capsule::MirroredSet> standard = StandardStarts(body, options, primitives);
+  if (!standard.empty()) starts.push_back(std::move(standard));
+  const std::vector<capsule::MirroredSet> found =
+      SearchSideBySide(*tasks[0], budget, starts, pool, meter);
+  if (meter.IsCancelled()) return found;
+  std::vector<capsule::MirroredSet> finished = Finish(*tasks[1], found, pool, meter);
   // Few primitives are judged well enough by thinned points.
   if (primitives <= kFewPrimitives) finished.resize(1);
   return finished;
@@ -276,8 +301,8 @@ void FitBest(const body::Body& body, const RefineOptions& options, WorkMeter& me
              capsule::MirroredSet& graph) {
   meter.Expect(1.0, 1);
   const BestFitObjective objective = MakeBestFitObjective(body, options, graph.is_mirrored());
-  objective.Settle(Effort::kRough, graph);
-  objective.Settle(Effort::kFinish, graph);
+  objective.Settle(Effort::kRough, meter.observer(), graph);
+  objective.Settle(Effort::kFinish, meter.observer(), graph);
 }
 
 body::Part PartAt(const body::Body& body, const Vec3& point_m) {
@@ -319,6 +344,7 @@ std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
   for (const capsule::MirroredSet& graph : graphs) {
     capsule::PrimitiveSet set = graph.set();
     pool.ForEach(graph.spheres().size(), [&](std::size_t v) {
+      if (observer.IsCancelled()) return;
       set.origins[v].part = PartAt(body, graph.spheres()[v].center_m);
     });
     if (graph.is_mirrored()) MirrorParts(options.parts, set);

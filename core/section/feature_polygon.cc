@@ -57,12 +57,16 @@ bool IsRight(Part chain) { return chain == Part::kRightArm || chain == Part::kRi
 
 class Extractor {
  public:
-  Extractor(const body::Body& body, const SectionOptions& options, const ThreadPool& pool)
-      : body_(body), options_(options), pool_(pool) {}
+  Extractor(const body::Body& body, const SectionOptions& options, const ThreadPool& pool,
+            const FitObserver& observer)
+      : body_(body), options_(options), pool_(pool), observer_(observer) {}
 
   FeaturePolygons Run() {
     std::vector<Job> jobs = PlanJobs();
-    pool_.ForEach(jobs.size(), [&](std::size_t i) { jobs[i].polygon = Cut(jobs[i]); });
+    pool_.ForEach(jobs.size(), [&](std::size_t i) {
+      if (!observer_.IsCancelled()) jobs[i].polygon = Cut(jobs[i]);
+    });
+    if (observer_.IsCancelled()) return {};
     Gather(jobs);
     if (body_.is_symmetric) AddMirrorImages();
     SplitHip();
@@ -81,6 +85,7 @@ class Extractor {
     pool_.ForEach(stations.size(), [&](std::size_t c) {
       const Part chain = static_cast<Part>(c);
       if (!body_.chain(chain) || !options_.parts.Includes(chain) || FollowsFromLeft(chain)) return;
+      if (observer_.IsCancelled()) return;
       stations[c] = PlanStations(body_, chain, CountFor(chain, options_));
     });
     std::vector<Job> jobs;
@@ -272,14 +277,15 @@ class Extractor {
   const body::Body& body_;
   const SectionOptions& options_;
   const ThreadPool& pool_;
+  const FitObserver& observer_;
   FeaturePolygons result_;
 };
 
 }  // namespace
 
 FeaturePolygons ExtractFeaturePolygons(const body::Body& body, const SectionOptions& options,
-                                       const ThreadPool& pool) {
-  return Extractor(body, options, pool).Run();
+                                       const ThreadPool& pool, const FitObserver& observer) {
+  return Extractor(body, options, pool, observer).Run();
 }
 
 }  // namespace capfit::section

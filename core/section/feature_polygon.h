@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/base/warning.h"
 #include "core/body/body.h"
@@ -54,10 +55,12 @@ struct FeaturePolygons {
 };
 
 // Cuts the body. Planes go through the landmarks; more planes than landmarks are spread between
-// them, fewer keep the most telling ones. O(planes * faces), planes in parallel.
+// them, fewer keep the most telling ones. O(planes * faces), planes in parallel. Nothing comes back
+// where the observer cancels.
 [[nodiscard]] FeaturePolygons ExtractFeaturePolygons(const body::Body& body,
                                                      const SectionOptions& options,
-                                                     const ThreadPool& pool);
+                                                     const ThreadPool& pool,
+                                                     const FitObserver& observer);
 
 }  // namespace capfit::section
 

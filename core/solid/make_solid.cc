@@ -113,10 +113,7 @@ class SolidMaker {
   }
 
  private:
-  [[nodiscard]] absl::Status CheckCancelled() const {
-    if (!observer_.IsCancelled()) return absl::OkStatus();
-    return Refused(ErrorReason::kCancelled, "cancelled while one surface was made of many");
-  }
+  [[nodiscard]] absl::Status CheckCancelled() const { return capfit::CheckCancelled(observer_); }
 
   [[nodiscard]] static absl::Status NoVolume(const std::string& why) {
     return Refused(ErrorReason::kNoVolume,

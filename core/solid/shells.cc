@@ -36,24 +36,19 @@ class ShellFinder {
     for (const mesh::Triangle& t : shells_.triangles) {
       shells_.area += mesh::AreaVector(positions_, t).norm();
     }
-    if (const std::optional<std::vector<mesh::OpenLoop>> loops = mesh::FindOpenLoops(surface)) {
-      for (const mesh::OpenLoop& loop : *loops) Close(surface, loop);
-    }
+    for (mesh::OpenLoop& loop : mesh::FindOpenLoops(surface)) Close(std::move(loop));
     shells_.volumes.assign(parts.parts.size(), 0.0);
     shells_.areas.assign(parts.parts.size(), 0.0);
     TurnOutward();
   }
 
  private:
-  void Close(const mesh::Surface& surface, const mesh::OpenLoop& loop) {
-    if (loop.size() < 3) return;
+  void Close(mesh::OpenLoop loop) {
+    if (loop.vertices.size() < 3) return;
     Rim rim;
-    rim.shell = shells_.shell_of_triangle[loop.front() / 3];
-    // The filling runs the loop backwards, as a neighbour must.
-    for (std::size_t i = loop.size(); i-- > 0;) {
-      rim.vertices.push_back(mesh::EndOf(surface.triangles, loop[i]));
-      rim.middle += positions_[rim.vertices.back()];
-    }
+    rim.shell = shells_.shell_of_triangle[loop.triangle];
+    rim.vertices = std::move(loop.vertices);
+    for (const std::uint32_t v : rim.vertices) rim.middle += positions_[v];
     rim.middle /= static_cast<double>(rim.vertices.size());
     const std::size_t first = shells_.triangles.size();
     Fill(rim.vertices);

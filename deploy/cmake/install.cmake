@@ -46,15 +46,16 @@ target_compile_definitions(capfit_whole_core INTERFACE
 target_include_directories(capfit_whole_core INTERFACE "$<INSTALL_INTERFACE:${header_dir}>")
 target_link_libraries(capfit_whole_core INTERFACE
   Eigen3::Eigen TBB::tbb absl::status absl::statusor absl::strings absl::str_format
-  absl::flat_hash_map absl::flat_hash_set draco::draco meshoptimizer::meshoptimizer)
+  absl::flat_hash_map absl::flat_hash_set OpenMeshCore draco::draco meshoptimizer::meshoptimizer)
 
 install(TARGETS capfit_whole_core EXPORT capfitCore COMPONENT library)
 install(EXPORT capfitCore FILE capfitCoreTargets.cmake NAMESPACE capfit::
   DESTINATION "${package_dir}" COMPONENT library)
-# (Headers about glTF and JSON name libraries that are no part of the interface.)
+# (Headers about glTF and JSON, and of the half-edges while a mesh is mended, name libraries that
+# are no part of the interface.)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/core" DESTINATION "${header_dir}" COMPONENT library
   FILES_MATCHING PATTERN "*.h" PATTERN "gl[bt]*_*.h" EXCLUDE
-  PATTERN "json_text.h" EXCLUDE)
+  PATTERN "json_text.h" EXCLUDE PATTERN "half_edge_mesh.h" EXCLUDE)
 set(CAPFIT_INSTALLED_COMPONENTS core)
 
 # --- capfit::client, the programs and the contract

@@ -14,74 +14,23 @@ the right bits, the 99th percentile of answered calls is at most four times that
 to do, resident memory stays within the budget and does not grow after the first third, and the server ends
 with 0 at SIGTERM. Times are compared with times of the same run only; the load of the machine is printed.
 """
-import argparse
-import hashlib
 import json
 import os
 import pathlib
-import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 
+from servers import Server, load, parser_of
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FACES = "4000,20000,60000"
-MEBIBYTE = 1 << 20
+FACES = ("--faces", "4000,20000,60000")
 MOST_TIMES_UNLOADED = 4.0
 # What the program is and what running fits work with, beside its budget.
 BESIDE_BUDGET_MIB = 300
 # Of the middle third's mean: what an allocator moves to and fro.
 MOST_GROWTH = 1.10
-
-
-def resident_mib(pid):
-    with open(f"/proc/{pid}/statm", encoding="ascii") as file:
-        return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE") / MEBIBYTE
-
-
-class Server:
-    """capfit-server with two callers known to it: the load, and the crowd."""
-
-    def __init__(self, program, folder, flags):
-        self.folder = folder
-        lines = []
-        for name in ("load", "crowd"):
-            (folder / name).write_text(f"token-of-{name}\n")
-            lines.append(f"{name} {hashlib.sha256(f'token-of-{name}'.encode()).hexdigest()}\n")
-        (folder / "tokens").write_text("".join(lines))
-        port_file = folder / "port"
-        with open(folder / "log", "w", encoding="utf8") as log:
-            self.process = subprocess.Popen([program, "--listen", "127.0.0.1:0", "--port-file", port_file,
-                                             "--token-file", folder / "tokens", *flags], stderr=log)
-        while not port_file.exists():
-            if self.process.poll() is not None:
-                sys.exit((folder / "log").read_text())
-            time.sleep(0.05)
-        self.address = "127.0.0.1:" + port_file.read_text().strip()
-        self.samples = []
-        threading.Thread(target=self.sample, daemon=True).start()
-
-    def sample(self):
-        while self.process.poll() is None:
-            try:
-                self.samples.append(resident_mib(self.process.pid))
-            except OSError:
-                return
-            time.sleep(0.5)
-
-    def stop(self):
-        self.process.send_signal(signal.SIGTERM)
-        return self.process.wait(timeout=120)
-
-
-def load(arguments, server, *flags):
-    """What `capfit load` found."""
-    out = server.folder / "load.json"
-    subprocess.run([arguments.capfit, "load", "--server", server.address, "--token-file", server.folder / "load",
-                    "--faces", FACES, "--json", out, *flags], stdout=subprocess.DEVNULL, check=False)
-    return json.loads(out.read_text())
 
 
 def start_crowd(arguments, server):
@@ -127,14 +76,14 @@ def run(arguments, folder):
     server = Server(arguments.server, folder, flags)
     report = {"flags": flags, "cores": os.cpu_count(), "load_average_before": os.getloadavg()}
     try:
-        load(arguments, server, "--clients", "1", "--duration", "5")  # the server learns what fits cost
-        alone = load(arguments, server, "--clients", "1", "--duration", str(arguments.calibrate))
-        most = load(arguments, server, "--clients", "4", "--duration", str(arguments.calibrate))
+        load(arguments, [server], *FACES, "--clients", "1", "--duration", "5")  # the server learns what fits cost
+        alone = load(arguments, [server], *FACES, "--clients", "1", "--duration", str(arguments.calibrate))
+        most = load(arguments, [server], *FACES, "--clients", "4", "--duration", str(arguments.calibrate))
         rate = arguments.times * most["results_per_second"]
         crowd = start_crowd(arguments, server)
         time.sleep(min(10, arguments.seconds / 6))
         begin = len(server.samples)
-        busy = load(arguments, server, "--rate", f"{rate:.3f}", "--clients", "200", "--duration", str(arguments.seconds))
+        busy = load(arguments, [server], *FACES, "--rate", f"{rate:.3f}", "--clients", "200", "--duration", str(arguments.seconds))
         samples = server.samples[begin:]
         report["crowd"] = json.loads(crowd.communicate(input="", timeout=60)[0] or "{}")
     finally:
@@ -169,17 +118,13 @@ def show(report, wrong):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--server", required=True)
-    parser.add_argument("--capfit", required=True)
+    parser = parser_of(__doc__, "of the server, after --")
     parser.add_argument("--seconds", type=float, default=600.0)
     parser.add_argument("--calibrate", type=float, default=20.0)
     parser.add_argument("--times", type=float, default=2.0)
     parser.add_argument("--uploads", type=int, default=200)
     parser.add_argument("--readers", type=int, default=100)
     parser.add_argument("--held-mb", type=int, default=1024)
-    parser.add_argument("--json")
-    parser.add_argument("flags", nargs="*", help="of the server, after --")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="capfit_overload_") as folder:
         report = run(arguments, pathlib.Path(folder))
@@ -190,4 +135,5 @@ def main():
     return 1 if wrong else 0
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())

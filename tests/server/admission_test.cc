@@ -132,5 +132,18 @@ TEST(Admission, AClientHasItsShareOfPlacesAndSeconds) {
   EXPECT_EQ(Fact(second.BeginFit(0.1), kResourceFact), "client_queued_seconds");
 }
 
+TEST(Admission, WhoWouldBeGoneBeforeItsTurnIsRefused) {
+  Admission admission(Limits());
+  const Holding one(admission, "a");
+  EXPECT_TRUE(one.CheckPatience(4.9, 5.0).ok());
+  EXPECT_TRUE(one.CheckPatience(0.0, -1.0).ok()) << "its turn is now: the fit itself looks";
+  const absl::Status status = one.CheckPatience(7.5, 5.0);
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(Fact(status, kResourceFact), "deadline");
+  EXPECT_EQ(Fact(status, kRetryFact), "2500");
+  EXPECT_THAT(std::string(status.message()),
+              HasSubstr("would wait 7.5 s for its turn, and its deadline passes in 5.0 s"));
+}
+
 }  // namespace
 }  // namespace capfit::server

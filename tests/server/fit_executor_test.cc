@@ -56,6 +56,29 @@ TEST(FitExecutor, AJobThatWaitsCanBeTakenBackOnce) {
   EXPECT_FALSE(has_run);
 }
 
+TEST(FitExecutor, KnowsHowLongAFitWouldWait) {
+  FitExecutor executor(2);
+  EXPECT_EQ(executor.ExpectedWaitSeconds({"", false, 5.0}), 0.0);
+  std::promise<void> go_on;
+  const std::shared_future<void> gate = go_on.get_future().share();
+  const auto submit = [&](double expected_seconds) {
+    executor.Submit({"", false, expected_seconds}, [gate] { gate.wait(); });
+  };
+  submit(5.0);
+  while (executor.running() < 1) std::this_thread::yield();
+  EXPECT_EQ(executor.ExpectedWaitSeconds({"", false, 5.0}), 0.0) << "one place is free";
+  submit(5.0);
+  while (executor.running() < 2) std::this_thread::yield();
+  submit(3.0);
+  // What is left of the two that run shrinks while we look; what waits does not.
+  const double behind = executor.ExpectedWaitSeconds({"", false, 5.0});
+  const double in_front = executor.ExpectedWaitSeconds({"", false, 1.0});
+  EXPECT_LE(behind, (5.0 + 5.0 + 3.0) / 2.0);
+  EXPECT_GE(behind, 3.0 / 2.0);
+  EXPECT_LE(in_front, (5.0 + 5.0) / 2.0);
+  go_on.set_value();
+}
+
 TEST(FitExecutor, LongJobsLeaveAPlaceToShortOnes) {
   FitExecutor executor(2);
   std::promise<void> go_on;

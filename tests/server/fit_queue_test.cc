@@ -77,6 +77,20 @@ TEST(FitQueue, LongOnesAreLeftWhereTheyMayNotBegin) {
   EXPECT_EQ(queue.TakeNext(1000.0, true), long_one);
 }
 
+TEST(FitQueue, KnowsTheWorkThatGoesBeforeAFit) {
+  FitQueue queue;
+  queue.Add({"a", false, 4.0}, 0.0);
+  queue.Add({"b", false, 1.0}, 0.0);
+  queue.Add({"c", true, 1.5}, 0.0);
+  const auto before = [&](double expected_seconds, bool is_bulk) {
+    return queue.SecondsBefore({"d", is_bulk, expected_seconds}, 0.0);
+  };
+  EXPECT_EQ(before(0.5, false), 0.0);
+  EXPECT_EQ(before(1.0, false), 1.0) << "equals go in the order in which they came";
+  EXPECT_EQ(before(5.0, false), 5.0);
+  EXPECT_EQ(before(5.0, true), 6.5);
+}
+
 TEST(FitQueue, WhatWasRemovedIsNotTaken) {
   FitQueue queue;
   const Ticket first = queue.Add({"a", false, 1.0}, 0.0);

@@ -215,6 +215,33 @@ TEST(Limits, ACallThatWaitsIsOverAsSoonAsItsCallerIs) {
   EXPECT_TRUE(running.Finish().ok());
 }
 
+TEST(Limits, WhoseDeadlinePassesBeforeItsTurnIsToldAtOnce) {
+  Gate gate;
+  ServerConfig config;
+  config.max_concurrent_fits = 1;
+  const auto server = StartServer(WaitingBackend(gate), config);
+  // Each is expected to take .05 s or more.
+  std::vector<std::unique_ptr<Call>> queue;
+  for (int i = 0; i < 60; ++i) {
+    queue.push_back(std::make_unique<Call>(LoopbackChannel(*server)));
+    queue.back()->Send({Header(), Chunk()});
+  }
+  ASSERT_TRUE(WaitFor([&] { return server->waiting_fits() == 59; }));
+  Call hasty(LoopbackChannel(*server), {}, 2.0);
+  hasty.Send({Header(), Chunk()});
+  const absl::Status status = EndOf(hasty);
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted) << status;
+  EXPECT_THAT(std::string(status.message()), HasSubstr("its deadline passes in"));
+  EXPECT_GE(std::atoi(hasty.Trailer("grpc-retry-pushback-ms").c_str()), 500);
+  EXPECT_NE(server->MetricsText().find("capfit_refused_total{reason=\"deadline\"} 1"),
+            std::string::npos);
+  Call patient(LoopbackChannel(*server), {}, 60.0);
+  patient.Send({Header(), Chunk()});
+  EXPECT_TRUE(WaitFor([&] { return server->waiting_fits() == 60; }));
+  gate.open = true;
+  EXPECT_TRUE(patient.Finish().ok());
+}
+
 TEST(Limits, WhatTheGraceOfAStoppingServerCutsOffIsToldSo) {
   Gate gate;
   ServerConfig config;

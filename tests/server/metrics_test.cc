@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "server/admission.h"
 #include "tests/server/fake_fit.h"
 #include "tests/server/service_call.h"
 

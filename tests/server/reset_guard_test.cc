@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 
 #include "tests/server/raw_connection.h"
 #include "tests/server/secured_server.h"
@@ -10,23 +11,39 @@
 namespace capfit::server {
 namespace {
 
+constexpr char kMethod[] = "/capfit.v1.BodyApproximationService/ApproximateBody";
+
 void BeginAndReset(const RawConnection& connection, std::uint32_t first, std::uint32_t count) {
   for (std::uint32_t i = first; i < first + count; ++i) {
-    connection.SendCall(2 * i + 1, "/capfit.v1.BodyApproximationService/ApproximateBody");
+    connection.SendCall(2 * i + 1, kMethod);
     connection.SendFrame(FrameType::kResetStream, 2 * i + 1, std::string("\0\0\0\x08", 4));
   }
 }
 
-TEST(ResetGuard, CutsOffOnlyTheConnectionThatResets) {
+TEST(ResetGuard, CutsOffTheHostButForConnectionsThatAreAtWork) {
   const auto server = StartSecured({});
-  RawConnection quiet(server->port());
-  quiet.BeginHttp2();
+  RawConnection idle(server->port());
+  idle.BeginHttp2();
+  RawConnection uploads(server->port());
+  uploads.BeginHttp2();
+  uploads.SendCall(1, kMethod);
+  v1::ApproximateBodyRequest header;
+  header.mutable_header()->mutable_mesh()->mutable_arrays();
+  const std::string message = header.SerializeAsString();
+  const std::string length = {'\0', '\0', '\0', '\0', static_cast<char>(message.size())};
+  uploads.SendFrame(FrameType::kData, 1, length + message);
+  RawConnection now_and_then(server->port());
+  now_and_then.BeginHttp2();
+  BeginAndReset(now_and_then, 0, 10);
+  EXPECT_TRUE(AskInfo(*server, {}).ok());  // what came before has been seen by then
   RawConnection resets(server->port());
   resets.BeginHttp2();
   BeginAndReset(resets, 0, kMostResets + 500);
   EXPECT_TRUE(resets.EndsWithin(/*seconds=*/20));
-  EXPECT_TRUE(AskInfo(*server, {}).ok());
-  EXPECT_FALSE(quiet.EndsWithin(/*seconds=*/1));
+  EXPECT_TRUE(now_and_then.EndsWithin(/*seconds=*/20));
+  EXPECT_TRUE(idle.EndsWithin(/*seconds=*/20));
+  EXPECT_FALSE(uploads.EndsWithin(/*seconds=*/1));
+  EXPECT_TRUE(AskInfo(*server, {}).ok()) << "who comes anew is let in";
 }
 
 TEST(ResetGuard, WhoGivesUpNowAndThenIsLeftAlone) {
@@ -56,10 +73,24 @@ TEST(ResetGuard, LeavesGrpcsOwnServicesAlone) {
   EXPECT_TRUE(AskInfo(*server, {}).ok());
 }
 
-TEST(CutConnection, FindsOnlyWhatIsThere) {
-  EXPECT_FALSE(CutConnection("ipv4:192.0.2.7:4711"));
-  EXPECT_FALSE(CutConnection("unix:/run/capfit"));
-  EXPECT_FALSE(CutConnection(""));
+TEST(CutConnections, TakesThoseOfThePortThatAreToBeCut) {
+  const auto server = StartSecured({});
+  RawConnection one(server->port());
+  one.BeginHttp2();
+  ASSERT_TRUE(AskInfo(*server, {}).ok());
+  int asked = 0;
+  EXPECT_EQ(CutConnections(server->port(),
+                           [&](const std::string& peer) {
+                             ++asked;
+                             EXPECT_EQ(peer.rfind("ipv4:127.0.0.1:", 0), 0U) << peer;
+                             return false;
+                           }),
+            0);
+  EXPECT_GE(asked, 1);
+  EXPECT_EQ(CutConnections(1, [](const std::string&) { return true; }), 0);
+  EXPECT_FALSE(one.EndsWithin(/*seconds=*/1));
+  EXPECT_GE(CutConnections(server->port(), [](const std::string&) { return true; }), 1);
+  EXPECT_TRUE(one.EndsWithin(/*seconds=*/20));
 }
 
 }  // namespace

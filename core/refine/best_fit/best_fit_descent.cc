@@ -29,10 +29,10 @@ double RateAt(const BestFitOptions& options, int step) {
 }  // namespace
 
 void DescendBestFit(const OccupancyGrid& grid, const BestFitOptions& options,
-                    capsule::MirroredSet& graph) {
+                    const FitObserver& observer, capsule::MirroredSet& graph) {
   std::vector<Moments> moments(graph.spheres().size());
   Random random(options.seed);
-  for (int step = 0; step < options.steps; ++step) {
+  for (int step = 0; step < options.steps && !observer.IsCancelled(); ++step) {
     const BoundaryIntegral boundary = IntegrateBoundary(
         graph, ConesOf(graph), {options.spacing_m, random.NextUnit(), &grid, options.active});
     const double rate = RateAt(options, step) / (1.0 - std::pow(kMeanDecay, step + 1));

@@ -35,12 +35,13 @@ BestFitObjective::BestFitObjective(OccupancyGrid grid, SurfacePoints points, std
       points_(std::move(points)),
       seed_(seed) {}
 
-void BestFitObjective::Settle(Effort effort, capsule::MirroredSet& graph) const {
+void BestFitObjective::Settle(Effort effort, const FitObserver& observer,
+                              capsule::MirroredSet& graph) const {
   BestFitOptions options;
   options.seed = seed_;
   options.steps = StepsOf(effort, graph.primitive_count());
   options.first_rate_m = effort == Effort::kRough ? 0.008 : 0.003;
-  DescendBestFit(grid_, options, graph);
+  DescendBestFit(grid_, options, observer, graph);
 }
 
 double BestFitObjective::Value(const capsule::MirroredSet& graph) const {

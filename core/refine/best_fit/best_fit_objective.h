@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/refine/best_fit/best_fit_round.h"
 #include "core/refine/best_fit/far_misses.h"
 #include "core/refine/best_fit/occupancy_grid.h"
@@ -25,8 +26,8 @@ class BestFitObjective {
   // `points` are folded like the grid: new spheres are tried where they stick out furthest.
   BestFitObjective(OccupancyGrid grid, SurfacePoints points, std::uint64_t seed);
 
-  // Moves and grows all spheres.
-  void Settle(Effort effort, capsule::MirroredSet& graph) const;
+  // Moves and grows all spheres, until the observer cancels.
+  void Settle(Effort effort, const FitObserver& observer, capsule::MirroredSet& graph) const;
   // E_r, plus what is left out by far (MissPenalty).
   [[nodiscard]] double Value(const capsule::MirroredSet& graph) const;
   // The objective must outlive the round.

@@ -73,7 +73,8 @@ double BestFitRound::Try(Trial trial, EditedGraph& edited) const {
   LocalGraph local = LocalGraphIn(edited.graph, widest);
   std::vector<char> local_active;
   for (const int v : local.nodes) local_active.push_back(active[U(v)]);
-  DescendBestFit(grid_, OptionsOf(glance, local_active), local.graph);
+  // Who tries many looks between them: one is over in less than a millisecond.
+  DescendBestFit(grid_, OptionsOf(glance, local_active), NullObserver(), local.graph);
   for (std::size_t v = 0; v < local.nodes.size(); ++v) {
     geometry::Sphere& node = edited.graph.sphere(local.nodes[v]);
     node.center_m = local.graph.spheres()[v].center_m;

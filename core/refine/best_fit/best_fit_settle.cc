@@ -19,7 +19,8 @@ OccupancyGrid BestFitGrid(const body::Body& body, const body::PartSelection& par
 }
 
 capsule::PrimitiveSet SettleBestFit(const OccupancyGrid& grid, double first_rate_m,
-                                    std::uint64_t seed, capsule::PrimitiveSet set) {
+                                    std::uint64_t seed, const FitObserver& observer,
+                                    capsule::PrimitiveSet set) {
   if (grid.volume_m3 <= 0.0 || set.spheres.empty()) return set;
   const bool is_mirrored = grid.folded && capsule::ImagesOf(set).is_whole;
   capsule::MirroredSet graph(std::move(set), is_mirrored);
@@ -27,7 +28,7 @@ capsule::PrimitiveSet SettleBestFit(const OccupancyGrid& grid, double first_rate
   options.steps = kLeastSteps + graph.primitive_count();
   options.first_rate_m = first_rate_m;
   options.seed = seed;
-  DescendBestFit(grid, options, graph);
+  DescendBestFit(grid, options, observer, graph);
   RemoveSwallowed(graph);
   return graph.set();
 }

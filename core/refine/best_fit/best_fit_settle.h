@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/base/fit_observer.h"
 #include "core/body/body.h"
 #include "core/capsule/primitive_set.h"
 #include "core/refine/best_fit/occupancy_grid.h"
@@ -17,9 +18,11 @@ namespace capfit::refine {
 // for capsules swallowed by an end and lone spheres inside others, which go. Spheres keep their
 // origins (indices of mirrored spheres follow). A set whose spheres all name their images on a
 // symmetric body gets exactly symmetric. `first_rate_m`: how far a step moves at first; 8 mm for a
-// start made for something else, 3 mm after small changes. About 40 ms at 64 primitives.
+// start made for something else, 3 mm after small changes. About 40 ms at 64 primitives, less when
+// the observer cancels.
 [[nodiscard]] capsule::PrimitiveSet SettleBestFit(const OccupancyGrid& grid, double first_rate_m,
-                                                  std::uint64_t seed, capsule::PrimitiveSet set);
+                                                  std::uint64_t seed, const FitObserver& observer,
+                                                  capsule::PrimitiveSet set);
 
 }  // namespace capfit::refine
 

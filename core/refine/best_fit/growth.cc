@@ -237,7 +237,7 @@ bool GrowOnce(const BestFitObjective& objective, const capsule::Budget& budget,
                                         std::max(options.batch_share * budget.Unused(graph.count()),
                                                  kLeastBatchShare * graph.primitive_count()));
   if (grown.primitive_count() == graph.primitive_count()) return false;
-  objective.Settle(Effort::kTouch, grown);
+  objective.Settle(Effort::kTouch, meter.observer(), grown);
   if (options.piece_cost > 0.0) MergeSwallowed(grown);
   RemoveSwallowed(grown);
   const bool grew = grown.primitive_count() > graph.primitive_count();
@@ -301,7 +301,8 @@ void Fill(const BestFitObjective& objective, const capsule::Budget& budget,
 void Exchange(const BestFitObjective& objective, const capsule::Budget& budget,
               const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
               capsule::MirroredSet& graph) {
-  objective.Settle(Effort::kTighten, graph);
+  if (meter.IsCancelled()) return;
+  objective.Settle(Effort::kTighten, meter.observer(), graph);
   double value = objective.Value(graph);
   std::vector<Candidate> removals;
   std::size_t failures = 0;
@@ -312,7 +313,7 @@ void Exchange(const BestFitObjective& objective, const capsule::Budget& budget,
     if (failures >= removals.size()) return;
     const int most = std::max(2, static_cast<int>(kExchangeShare * graph.primitive_count()));
     capsule::MirroredSet other = TakeAway(removals, failures, most, options, graph);
-    objective.Settle(Effort::kTouch, other);
+    objective.Settle(Effort::kTouch, meter.observer(), other);
     refill.until = begin + (i + 1.0) / options.exchanges * (options.until - begin);
     Fill(objective, budget, refill, pool, meter, other);
     const double other_value = objective.Value(other);
@@ -334,12 +335,13 @@ double OutlineOfHalf(const capsule::MirroredSet& set, int half, double /*whole*/
 
 void SpendByCutting(const BestFitObjective& objective, const capsule::Budget& budget,
                     WorkMeter& meter, capsule::MirroredSet& graph) {
+  if (meter.IsCancelled()) return;
   double value = objective.Value(graph);
   for (int round = 0; round < kCuttingRounds && !meter.IsCancelled(); ++round) {
     capsule::MirroredSet cut = graph;
     capsule::CutWorthiest(budget, capsule::OutlineAreas(cut), OutlineOfHalf, cut);
     if (cut.primitive_count() == graph.primitive_count()) return;
-    objective.Settle(Effort::kFinish, cut);
+    objective.Settle(Effort::kFinish, meter.observer(), cut);
     MergeSwallowed(cut);
     RemoveSwallowed(cut);
     const double cut_value = objective.Value(cut);
@@ -357,7 +359,7 @@ void Spare(const BestFitObjective& objective, const capsule::Budget& budget,
     const std::vector<Candidate> removals = RankRemovals(objective, options, pool, meter, graph);
     if (removals.empty()) return;
     graph = TakeAway(removals, 0, excess, options, graph);
-    objective.Settle(Effort::kTouch, graph);
+    objective.Settle(Effort::kTouch, meter.observer(), graph);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/work_meter.h"
 #include "core/refine/enclosing/enclosing_moves.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/refine/internal.h"
@@ -64,17 +65,15 @@ constexpr std::uint64_t kTrialSeeds = 1000;
 
 class Search {
  public:
-  Search(const EnclosingTask& task, const capsule::Budget& budget, double until,
-         const ThreadPool& pool, WorkMeter& meter)
+  Search(const EnclosingTask& task, const capsule::Budget& budget, const ThreadPool& pool,
+         FitObserver& observer)
       : task_(task),
         budget_(budget),
-        from_(meter.until()),
-        until_(until),
         primitives_(budget.MostPrimitives()),
         usual_(budget.UsualPrimitives()),
         variants_(usual_ < kManyPrimitives ? kVariantsOfFew : kVariantsOfMany),
         pool_(pool),
-        meter_(meter) {}
+        meter_(observer) {}
 
   std::vector<capsule::MirroredSet> Run(const std::vector<capsule::MirroredSet>& starts) {
     Attempt best = BestStart(starts);
@@ -94,12 +93,6 @@ class Search {
   }
 
  private:
-  // `part`: of the search, that will have been done with the work.
-  void Expect(double part, std::int64_t work) {
-    part_ = part;
-    meter_.Expect(from_ + part * (until_ - from_), work);
-  }
-
   // A graph whose shape is found, and what it is worth with its points taken in.
   struct Attempt {
     capsule::MirroredSet graph;
@@ -118,7 +111,7 @@ class Search {
     for (const capsule::MirroredSet& start : starts) {
       work += (kStartSteps + kTakeInSteps) * start.primitive_count();
     }
-    Expect(kStarted, work);
+    meter_.Expect(kStarted, work);
     pool_.ForEach(starts.size(), [&](std::size_t i) {
       capsule::MirroredSet graph = starts[i];
       task_.FindShape(kStartSteps, 1.0, /*seed=*/1, alone_, meter_, graph);
@@ -163,8 +156,8 @@ class Search {
     attempts.resize(std::min(attempts.size(), static_cast<std::size_t>(most)));
     std::vector<Attempt> grown(attempts.size() * variants_);
     const double size = (1.0 + kGrowthShare) * attempts.front().graph.primitive_count();
-    Expect(kStarted + (kGrown - kStarted) * std::min(1.0, size / primitives_),
-           WorkOf(kStepsOfGrowth * grown.size(), attempts.front().graph));
+    meter_.Expect(kStarted + (kGrown - kStarted) * std::min(1.0, size / primitives_),
+                  WorkOf(kStepsOfGrowth * grown.size(), attempts.front().graph));
     pool_.ForEach(grown.size(), [&](std::size_t i) {
       capsule::MirroredSet graph = attempts[i / variants_].graph;
       if (!budget_.Allows(graph.count())) return;
@@ -273,7 +266,7 @@ class Search {
   // taken.
   bool TryAll(const std::vector<Edit>& edits, double part, Attempt& best) {
     std::vector<Attempt> attempts(edits.size());
-    Expect(part, WorkOf((kTrialSteps + kTakeInSteps) * edits.size(), best.graph));
+    meter_.Expect(part, WorkOf((kTrialSteps + kTakeInSteps) * edits.size(), best.graph));
     pool_.ForEach(edits.size(),
                   [&](std::size_t i) { attempts[i] = Try(best.graph, edits[i], seed_ + i); });
     seed_ += edits.size();
@@ -306,7 +299,7 @@ class Search {
   void Renew(double part, Attempt& best) {
     if (meter_.IsCancelled()) return;
     std::vector<Attempt> attempts(kRenewals.size());
-    Expect(part, WorkOf(kStepsOfGrowth * attempts.size(), best.graph));
+    meter_.Expect(part, WorkOf(kStepsOfGrowth * attempts.size(), best.graph));
     pool_.ForEach(attempts.size(), [&](std::size_t i) {
       attempts[i] = Renewed(best.graph, kRenewals[i], seed_ + i);
     });
@@ -340,21 +333,18 @@ class Search {
       task_.Loosen(kLooseSteps, seed_, pool_, meter_, loose);
       std::vector<Edit> ties = RankedAdditions(task_, loose, pool_);
       ties.resize(std::min(ties.size(), kTies));
-      if (!TryAll(ties, part_ + kTieRound * (1.0 - part_), best)) return;
+      if (!TryAll(ties, meter_.until() + kTieRound * (1.0 - meter_.until()), best)) return;
     }
   }
 
   const EnclosingTask& task_;
   const capsule::Budget& budget_;
-  double from_;  // of the meter, when the search began
-  double until_;
-  double part_ = 0.0;  // of the search, where what is under way ends
-  int primitives_;     // at most
-  int usual_;          // about so many where only spheres or only capsules are limited
+  int primitives_;  // at most
+  int usual_;       // about so many where only spheres or only capsules are limited
   std::size_t variants_;
   const ThreadPool& pool_;
   const ThreadPool alone_{1};  // inside what runs in parallel already
-  WorkMeter& meter_;
+  WorkMeter meter_;
   std::uint64_t seed_ = kTrialSeeds;
   std::vector<Attempt> leaders_;
 };
@@ -363,9 +353,9 @@ class Search {
 
 std::vector<capsule::MirroredSet> FindEnclosingGraphs(
     const EnclosingTask& task, const capsule::Budget& budget,
-    const std::vector<capsule::MirroredSet>& starts, double until, const ThreadPool& pool,
-    WorkMeter& meter) {
-  return Search(task, budget, until, pool, meter).Run(starts);
+    const std::vector<capsule::MirroredSet>& starts, const ThreadPool& pool,
+    FitObserver& observer) {
+  return Search(task, budget, pool, observer).Run(starts);
 }
 
 }  // namespace capfit::refine

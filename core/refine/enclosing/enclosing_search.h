@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
-#include "core/base/work_meter.h"
 #include "core/capsule/mirrored_set.h"
 #include "core/refine/best_fit/growth.h"
 #include "core/refine/enclosing/enclosing_task.h"
@@ -20,14 +20,13 @@ namespace capfit::refine {
 // of a few such trials is kept if it is better; of many, up to a quarter is given up and spent anew
 // at once. What is left of the budget then, too little for a cut, is tried on ties and leaves.
 //
-// `starts` must not be empty. `until`: of the meter, at the search's end. Returns the best few
+// `starts` must not be empty. Tells the observer the fraction of its own work. Returns the best few
 // graphs, best first, as far as the task's thinned points tell; they fit the budget unless
-// cancelled. Trials run in parallel; same bits for any pool. About 0.1 s on two cores at 64
-// primitives, 0.25 s at 128, 1 s at 250.
+// cancelled. Trials run in parallel, and searches may run side by side; same bits for any pool.
+// About 0.1 s on two cores at 64 primitives, 0.25 s at 128, 1 s at 250.
 [[nodiscard]] std::vector<capsule::MirroredSet> FindEnclosingGraphs(
     const EnclosingTask& task, const capsule::Budget& budget,
-    const std::vector<capsule::MirroredSet>& starts, double until, const ThreadPool& pool,
-    WorkMeter& meter);
+    const std::vector<capsule::MirroredSet>& starts, const ThreadPool& pool, FitObserver& observer);
 
 }  // namespace capfit::refine
 

@@ -41,6 +41,33 @@ TEST(SmoothSurfaceTest, MoreLevelsSampleTheSameSurface) {
   }
 }
 
+// Each step keeps the sharp edges sharp: they are the same after one and after four.
+TEST(SmoothSurfaceTest, MoreLevelsSampleTheSameSurfaceWithCreases) {
+  QuadMesh cube = Cube();
+  cube.creases = {{4, 5}, {5, 7}, {7, 6}, {6, 4}};  // around the face z = 1
+  const SmoothSurface coarse(cube, 1);
+  const SmoothSurface fine(cube, 4);
+  for (std::size_t face = 0; face < 6; ++face) {
+    for (int i = 0; i <= 2; ++i) {
+      for (int j = 0; j <= 2; ++j) {
+        EXPECT_LT((coarse.GridPoint(face, i, j) - fine.GridPoint(face, 8 * i, 8 * j)).norm(),
+                  1e-12);
+      }
+    }
+  }
+}
+
+TEST(SmoothSurfaceTest, CreaseCornerGoesToTheLimitOfItsCurve) {
+  QuadMesh cube = Cube();
+  cube.creases = {{4, 5}, {5, 7}, {7, 6}, {6, 4}};
+  // (4 p + both neighbours) / 6 for the corner (-1, -1, 1), whose neighbours are (1, -1, 1) and
+  // (-1, 1, 1).
+  const Vector3d limit(-4.0 / 6.0, -4.0 / 6.0, 1.0);
+  for (const int levels : {0, 1, 3}) {
+    EXPECT_LT((SmoothSurface(cube, levels).GridPoint(1, 0, 0) - limit).norm(), 1e-12) << levels;
+  }
+}
+
 TEST(SmoothSurfaceTest, GridFollowsTheFacesDirections) {
   const QuadMesh cube = Cube();
   const SmoothSurface surface(cube, 3);

@@ -140,6 +140,21 @@ formats::PolygonSoup Shuffled(const formats::PolygonSoup& soup, std::uint64_t se
   return With(soup.positions, faces);
 }
 
+Surface SurfaceOf(std::vector<Triangle> triangles, std::size_t vertices) {
+  EdgeMates mates = FindEdgeMates(triangles, vertices);
+  return {std::move(triangles), std::move(mates.mate)};
+}
+
+Surface WithHoles(const formats::PolygonSoup& soup, double chance, std::uint64_t seed) {
+  std::vector<Triangle> triangles;
+  Random random(seed);
+  const std::vector<std::uint32_t>& v = soup.face_vertices;
+  for (std::size_t i = 0; i < v.size(); i += 3) {
+    if (random.NextUnit() >= chance) triangles.push_back({v[i], v[i + 1], v[i + 2]});
+  }
+  return SurfaceOf(std::move(triangles), soup.positions.size());
+}
+
 SurfaceKey KeyOf(const BodyMesh& mesh, double grid) {
   SurfaceKey key;
   for (const Triangle& t : mesh.triangles()) {

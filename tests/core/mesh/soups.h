@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mesh/prepare_mesh.h"
+#include "core/mesh/surface.h"
 
 namespace capfit::mesh {
 
@@ -36,6 +37,13 @@ namespace capfit::mesh {
                                                   std::uint64_t seed);
 // The faces in another order.
 [[nodiscard]] formats::PolygonSoup Shuffled(const formats::PolygonSoup& soup, std::uint64_t seed);
+
+// Triangles that run their common edges in opposite directions, with their neighbours.
+[[nodiscard]] Surface SurfaceOf(std::vector<Triangle> triangles, std::size_t vertices);
+
+// The triangles of `soup`, each missing with the given chance.
+[[nodiscard]] Surface WithHoles(const formats::PolygonSoup& soup, double chance,
+                                std::uint64_t seed);
 
 // The corners of all triangles as sorted, rotated coordinates: equal for equal surfaces whatever
 // the order of vertices and faces. Coordinates are rounded to `grid`.

@@ -208,20 +208,34 @@ TEST(RefineSetTest, BestFitUsesLargerBudgetsToo) {
   EXPECT_LT(ErrorOf(CutMannequin(), set), 0.06);
 }
 
+void ExpectSameBitsForAnyNumberOfThreads(const body::Body& body, const RefineOptions& options) {
+  const capsule::PrimitiveSet one = Refine(body, options, 1);
+  for (const int threads : {2, 5}) {
+    const capsule::PrimitiveSet other = Refine(body, options, threads);
+    ASSERT_EQ(one.spheres.size(), other.spheres.size());
+    for (std::size_t i = 0; i < one.spheres.size(); ++i) {
+      EXPECT_EQ(one.spheres[i].center_m, other.spheres[i].center_m);
+      EXPECT_EQ(one.spheres[i].radius_m, other.spheres[i].radius_m);
+    }
+    EXPECT_EQ(one.capsules, other.capsules);
+  }
+}
+
 TEST(RefineSetTest, SameBitsForAnyNumberOfThreads) {
   for (const bool enclose : {true, false}) {
-    const RefineOptions options = WithPrimitives(50, enclose);
-    const capsule::PrimitiveSet one = Refine(CutMannequin(), options, 1);
-    for (const int threads : {2, 5}) {
-      const capsule::PrimitiveSet other = Refine(CutMannequin(), options, threads);
-      ASSERT_EQ(one.spheres.size(), other.spheres.size());
-      for (std::size_t i = 0; i < one.spheres.size(); ++i) {
-        EXPECT_EQ(one.spheres[i].center_m, other.spheres[i].center_m);
-        EXPECT_EQ(one.spheres[i].radius_m, other.spheres[i].radius_m);
-      }
-      EXPECT_EQ(one.capsules, other.capsules);
-    }
+    ExpectSameBitsForAnyNumberOfThreads(CutMannequin(), WithPrimitives(50, enclose));
   }
+}
+
+// A whole body and a budget that a standard layout fills: two searches side by side.
+TEST(RefineSetTest, SameBitsForAnyNumberOfThreadsOfTwoSearches) {
+  const body::Body whole = FindMannequin(true, 5000);
+  const RefineOptions options = WithPrimitives(64, true);
+  ExpectSameBitsForAnyNumberOfThreads(whole, options);
+  Listener listener;
+  (void)RefineSet(whole, tighten::TargetOf(whole, options.parts), options, ThreadPool(2), listener);
+  EXPECT_TRUE(std::is_sorted(listener.fractions.begin(), listener.fractions.end()));
+  EXPECT_EQ(listener.fractions.back(), 1.0);
 }
 
 TEST(RefineSetTest, ToleranceLetsVerticesOutByNoMoreThanThat) {

@@ -22,7 +22,7 @@ using body::Part;
 
 FeaturePolygons Extract(const body::Body& body, const SectionOptions& options = {},
                         int threads = 1) {
-  return ExtractFeaturePolygons(body, options, ThreadPool(threads));
+  return ExtractFeaturePolygons(body, options, ThreadPool(threads), NullObserver());
 }
 
 const FeaturePolygon& Named(const FeaturePolygons& polygons, const std::string& name) {

@@ -96,7 +96,7 @@ class BestFitLayoutSearch {
       options.steps = steps;
       options.first_rate_m = rate_m;
       options.seed = random_.NextBelow(1'000'000);
-      DescendBestFit(s.grid, options, graphs[k]);
+      DescendBestFit(s.grid, options, NullObserver(), graphs[k]);
     }
   }
 

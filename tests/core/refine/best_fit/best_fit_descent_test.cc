@@ -35,7 +35,7 @@ TEST(BestFitDescentTest, FindsTheBallFromBesideIt) {
     capsule::MirroredSet graph = Off(is_mirrored);
     BestFitOptions options;
     options.steps = 150;
-    DescendBestFit(Grid(), options, graph);
+    DescendBestFit(Grid(), options, NullObserver(), graph);
     EXPECT_LT((graph.sphere(0).center_m - kBodyCenter).norm(), 0.003);
     EXPECT_NEAR(graph.sphere(0).radius_m, kBodyRadius, 0.003);
     EXPECT_LT(GridError(Grid(), graph), 0.03);
@@ -45,7 +45,7 @@ TEST(BestFitDescentTest, FindsTheBallFromBesideIt) {
 TEST(BestFitDescentTest, APairStaysExactAndTheErrorFalls) {
   capsule::MirroredSet graph = Pair();
   const double before = GridError(Grid(), graph);
-  DescendBestFit(Grid(), {}, graph);
+  DescendBestFit(Grid(), {}, NullObserver(), graph);
   EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
   EXPECT_LT(GridError(Grid(), graph), 0.5 * before);
 }
@@ -58,7 +58,7 @@ TEST(BestFitDescentTest, OnlyActiveSpheresMove) {
   const capsule::MirroredSet before = graph;
   BestFitOptions options;
   options.active = &active;
-  DescendBestFit(Grid(), options, graph);
+  DescendBestFit(Grid(), options, NullObserver(), graph);
   EXPECT_EQ(graph.sphere(still).center_m, before.sphere(still).center_m);
   EXPECT_EQ(graph.sphere(still).radius_m, before.sphere(still).radius_m);
   EXPECT_NE(graph.sphere(0).radius_m, before.sphere(0).radius_m);
@@ -70,7 +70,7 @@ TEST(BestFitDescentTest, SameSeedSameBits) {
     graphs.push_back(Pair());
     BestFitOptions options;
     options.seed = seed;
-    DescendBestFit(Grid(), options, graphs.back());
+    DescendBestFit(Grid(), options, NullObserver(), graphs.back());
   }
   EXPECT_EQ(graphs[0].sphere(0).center_m, graphs[1].sphere(0).center_m);
   EXPECT_NE(graphs[0].sphere(0).center_m, graphs[2].sphere(0).center_m);

@@ -22,7 +22,7 @@ capsule::PrimitiveSet Set(bool with_swallowed) {
 TEST(SettleBestFitTest, KeepsOriginsAndSymmetryAndLowersTheError) {
   const OccupancyGrid grid = BestFitGrid(BallBody(kSettleCenter, 0.2), AllParts());
   const capsule::PrimitiveSet before = Set(false);
-  const capsule::PrimitiveSet after = SettleBestFit(grid, 0.008, 1, before);
+  const capsule::PrimitiveSet after = SettleBestFit(grid, 0.008, 1, NullObserver(), before);
   ASSERT_EQ(after.spheres.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(after.origins[i].part, before.origins[i].part);
@@ -35,14 +35,14 @@ TEST(SettleBestFitTest, KeepsOriginsAndSymmetryAndLowersTheError) {
 
 TEST(SettleBestFitTest, WhatOthersSwallowGoes) {
   const OccupancyGrid grid = BestFitGrid(BallBody(kSettleCenter, 0.2), AllParts());
-  const capsule::PrimitiveSet after = SettleBestFit(grid, 0.003, 1, Set(true));
+  const capsule::PrimitiveSet after = SettleBestFit(grid, 0.003, 1, NullObserver(), Set(true));
   EXPECT_EQ(after.spheres.size(), 2U);
   EXPECT_EQ(after.origins.size(), 2U);
 }
 
 TEST(SettleBestFitTest, NothingComesOfNothing) {
   const OccupancyGrid grid = BestFitGrid(BallBody(kSettleCenter, 0.2), AllParts());
-  EXPECT_TRUE(SettleBestFit(grid, 0.008, 1, {}).spheres.empty());
+  EXPECT_TRUE(SettleBestFit(grid, 0.008, 1, NullObserver(), {}).spheres.empty());
 }
 
 }  // namespace

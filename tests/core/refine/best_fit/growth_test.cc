@@ -77,13 +77,13 @@ TEST(BestFitObjectiveTest, SettlingLowersTheValueAndWorstPointsAreOutsideAndApar
     for (std::size_t k = 0; k < i; ++k) EXPECT_GE((worst[i] - worst[k]).norm(), 0.04);
   }
   const double before = Objective().Value(graph);
-  Objective().Settle(Effort::kRough, graph);
+  Objective().Settle(Effort::kRough, NullObserver(), graph);
   EXPECT_LT(Objective().Value(graph), 0.2 * before);
 }
 
 TEST(GrowthTest, KeepsToTheBudgetStaysMirroredAndDoesNotLose) {
   capsule::MirroredSet settled = Small();
-  Objective().Settle(Effort::kTighten, settled);
+  Objective().Settle(Effort::kTighten, NullObserver(), settled);
   for (const int primitives : {5, 9}) {
     const capsule::MirroredSet graph = Grown(primitives, 1);
     EXPECT_LE(graph.primitive_count(), primitives);
@@ -125,7 +125,7 @@ TEST(GrowthTest, CuttingIsKeptOnlyWhereItPays) {
   NullObserver observer;
   WorkMeter meter(observer);
   capsule::MirroredSet graph = Small();
-  Objective().Settle(Effort::kFinish, graph);
+  Objective().Settle(Effort::kFinish, NullObserver(), graph);
   const double before = Objective().Value(graph);
   SpendByCutting(Objective(), {7, capsule::kNoLimit, capsule::kNoLimit}, meter, graph);
   EXPECT_LE(Objective().Value(graph), before);

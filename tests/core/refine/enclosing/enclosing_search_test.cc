@@ -14,8 +14,7 @@ std::vector<capsule::MirroredSet> Find(const capsule::Budget& budget,
                                        int threads) {
   const ThreadPool pool(threads);
   NullObserver observer;
-  WorkMeter meter(observer);
-  return FindEnclosingGraphs(TubeTask(), budget, starts, /*until=*/1.0, pool, meter);
+  return FindEnclosingGraphs(TubeTask(), budget, starts, pool, observer);
 }
 
 TEST(EnclosingSearchTest, KeepsToEveryLimit) {
