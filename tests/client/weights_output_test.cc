@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 
 #include "tests/server/fake_fit.h"
+#include "tests/support/scratch.h"
 
 namespace capfit::client {
 namespace {
@@ -16,9 +16,8 @@ TEST(WeightsOutput, StandBesideTheResult) {
 }
 
 TEST(WeightsOutput, ComeBackFromTheResultsNameOrTheirOwn) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "weights_output_test";
-  std::filesystem::create_directories(folder);
-  const std::string result = (folder / "result.json").string();
+  const test_support::Scratch scratch;
+  const std::string result = scratch.Path("result.json");
   const skinning::DenseWeights weights = *server::HandMadeResult(9).weights;
   ASSERT_TRUE(WriteWeights(weights, result).ok());
   for (const std::string& name : {result, WeightsPath(result)}) {
@@ -27,9 +26,7 @@ TEST(WeightsOutput, ComeBackFromTheResultsNameOrTheirOwn) {
     EXPECT_EQ(back->weights, weights.weights);
     EXPECT_EQ(back->vertex_count, 9U);
   }
-  EXPECT_EQ(ReadWeights((folder / "other.json").string()).status().code(),
-            absl::StatusCode::kNotFound);
-  std::filesystem::remove_all(folder);
+  EXPECT_EQ(ReadWeights(scratch.Path("other.json")).status().code(), absl::StatusCode::kNotFound);
 }
 
 TEST(WeightsOutput, AFolderThatIsNotThereIsAFileProblem) {

@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -44,20 +43,6 @@ int WaitFor(pid_t pid) {
 }
 
 }  // namespace
-
-Scratch::Scratch() {
-  static std::atomic<int> number{0};
-  folder_ = std::filesystem::path(testing::TempDir()) /
-            ("capfit_e2e_" + std::to_string(getpid()) + "_" + std::to_string(number++));
-  std::filesystem::create_directories(folder_);
-}
-
-Scratch::~Scratch() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
-std::string Scratch::Path(const std::string& name) const { return (folder_ / name).string(); }
 
 Outcome RunProgram(const std::string& program, const std::vector<std::string>& arguments,
                    const std::string& in_path) {

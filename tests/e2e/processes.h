@@ -4,24 +4,14 @@
 
 #include <sys/types.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "tests/support/scratch.h"
+
 namespace capfit::e2e {
 
-// A folder of its own for one test, removed with it.
-class Scratch {
- public:
-  Scratch();
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  [[nodiscard]] std::string Path(const std::string& name) const;
-
- private:
-  std::filesystem::path folder_;
-};
+using test_support::Scratch;
 
 // How a program ended, and what it said.
 struct Outcome {

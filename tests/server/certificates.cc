@@ -5,11 +5,12 @@
 #include <openssl/evp.h>
 #include <openssl/pem.h>
 #include <openssl/x509v3.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
 #include <memory>
+
+#include "tests/support/scratch.h"
 
 namespace capfit::server {
 namespace {
@@ -83,7 +84,8 @@ CertificateAndKey MakeCertificate(const CertificateAndKey& authority, long valid
 
 // Renamed into place, so that nobody reads half a file.
 std::string WriteTestFile(const std::string& name, const std::string& text) {
-  const std::string path = testing::TempDir() + "capfit_" + std::to_string(getpid()) + "_" + name;
+  static const test_support::Scratch scratch;
+  const std::string path = scratch.Path(name);
   std::ofstream(path + ".tmp", std::ios::binary) << text;
   EXPECT_EQ(std::rename((path + ".tmp").c_str(), path.c_str()), 0);
   return path;

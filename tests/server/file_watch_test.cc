@@ -1,13 +1,14 @@
 #include "server/file_watch.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
+
+#include "tests/support/scratch.h"
 
 namespace capfit::server {
 namespace {
@@ -17,14 +18,14 @@ class FileWatchTest : public testing::Test {
   void Write(const std::string& name, const std::string& text) const {
     std::ofstream(Path(name)) << text;
   }
-  std::string Path(const std::string& name) const {
-    return testing::TempDir() + "capfit_watch_" + std::to_string(getpid()) + "_" + name;
-  }
+  [[nodiscard]] std::string Path(const std::string& name) const { return scratch_.Path(name); }
   // It looks once a second at most.
   static bool SaysSo(FileWatch& watch) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1050));
     return watch.HasChanged();
   }
+
+  const test_support::Scratch scratch_;
 };
 
 TEST_F(FileWatchTest, SeesEachChangeOnce) {

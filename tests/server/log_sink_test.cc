@@ -14,6 +14,7 @@
 
 #include "tests/server/fake_fit.h"
 #include "tests/server/service_call.h"
+#include "tests/support/scratch.h"
 
 namespace capfit::server {
 namespace {
@@ -48,7 +49,8 @@ std::string TextOf(const std::string& path) {
 }
 
 TEST(LogSink, CountsLinesThatCannotBeWrittenAndSaysSoLater) {
-  const std::string path = testing::TempDir() + "capfit_log_sink_" + std::to_string(getpid());
+  const test_support::Scratch scratch;
+  const std::string path = scratch.Path("log");
   const auto sink = std::make_shared<LogSink>();
   spdlog::logger logger("test", sink);
   {
@@ -73,7 +75,6 @@ TEST(LogSink, CountsLinesThatCannotBeWrittenAndSaysSoLater) {
   EXPECT_LT(text.find("3 lines"), text.find("at last"));
   EXPECT_EQ(text.find("3 lines"), text.rfind("3 lines")) << "told once";
   EXPECT_EQ(sink->lost_lines(), 3);
-  std::remove(path.c_str());
 }
 
 TEST(LogSink, IsAskedThroughTheDefaultLogger) {

@@ -39,10 +39,10 @@ bool RedisProcess::IsInstalled() { return access(kProgram, X_OK) == 0; }
 RedisProcess::RedisProcess(const std::vector<std::string>& flags, int port,
                            const std::string& password) {
   place_ = {"127.0.0.1", port == 0 ? FreePort() : port, password};
-  std::vector<std::string> words = {kProgram, "--port",          std::to_string(place_.port),
-                                    "--bind", "127.0.0.1",       "--save",
-                                    "",       "--appendonly",    "no",
-                                    "--dir",  testing::TempDir()};
+  std::vector<std::string> words = {kProgram, "--port",         std::to_string(place_.port),
+                                    "--bind", "127.0.0.1",      "--save",
+                                    "",       "--appendonly",   "no",
+                                    "--dir",  scratch_.folder()};
   words.insert(words.end(), flags.begin(), flags.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

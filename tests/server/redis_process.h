@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/redis_connection.h"
+#include "tests/support/scratch.h"
 
 namespace capfit::server {
 
@@ -37,6 +38,7 @@ class RedisProcess {
   [[nodiscard]] std::string OnlyKey() const { return Ask({"RANDOMKEY"}); }
 
  private:
+  const test_support::Scratch scratch_;
   RedisPlace place_;
   pid_t pid_ = -1;
 };

@@ -2,12 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include "tests/support/scratch.h"
 
 namespace capfit::server {
 namespace {
@@ -66,7 +67,8 @@ TEST(ServerFlags, AreTaken) {
 }
 
 std::string FileOf(const std::string& text) {
-  const std::string path = testing::TempDir() + "capfit_flags_" + std::to_string(getpid());
+  static const test_support::Scratch scratch;
+  const std::string path = scratch.Path("flags");
   std::ofstream(path) << text;
   return path;
 }

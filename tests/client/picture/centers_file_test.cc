@@ -2,26 +2,22 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "client/picture/file_bytes.h"
 #include "core/base/status.h"
+#include "tests/support/scratch.h"
 
 namespace capfit::client {
 namespace {
 
 class CentersFileTest : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string Path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::string Path(const std::string& name) const { return scratch_.Path(name); }
   [[nodiscard]] absl::Status Refused(const std::string& text) const {
     EXPECT_TRUE(WriteFileBytes(Path("c.json"), text).ok());
     return ReadCenters(Path("c.json")).status();
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / "centers_file_test";
+  const test_support::Scratch scratch_;
 };
 
 TEST_F(CentersFileTest, BothFormsReadTheSame) {

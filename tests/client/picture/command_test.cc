@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "client/picture/mannequin_command.h"
 #include "client/picture/render_command.h"
 #include "core/formats/read_mesh.h"
+#include "tests/support/scratch.h"
 
 namespace capfit::client {
 namespace {
@@ -23,14 +23,7 @@ using testing::StartsWith;
 
 class CommandTest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string Path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::string Path(const std::string& name) const { return scratch_.Path(name); }
 
   // The exit code of the subcommand; CLI11's own errors count as 100 and more.
   static int Run(std::vector<std::string> words) {
@@ -59,7 +52,7 @@ class CommandTest : public testing::Test {
                     .ok());
   }
 
-  std::filesystem::path folder_;
+  const test_support::Scratch scratch_;
 };
 
 TEST_F(CommandTest, ObjAndPlyHoldTheSameMannequin) {

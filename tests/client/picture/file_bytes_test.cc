@@ -6,17 +6,16 @@
 #include <iostream>
 #include <sstream>
 
+#include "tests/support/scratch.h"
+
 namespace capfit::client {
 namespace {
 
 class FileBytesTest : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string Path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::string Path(const std::string& name) const { return scratch_.Path(name); }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / "file_bytes_test";
+  const test_support::Scratch scratch_;
 };
 
 TEST_F(FileBytesTest, AMinusIsStandardInputOnce) {
@@ -45,7 +44,7 @@ TEST_F(FileBytesTest, CheckingLeavesNothingBehindAndNothingEmpty) {
 }
 
 TEST_F(FileBytesTest, WhatCannotBeWrittenIsNamed) {
-  for (const std::string& path : {Path("no/such/folder/r.json"), folder_.string()}) {
+  for (const std::string& path : {Path("no/such/folder/r.json"), scratch_.folder()}) {
     for (const absl::Status& status : {CheckWritable(path), WriteFileBytes(path, "x")}) {
       EXPECT_EQ(status.code(), absl::StatusCode::kNotFound) << path;
       EXPECT_NE(status.message().find("cannot write " + path), std::string::npos) << status;

@@ -3,23 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "client/picture/file_bytes.h"
 #include "core/base/status.h"
+#include "tests/support/scratch.h"
 
 namespace capfit::client {
 namespace {
 
 class GapsFileTest : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string Path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::string Path(const std::string& name) const { return scratch_.Path(name); }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / "gaps_file_test";
+  const test_support::Scratch scratch_;
 };
 
 TEST_F(GapsFileTest, ComesBack) {

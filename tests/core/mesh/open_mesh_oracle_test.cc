@@ -11,6 +11,7 @@
 
 #include "core/formats/read_mesh.h"
 #include "tests/support/bodies.h"
+#include "tests/support/scratch.h"
 
 namespace capfit::mesh {
 namespace {
@@ -41,16 +42,15 @@ void ExpectSameSurface(const std::filesystem::path& path) {
 }
 
 TEST(OpenMeshOracle, ReadsAHandMadePyramidAlike) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "capfit_open_mesh_oracle";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "pyramid.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 1.25\n"
-                                           "f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
-  std::ofstream(folder / "pyramid.off") << "OFF\n5 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.5 1.25\n"
-                                           "4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n";
-  ExpectSameSurface(folder / "pyramid.obj");
-  ExpectSameSurface(folder / "pyramid.off");
-  std::filesystem::remove_all(folder);
+  const test_support::Scratch scratch;
+  std::ofstream(scratch.Path("pyramid.obj"))
+      << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 1.25\n"
+         "f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+  std::ofstream(scratch.Path("pyramid.off"))
+      << "OFF\n5 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.5 1.25\n"
+         "4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n";
+  ExpectSameSurface(scratch.Path("pyramid.obj"));
+  ExpectSameSurface(scratch.Path("pyramid.off"));
 }
 
 TEST(OpenMeshOracle, ReadsRealBodiesAlike) {
