@@ -48,8 +48,10 @@ missing=()
 for package in "${wanted[@]}"; do
   grep -qxF "$package" <<<"$installed" || missing+=("$package")
 done
-# A Node.js with npm from another source serves as well as Debian's package.
-command -v npm >/dev/null 2>&1 && missing=("${missing[@]/#npm/}")
+# The same program from another source serves as well as Debian's package, and may exclude it.
+serves() { command -v "$1" >/dev/null 2>&1 && missing=("${missing[@]/#$2/}") || true; }
+serves npm npm
+serves kubectl kubernetes-client
 missing=(${missing[@]+${missing[@]}})
 [ "${#missing[@]}" -eq 0 ] && exit 0
 
