@@ -7,27 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/mesh/plane_cut.h"
-
 namespace capfit::body {
 namespace {
-
-constexpr std::size_t kGroupSize = 8;
-constexpr std::size_t kBlocksPerTask = 64;
-constexpr std::size_t kUsualPieces = 256;
-// Rounding must not lose a triangle that just touches the plane.
-constexpr double kBoxSlack = 1.000001;
-constexpr double kRounding = 1e-12;
-
-struct Bounds {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector3d high = -low;
-
-  void Add(const Eigen::Vector3d& least, const Eigen::Vector3d& most) {
-    low = low.cwiseMin(least);
-    high = high.cwiseMax(most);
-  }
-};
 
 // Fan around the first point: exact for any simple outline.
 void Measure(SectionLoop& loop, const Eigen::Vector3d& normal) {
@@ -76,51 +57,8 @@ double SectionLoop::Max(const Eigen::Vector3d& direction) const {
 
 double SectionLoop::Min(const Eigen::Vector3d& direction) const { return -Max(-direction); }
 
-CutSurface::CutSurface(std::span<const Eigen::Vector3d> points,
-                       std::span<const mesh::Triangle> triangles, const ThreadPool& pool)
-    : points_(points), triangles_(triangles) {
-  groups_.resize((triangles.size() + kGroupSize - 1) / kGroupSize);
-  blocks_.resize((groups_.size() + kGroupSize - 1) / kGroupSize);
-  pool.ForChunks(blocks_.size(), kBlocksPerTask, [this](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      Bounds block;
-      for (std::size_t g = b * kGroupSize; g < std::min((b + 1) * kGroupSize, groups_.size());
-           ++g) {
-        Bounds group;
-        for (std::size_t i = g * kGroupSize; i < std::min((g + 1) * kGroupSize, triangles_.size());
-             ++i) {
-          for (const std::uint32_t v : triangles_[i]) group.Add(points_[v], points_[v]);
-        }
-        groups_[g] = {0.5 * (group.low + group.high), 0.5 * (group.high - group.low)};
-        block.Add(groups_[g].center - groups_[g].half, groups_[g].center + groups_[g].half);
-      }
-      blocks_[b] = {0.5 * (block.low + block.high), 0.5 * (block.high - block.low)};
-    }
-  });
-}
-
 std::vector<SectionLoop> CutSurface::Cut(const CutPlane& plane) const {
-  std::vector<mesh::CutPiece> pieces;
-  pieces.reserve(kUsualPieces);
-  const Eigen::Vector3d steepness = kBoxSlack * plane.normal.cwiseAbs();
-  const double offset = plane.normal.dot(plane.origin);
-  const auto touches = [&](const Box& box) {
-    return std::abs(plane.normal.dot(box.center) - offset) <= steepness.dot(box.half) + kRounding;
-  };
-  const auto height = [&](std::uint32_t v) { return plane.Height(points_[v]); };
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    if (!touches(blocks_[b])) continue;
-    const std::size_t last_group = std::min((b + 1) * kGroupSize, groups_.size());
-    for (std::size_t g = b * kGroupSize; g < last_group; ++g) {
-      if (!touches(groups_[g])) continue;
-      const std::size_t last = std::min((g + 1) * kGroupSize, triangles_.size());
-      for (std::size_t i = g * kGroupSize; i < last; ++i) {
-        const mesh::Triangle& t = triangles_[i];
-        mesh::CutTriangle(points_, t, {height(t[0]), height(t[1]), height(t[2])}, pieces);
-      }
-    }
-  }
-  std::vector<SectionLoop> loops = LoopsOf(pieces);
+  std::vector<SectionLoop> loops = LoopsOf(cutter_.Cut(plane.origin, plane.normal));
   for (SectionLoop& loop : loops) Measure(loop, plane.normal);
   std::stable_sort(loops.begin(), loops.end(), [](const SectionLoop& a, const SectionLoop& b) {
     return std::abs(a.area) > std::abs(b.area);

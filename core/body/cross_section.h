@@ -9,6 +9,7 @@
 
 #include "core/base/thread_pool.h"
 #include "core/mesh/body_mesh.h"
+#include "core/mesh/plane_cutter.h"
 
 namespace capfit::body {
 
@@ -33,14 +34,13 @@ struct SectionLoop {
   [[nodiscard]] double Min(const Eigen::Vector3d& direction) const;
 };
 
-// Triangles that will be cut by many planes. Neighbouring triangles are looked at in groups, each
-// with a box around it, so that a plane touches few of them when neighbours in the list are
-// neighbours in space.
+// Triangles that will be cut by many planes, to loops.
 class CutSurface {
  public:
-  // Both spans must outlive this. O(triangles).
+  // As mesh::PlaneCutter.
   CutSurface(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles,
-             const ThreadPool& pool = ThreadPool(1));
+             const ThreadPool& pool = ThreadPool(1))
+      : cutter_(points, triangles, pool) {}
 
   // All loops of the section, the largest area first. Outlines run counter-clockwise as seen
   // against the normal.
@@ -55,17 +55,10 @@ class CutSurface {
   [[nodiscard]] std::optional<SectionLoop> CutNearest(const CutPlane& plane,
                                                       double min_girth) const;
 
-  [[nodiscard]] std::span<const Eigen::Vector3d> points() const { return points_; }
+  [[nodiscard]] std::span<const Eigen::Vector3d> points() const { return cutter_.points(); }
 
  private:
-  struct Box {
-    Eigen::Vector3d center = Eigen::Vector3d::Zero();
-    Eigen::Vector3d half = Eigen::Vector3d::Zero();
-  };
-  std::span<const Eigen::Vector3d> points_;
-  std::span<const mesh::Triangle> triangles_;
-  std::vector<Box> groups_;  // of triangles
-  std::vector<Box> blocks_;  // of groups
+  mesh::PlaneCutter cutter_;
 };
 
 }  // namespace capfit::body

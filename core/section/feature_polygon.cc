@@ -59,7 +59,7 @@ class Extractor {
  public:
   Extractor(const body::Body& body, const SectionOptions& options, const ThreadPool& pool,
             const FitObserver& observer)
-      : body_(body), options_(options), pool_(pool), observer_(observer) {}
+      : body_(body), cutter_(body, pool), options_(options), pool_(pool), observer_(observer) {}
 
   FeaturePolygons Run() {
     std::vector<Job> jobs = PlanJobs();
@@ -86,7 +86,7 @@ class Extractor {
       const Part chain = static_cast<Part>(c);
       if (!body_.chain(chain) || !options_.parts.Includes(chain) || FollowsFromLeft(chain)) return;
       if (observer_.IsCancelled()) return;
-      stations[c] = PlanStations(body_, chain, CountFor(chain, options_));
+      stations[c] = PlanStations(cutter_, chain, CountFor(chain, options_));
     });
     std::vector<Job> jobs;
     for (std::size_t c = 0; c < stations.size(); ++c) {
@@ -128,7 +128,7 @@ class Extractor {
   }
 
   std::optional<Polygon> Outline(Part chain, const geometry::PlaneFrame& frame) const {
-    const auto raw = CutPart(body_, chain, frame);
+    const auto raw = cutter_.Cut(chain, frame);
     if (!raw) return std::nullopt;
     const int count = std::max(12, options_.outline_points);
     std::vector<Eigen::Vector2d> points;
@@ -230,7 +230,7 @@ class Extractor {
     double height = valleys.bulge_height_m;
     const geometry::PlaneFrame below =
         PlaneAt(body_, Part::kTorso, bust.arc_length_m - kUnderBust * body_.height_m);
-    const auto chest = CutPart(body_, Part::kTorso, below);
+    const auto chest = cutter_.Cut(Part::kTorso, below);
     if (!chest) return height;
     const Eigen::Vector3d ahead = Ahead(bust.frame);
     for (const int apex : valleys.apex) {
@@ -275,6 +275,7 @@ class Extractor {
   }
 
   const body::Body& body_;
+  const PartCutter cutter_;
   const SectionOptions& options_;
   const ThreadPool& pool_;
   const FitObserver& observer_;

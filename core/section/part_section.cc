@@ -36,10 +36,10 @@ bool TakesIn(body::Part chain, body::Segment segment) {
   return false;
 }
 
-std::optional<std::vector<Eigen::Vector2d>> CutPart(const body::Body& body, body::Part chain,
-                                                    const geometry::PlaneFrame& plane) {
-  return PartOutline(CutMesh(body.mesh, plane), [&](std::uint32_t vertex) {
-    return TakesIn(chain, body.vertex_segments[vertex]);
+std::optional<std::vector<Eigen::Vector2d>> PartCutter::Cut(
+    body::Part chain, const geometry::PlaneFrame& plane) const {
+  return PartOutline(CutMesh(mesh_, plane), [&](std::uint32_t vertex) {
+    return TakesIn(chain, body_.vertex_segments[vertex]);
   });
 }
 

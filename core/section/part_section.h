@@ -6,8 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/geometry/plane_frame.h"
+#include "core/mesh/plane_cutter.h"
 
 namespace capfit::section {
 
@@ -16,10 +18,24 @@ namespace capfit::section {
 // the hand or foot, because the last ones lie at its border.
 [[nodiscard]] bool TakesIn(body::Part chain, body::Segment segment);
 
-// The chain's own outline in the plane, in `plane`'s coordinates, counter-clockwise, as cut (not
-// resampled). Nothing where the plane misses the chain. O(triangles).
-[[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> CutPart(
-    const body::Body& body, body::Part chain, const geometry::PlaneFrame& plane);
+// Cuts the parts of one body, which must outlive it.
+class PartCutter {
+ public:
+  // O(triangles).
+  PartCutter(const body::Body& body, const ThreadPool& pool)
+      : body_(body), mesh_(body.mesh.vertices(), body.mesh.triangles(), pool) {}
+
+  // The chain's own outline in the plane, in `plane`'s coordinates, counter-clockwise, as cut (not
+  // resampled). Nothing where the plane misses the chain.
+  [[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> Cut(
+      body::Part chain, const geometry::PlaneFrame& plane) const;
+
+  [[nodiscard]] const body::Body& body() const { return body_; }
+
+ private:
+  const body::Body& body_;
+  mesh::PlaneCutter mesh_;
+};
 
 }  // namespace capfit::section
 

@@ -4,17 +4,8 @@
 
 namespace capfit::section {
 
-std::vector<SectionLoop> CutMesh(const mesh::BodyMesh& mesh, const geometry::PlaneFrame& plane) {
-  const Eigen::Vector3d normal = plane.Normal();
-  std::vector<double> heights;
-  heights.reserve(mesh.vertices().size());
-  for (const Eigen::Vector3d& v : mesh.vertices()) {
-    heights.push_back((v - plane.origin_m).dot(normal));
-  }
-  std::vector<mesh::CutPiece> pieces;
-  for (const mesh::Triangle& t : mesh.triangles()) {
-    mesh::CutTriangle(mesh.vertices(), t, {heights[t[0]], heights[t[1]], heights[t[2]]}, pieces);
-  }
+std::vector<SectionLoop> CutMesh(const mesh::PlaneCutter& mesh, const geometry::PlaneFrame& plane) {
+  const std::vector<mesh::CutPiece> pieces = mesh.Cut(plane.origin_m, plane.Normal());
   std::vector<SectionLoop> loops;
   for (const mesh::CutLoop& linked : mesh::LinkPieces(pieces)) {
     SectionLoop& loop = loops.emplace_back();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/geometry/plane_frame.h"
-#include "core/mesh/body_mesh.h"
+#include "core/mesh/plane_cutter.h"
 
 namespace capfit::section {
 
@@ -24,8 +24,8 @@ using SectionLoop = std::vector<SectionPoint>;
 
 // All loops, in the order of their lowest triangle. Vertices on the plane count as above it, so
 // every loop closes and none is torn, whatever the plane touches; a face that lies in the plane
-// gives its border. Neighbouring points may coincide. O(vertices + triangles).
-[[nodiscard]] std::vector<SectionLoop> CutMesh(const mesh::BodyMesh& mesh,
+// gives its border. Neighbouring points may coincide.
+[[nodiscard]] std::vector<SectionLoop> CutMesh(const mesh::PlaneCutter& mesh,
                                                const geometry::PlaneFrame& plane);
 
 }  // namespace capfit::section

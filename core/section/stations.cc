@@ -9,7 +9,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/section/outline.h"
-#include "core/section/part_section.h"
 
 namespace capfit::section {
 namespace {
@@ -69,8 +68,12 @@ bool IsArm(Part chain) { return chain == Part::kLeftArm || chain == Part::kRight
 
 class Planner {
  public:
-  Planner(const body::Body& body, Part chain)
-      : body_(body), chain_(chain), curve_(*body.chain(chain)), height_(body.height_m) {}
+  Planner(const PartCutter& cutter, Part chain)
+      : cutter_(cutter),
+        body_(cutter.body()),
+        chain_(chain),
+        curve_(*body_.chain(chain)),
+        height_(body_.height_m) {}
 
   std::vector<Station> Run(int count) {
     std::vector<Candidate> candidates = chain_ == Part::kTorso ? Torso()
@@ -158,7 +161,7 @@ class Planner {
     double largest = 0.0;
     for (int k = 3; k <= 9; ++k) {
       const double at = knee + 0.05 * k * (End() - knee);
-      const auto outline = CutPart(body_, chain_, PlaneAt(body_, chain_, at));
+      const auto outline = cutter_.Cut(chain_, PlaneAt(body_, chain_, at));
       const double area = outline ? SignedArea(*outline) : 0.0;
       if (area <= largest) continue;
       largest = area;
@@ -217,6 +220,7 @@ class Planner {
     stations.push_back({side + name, at});
   }
 
+  const PartCutter& cutter_;
   const body::Body& body_;
   Part chain_;
   const body::MedialCurve& curve_;
@@ -239,8 +243,8 @@ Eigen::Vector3d WithinLean(const Eigen::Vector3d& direction, const Eigen::Vector
 
 }  // namespace
 
-std::vector<Station> PlanStations(const body::Body& body, body::Part chain, int count) {
-  return Planner(body, chain).Run(count);
+std::vector<Station> PlanStations(const PartCutter& cutter, body::Part chain, int count) {
+  return Planner(cutter, chain).Run(count);
 }
 
 geometry::PlaneFrame PlaneAt(const body::Body& body, body::Part chain, double arc_length_m) {

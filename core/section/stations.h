@@ -7,6 +7,7 @@
 
 #include "core/body/body.h"
 #include "core/geometry/plane_frame.h"
+#include "core/section/part_section.h"
 
 namespace capfit::section {
 
@@ -16,7 +17,8 @@ struct Station {
   double arc_length_m = 0.0;
 };
 
-// `count` >= 2 stations of a chain that the body has, from the trunk outward (torso: upward).
+// `count` >= 2 stations of a chain that the cutter's body has, from the trunk outward (torso:
+// upward).
 //
 // Torso: hip_low (just above the crotch), hip (the rearmost point of the buttocks), waist, bust,
 // chest (at the shoulder joints), neck (the chain's end). Arm: upper_arm (just outside the armpit),
@@ -24,7 +26,7 @@ struct Station {
 // and the last lie at the ends of the part, so that little of it sticks out beyond its polygons.
 // Fewer keep the most telling ones; more are spread evenly over the longest gaps. Missing landmarks
 // are replaced by shares of the chain's length. Stations are at least a few millimetres apart.
-[[nodiscard]] std::vector<Station> PlanStations(const body::Body& body, body::Part chain,
+[[nodiscard]] std::vector<Station> PlanStations(const PartCutter& cutter, body::Part chain,
                                                 int count);
 
 // The plane through the medial curve there, across its direction (taken over a few centimetres, so

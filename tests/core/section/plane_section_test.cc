@@ -28,6 +28,10 @@ geometry::PlaneFrame RandomPlane(Random& random, double reach) {
   return frame;
 }
 
+std::vector<SectionLoop> Cut(const mesh::BodyMesh& mesh, const geometry::PlaneFrame& plane) {
+  return CutMesh(mesh::PlaneCutter(mesh.vertices(), mesh.triangles()), plane);
+}
+
 double LoopArea(const SectionLoop& loop) {
   std::vector<Eigen::Vector2d> points;
   for (const SectionPoint& p : loop) points.push_back(p.position_m);
@@ -39,7 +43,7 @@ TEST(CutMeshTest, SphereGivesOneCircle) {
   Random random(1);
   for (int i = 0; i < 20; ++i) {
     const geometry::PlaneFrame plane = RandomPlane(random, 0.9);
-    const auto loops = CutMesh(sphere, plane);
+    const auto loops = Cut(sphere, plane);
     ASSERT_EQ(loops.size(), 1u);
     const double r2 = 1.0 - plane.origin_m.squaredNorm();
     EXPECT_NEAR(LoopArea(loops[0]), kPi * r2, 0.01);
@@ -47,17 +51,15 @@ TEST(CutMeshTest, SphereGivesOneCircle) {
   }
 }
 
-TEST(CutMeshTest, MissGivesNothing) {
-  EXPECT_TRUE(CutMesh(Sphere(1.0, 20, 20), LevelAt(1.5)).empty());
-}
+TEST(CutMeshTest, MissGivesNothing) { EXPECT_TRUE(Cut(Sphere(1.0, 20, 20), LevelAt(1.5)).empty()); }
 
 TEST(CutMeshTest, TorusGivesTwoDiscsOrARing) {
   const mesh::BodyMesh torus = Torus(1.0, 0.25, 120, 60);
   const geometry::PlaneFrame upright{{0, 0, 0}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
-  const auto discs = CutMesh(torus, upright);
+  const auto discs = Cut(torus, upright);
   ASSERT_EQ(discs.size(), 2u);
   for (const SectionLoop& loop : discs) EXPECT_NEAR(LoopArea(loop), kPi / 16, 1e-3);
-  const auto ring = CutMesh(torus, LevelAt(0.01));
+  const auto ring = Cut(torus, LevelAt(0.01));
   ASSERT_EQ(ring.size(), 2u);  // the outer rim runs one way, the inner the other
   const double a = LoopArea(ring[0]);
   const double b = LoopArea(ring[1]);
@@ -74,11 +76,11 @@ TEST(CutMeshTest, PlanesThroughVerticesAndFacesStillClose) {
   const mesh::BodyMesh tube = parts.Build();
   const double area = 0.5 * 24 * std::sin(2 * kPi / 24) * 0.02;
   for (const double y : {0.25, 0.5, 0.75, 1.0}) {
-    const auto loops = CutMesh(tube, LevelAt(y));
+    const auto loops = Cut(tube, LevelAt(y));
     ASSERT_EQ(loops.size(), 1u) << y;
     EXPECT_NEAR(LoopArea(loops[0]), area, 1e-12) << y;
   }
-  EXPECT_TRUE(CutMesh(tube, LevelAt(0.0)).empty());  // all of it is on the plane or above
+  EXPECT_TRUE(Cut(tube, LevelAt(0.0)).empty());  // all of it is on the plane or above
 }
 
 TEST(CutMeshTest, PointsLieInThePlaneAndOnTheMesh) {
@@ -86,7 +88,7 @@ TEST(CutMeshTest, PointsLieInThePlaneAndOnTheMesh) {
   Random random(2);
   for (int i = 0; i < 50; ++i) {
     const geometry::PlaneFrame plane = RandomPlane(random, 0.9);
-    for (const SectionLoop& loop : CutMesh(sphere, plane)) {
+    for (const SectionLoop& loop : Cut(sphere, plane)) {
       for (const SectionPoint& p : loop) {
         const Eigen::Vector3d at = plane.ToSpace(p.position_m);
         const Eigen::Vector3d vertex = sphere.vertices()[p.nearest_vertex];
