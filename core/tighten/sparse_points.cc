@@ -41,13 +41,12 @@ class NodeSums {
     const std::int64_t row = counts_.x();
     const std::int64_t layer = row * counts_.y();
     const std::int64_t first = cell[2] * layer + cell[1] * row + cell[0];
-    const Eigen::Vector4d sum(point.x(), point.y(), point.z(), 1.0);
     for (int corner = 0; corner < 8; ++corner) {
       const int x = corner & 1;
       const int y = corner >> 1 & 1;
       const int z = corner >> 2;
       const double share = weight * (part[0][x] * (part[1][y] * part[2][z]));
-      if (share > 0.0) SumAt(first + z * layer + y * row + x) += share * sum;
+      if (share > 0.0) SumAt(first + z * layer + y * row + x) += Sum(point, share);
     }
   }
 
@@ -61,6 +60,10 @@ class NodeSums {
   }
 
  private:
+  static Eigen::Vector4d Sum(const Eigen::Vector3d& point, double share) {
+    return {share * point.x(), share * point.y(), share * point.z(), share};
+  }
+
   Eigen::Vector4d& SumAt(std::int64_t node) {
     std::int32_t& slot = slots_[static_cast<std::size_t>(node)];
     if (slot < 0) {
