@@ -310,7 +310,8 @@ TEST(Service, DrainingLetsTheRunningCallFinish) {
   std::thread drain([&] { server->Drain(); });
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   gate.open = true;
-  EXPECT_TRUE(call.Finish().ok());
+  const grpc::Status status = call.Finish();
+  EXPECT_TRUE(status.ok()) << status.error_message();
   drain.join();
 }
 
