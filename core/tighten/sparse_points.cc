@@ -1,6 +1,6 @@
 #include "core/tighten/sparse_points.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -28,25 +28,14 @@ class NodeSums {
     slots_.assign(static_cast<std::size_t>(counts_.prod()), -1);
   }
 
-  // Its weight is shared among the eight nodes around it.
   void Add(const Eigen::Vector3d& point, double weight) {
-    std::array<std::array<double, 2>, 3> part;  // by axis, for the lower and the upper nodes
-    std::array<std::int64_t, 3> cell;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double at = point[axis] / spacing_ - low_[axis];
-      const double below = std::floor(at);
-      cell[axis] = static_cast<std::int64_t>(below);
-      part[axis] = {1.0 - (at - below), at - below};
-    }
-    const std::int64_t row = counts_.x();
-    const std::int64_t layer = row * counts_.y();
-    const std::int64_t first = cell[2] * layer + cell[1] * row + cell[0];
+    const Eigen::Array3d at = point.array() / spacing_ - low_;
+    const Eigen::Array3d cell = at.floor();
+    const Eigen::Array3d part = at - cell;
     for (int corner = 0; corner < 8; ++corner) {
-      const int x = corner & 1;
-      const int y = corner >> 1 & 1;
-      const int z = corner >> 2;
-      const double share = weight * (part[0][x] * (part[1][y] * part[2][z]));
-      if (share > 0.0) SumAt(first + z * layer + y * row + x) += Sum(point, share);
+      const Eigen::Array3d step(corner & 1, corner >> 1 & 1, corner >> 2);
+      const double share = weight * (step * part + (1.0 - step) * (1.0 - part)).prod();
+      if (share > 0.0) SumAt((cell + step).cast<std::int64_t>()) += Sum(point, share);
     }
   }
 
@@ -64,8 +53,9 @@ class NodeSums {
     return {share * point.x(), share * point.y(), share * point.z(), share};
   }
 
-  Eigen::Vector4d& SumAt(std::int64_t node) {
-    std::int32_t& slot = slots_[static_cast<std::size_t>(node)];
+  Eigen::Vector4d& SumAt(const Eigen::Array<std::int64_t, 3, 1>& node) {
+    std::int32_t& slot = slots_[static_cast<std::size_t>(
+        (node.z() * counts_.y() + node.y()) * counts_.x() + node.x())];
     if (slot < 0) {
       slot = static_cast<std::int32_t>(sums_.size());
       sums_.push_back(Eigen::Vector4d::Zero());
