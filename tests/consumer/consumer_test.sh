@@ -10,6 +10,7 @@ build=$1 cmake=$2 in_tree=$3
 scratch=$(mktemp -d)
 server_pid=
 cleanup() {
+  # It may have ended by itself.
   [ -z "$server_pid" ] || kill -KILL "$server_pid" 2>/dev/null || true
   rm -rf "$scratch"
 }

@@ -8,7 +8,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 sample=$1 server=$2 capfit=$3 cpp_sample=$4 python_site=$5
-buf=$(PATH=$PATH:$root/node_modules/.bin type -P buf || true)
+buf=$(PATH=$PATH:$root/node_modules/.bin type -P buf || true)  # without one: SKIPPED below
 
 skip() { echo "SKIPPED: $*" >&2; exit 77; }
 case "$sample" in
@@ -20,6 +20,7 @@ esac
 scratch=$(mktemp -d)
 server_pid=
 cleanup() {
+  # It may have ended by itself.
   [ -z "$server_pid" ] || { kill -KILL "$server_pid" 2>/dev/null || true; }
   rm -rf "$scratch"
 }

@@ -6,7 +6,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 client=$1 server=$2 capfit=$3 python_site=$4
-buf=$(PATH=$PATH:$root/node_modules/.bin type -P buf || true)
+buf=$(PATH=$PATH:$root/node_modules/.bin type -P buf || true)  # without one: SKIPPED below
 skip() { echo "SKIPPED: $*" >&2; exit 77; }
 fail() { echo "FAILED: $*" >&2; exit 1; }
 command -v openssl >/dev/null || skip "no openssl: apt-get install openssl"
@@ -20,6 +20,7 @@ esac
 scratch=$(mktemp -d)
 server_pid=
 cleanup() {
+  # It may have ended by itself.
   [ -z "$server_pid" ] || { kill -KILL "$server_pid" 2>/dev/null || true; }
   rm -rf "$scratch"
 }

@@ -185,7 +185,8 @@ TEST_P(MannequinTest, HasTheGirthsToOnePercent) {
 }
 
 TEST_P(MannequinTest, DoesNotCutThroughItself) {
-  if (FaceCount() > 30'000) GTEST_SKIP() << "too fine for the slow check; the coarser ones tell";
+  if (FaceCount() > 30'000)
+    GTEST_SKIP() << "SKIPPED: too fine for the slow check; the coarser ones tell";
   EXPECT_EQ(test_support::CountSelfIntersections(soup_), 0);
 }
 
