@@ -131,7 +131,8 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
                 "enclose: nothing outside; best: the least volume error")
       ->group(kWhatToFit);
   AddWordOption(command, "--quality", options.quality, QualityWords(),
-                "paper: the published method; tight: less volume error, more time")
+                "paper: the published method; tight: less volume error, more time; balanced: "
+                "almost as little in about the time of paper")
       ->group(kWhatToFit);
   command
       .add_option("--tolerance-mm", flags.tolerance_mm,

@@ -31,7 +31,12 @@ inline Words<pipeline::FitMode> FitModeWords() {
           {"best_fit", pipeline::FitMode::kBestFit}};
 }
 inline Words<pipeline::Quality> QualityWords() {
-  return {{"paper", pipeline::Quality::kPaper}, {"tight", pipeline::Quality::kTight}};
+  Words<pipeline::Quality> words;
+  for (int i = 0; i < pipeline::kQualityCount; ++i) {
+    const auto quality = static_cast<pipeline::Quality>(i);
+    words.emplace_back(pipeline::QualityName(quality), quality);
+  }
+  return words;
 }
 inline Words<pipeline::SkinningMode> SkinningWords() {
   return {{"none", pipeline::SkinningMode::kNone},

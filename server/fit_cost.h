@@ -34,7 +34,8 @@ class FitCost {
   [[nodiscard]] static std::size_t KindOf(const FitSize& size);
 
   mutable std::mutex mutex_;
-  std::array<double, 4 * kSizes> factor_{};  // by kind: seconds taken / seconds guessed at first
+  std::array<double, 2 * pipeline::kQualityCount * kSizes>
+      factor_{};  // by kind: seconds taken / seconds guessed at first
 };
 
 }  // namespace capfit::server

@@ -14,6 +14,7 @@
 #include "core/base/version.h"
 #include "core/export/export.h"
 #include "core/pipeline/colliders.h"
+#include "proto/wire/enum_conversion.h"
 #include "proto/wire/options_conversion.h"
 #include "proto/wire/result_conversion.h"
 #include "proto/wire/status_conversion.h"
@@ -32,7 +33,7 @@ using Clock = Watchdog::Clock;
 
 // For the log: what makes one fit slower than another.
 std::string WordsOf(const pipeline::FitOptions& options) {
-  std::string words = options.quality == pipeline::Quality::kTight ? "tight" : "paper";
+  std::string words(pipeline::QualityName(options.quality));
   absl::StrAppend(&words, options.fit == pipeline::FitMode::kBestFit ? " best" : " enclose");
   const auto add = [&](const char* name, const auto& value) {
     if (value) absl::StrAppend(&words, " ", name, "=", *value);
@@ -111,9 +112,7 @@ absl::Status FitJob::Expect(const v1::ApproximateBodyUnaryRequest& request) {
                                              : mesh.arrays().triangle_indices_size() / 3)
                                       : request_bytes_ / kFileBytesOfAFace;
   // The rest of the options is read on the executor; the queue has to know this much.
-  if (request.options().quality() == v1::QUALITY_TIGHT) {
-    options_.quality = pipeline::Quality::kTight;
-  }
+  options_.quality = wire::FromWire(request.options().quality()).value_or(options_.quality);
   return holding_->HoldBytes(3 * request_bytes_);
 }
 

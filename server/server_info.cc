@@ -36,6 +36,7 @@ const std::vector<Feature>& Features() {
       {"fit.enclose", [](FitOptions& o) { o.fit = pipeline::FitMode::kEnclose; }},
       {"fit.best_fit", [](FitOptions& o) { o.fit = pipeline::FitMode::kBestFit; }},
       {"quality.paper", [](FitOptions& o) { o.quality = pipeline::Quality::kPaper; }},
+      {"quality.balanced", [](FitOptions& o) { o.quality = pipeline::Quality::kBalanced; }},
       {"quality.tight", [](FitOptions& o) { o.quality = pipeline::Quality::kTight; }},
       {"skinning.dense", [](FitOptions& o) { o.skinning = pipeline::SkinningMode::kDense; }},
       {"skinning.sparse", [](FitOptions& o) { o.skinning = pipeline::SkinningMode::kSparse; }},

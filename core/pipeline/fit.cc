@@ -31,12 +31,6 @@ absl::Status NoRig() {
                       "sparse weights, or send a GLB or VRM file with a skin");
 }
 
-// Another set for the same budget, before anything is enclosed.
-struct Alternative {
-  capsule::PrimitiveSet set;
-  bool has_shape;  // refined
-};
-
 std::vector<std::string> NamesOf(const refine::KeptLayout& layout) {
   std::vector<std::string> names;
   names.reserve(layout.spheres.size());
@@ -99,18 +93,16 @@ class BodyFit {
     const std::size_t warnings = result_.warnings.size();
     for (;;) {
       result_.warnings.resize(warnings);
-      alternatives_.clear();
+      papers_.reset();
       CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, asked_, options_));
       if (NeedsPolygons()) CAPFIT_RETURN_IF_ERROR(Approximate());
-      if (options_.quality == Quality::kTight) CAPFIT_RETURN_IF_ERROR(Refine());
+      if (IsSearched()) CAPFIT_RETURN_IF_ERROR(Refine());
       CAPFIT_RETURN_IF_ERROR(CheckFound());
       if (Profile() == capsule::CapsuleProfile::kUniformRadius) {
         set_ = capsule::WithUniformRadii(set_);
-        for (Alternative& other : alternatives_) other.set = capsule::WithUniformRadii(other.set);
+        if (papers_) papers_ = capsule::WithUniformRadii(*papers_);
       }
-      std::erase_if(alternatives_, [this](const Alternative& other) {
-        return ExcessCapsules(asked_, other.set) > 0;
-      });
+      if (papers_ && ExcessCapsules(asked_, *papers_) > 0) papers_.reset();
       const int excess = ExcessCapsules(asked_, set_);
       if (excess <= 0) return absl::OkStatus();
       options_.max_capsules = static_cast<int>(set_.capsules.size()) - excess;
@@ -132,22 +124,26 @@ class BodyFit {
     refine_options.budget = budget;
     refine_options.tolerance_m = options_.tolerance_m;
     refine_options.parts = options_.parts;
+    refine_options.thorough = options_.quality == Quality::kTight;
     refine_options.seed = options_.seed;
     return refine_options;
   }
 
   capsule::CapsuleProfile Profile() const { return ProfileOf(options_); }
 
-  // The tight fit needs them only to be shown, or to count what an error threshold asks for.
+  // Centres, radii and topology are found together, without polygons.
+  bool IsSearched() const { return options_.quality != Quality::kPaper; }
+
+  // Such a fit needs them only to be shown, or to count what an error threshold asks for.
   bool NeedsPolygons() const {
-    return options_.quality == Quality::kPaper || options_.want_polygons ||
-           options_.polygon_error.has_value() || ComparesWithPaper();
+    return !IsSearched() || options_.want_polygons || options_.polygon_error.has_value() ||
+           ComparesWithPaper();
   }
 
-  // With few primitives, or without a part that the tight fit's layouts are made for, the published
+  // With few primitives, or without a part that the layouts are made for, the published
   // method is at times the better one, and it is quick: then the smaller of the two sets is taken.
   bool ComparesWithPaper() const {
-    if (options_.quality != Quality::kTight || options_.fit != FitMode::kEnclose) return false;
+    if (!IsSearched() || options_.fit != FitMode::kEnclose) return false;
     const capsule::Budget budget = TotalBudget(options_);
     const body::PartSelection& parts = options_.parts;
     return !parts.torso || !parts.arms || !parts.legs ||
@@ -176,8 +172,7 @@ class BodyFit {
     clock_.Begin(Stage::kCapsule);
     PrimitiveStage stage = BuildUnderBudget(*body_, options_, features.polygons, curves);
     set_ = std::move(stage.set);
-    if (options_.quality == Quality::kPaper && options_.fit == FitMode::kBestFit &&
-        !options_.layout) {
+    if (!IsSearched() && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);
       set_ = SettleBestFit(*body_, options_, clock_, std::move(set_));
     }
@@ -195,13 +190,8 @@ class BodyFit {
       // A tree: spheres without a capsule would be shapes of their own.
       budget.max_spheres = budget.max_capsules + 1;
     }
-    if (ComparesWithPaper()) alternatives_.push_back({std::move(set_), /*has_shape=*/false});
-    std::vector<capsule::PrimitiveSet> found =
-        refine::RefineSet(*body_, target_, RefineOptionsFor(budget), pool_, clock_);
-    set_ = std::move(found.front());
-    for (std::size_t i = 1; i < found.size(); ++i) {
-      alternatives_.push_back({std::move(found[i]), /*has_shape=*/true});
-    }
+    if (ComparesWithPaper()) papers_ = std::move(set_);
+    set_ = refine::RefineSet(*body_, target_, RefineOptionsFor(budget), pool_, clock_);
     return CheckCancelled(clock_);
   }
 
@@ -219,14 +209,15 @@ class BodyFit {
       max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
       return CheckCancelled(clock_);
     }
-    const bool has_shape = options_.quality == Quality::kTight || options_.layout.has_value();
+    const bool has_shape = IsSearched() || options_.layout.has_value();
     coverage::CoverReport report = Enclose(has_shape, set_);
-    for (Alternative& alternative : alternatives_) {
+    if (papers_) {
       CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
-      const coverage::CoverReport other = Enclose(alternative.has_shape, alternative.set);
-      if (other.volume_m3 >= report.volume_m3) continue;
-      set_ = std::move(alternative.set);
-      report = other;
+      const coverage::CoverReport other = Enclose(/*has_shape=*/false, *papers_);
+      if (other.volume_m3 < report.volume_m3) {
+        set_ = *std::move(papers_);
+        report = other;
+      }
     }
     max_gap_m_ = report.certified_gap_m;
     if (Profile() == capsule::CapsuleProfile::kLerpedRadius) capsule::GrowForLerpedRadius(set_);
@@ -325,7 +316,7 @@ class BodyFit {
     result_.primitives = ToCallerFrame(set_, caller_from_body_);
     result_.sphere_names = options_.layout ? NamesOf(*options_.layout) : SphereNames(*body_, set_);
     result_.sphere_places = refine::PlacesOf(*body_, set_);
-    if (!options_.want_polygons || options_.quality == Quality::kTight) {
+    if (!options_.want_polygons || IsSearched()) {
       // An index of a polygon that is not in the result would say nothing.
       for (capsule::SphereOrigin& origin : result_.primitives.origins) origin.polygon = -1;
     }
@@ -382,8 +373,9 @@ class BodyFit {
   geometry::Similarity caller_from_body_;
   tighten::CoverTarget target_;
   capsule::PrimitiveSet set_;
-  std::vector<Alternative> alternatives_;  // to set_; the smallest of all once they cover is taken
-  double max_gap_m_ = 0.0;                 // certified
+  // The published method's, beside set_: the smaller one is taken, once both cover.
+  std::optional<capsule::PrimitiveSet> papers_;
+  double max_gap_m_ = 0.0;  // certified
 };
 
 }  // namespace

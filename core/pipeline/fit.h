@@ -51,9 +51,13 @@ inline constexpr std::size_t kMostPartsTold = 1000;
 // kEnclose: nothing of the fitted parts is left outside (but for tolerance_m). kBestFit: the
 // smallest E_r.
 enum class FitMode { kEnclose, kBestFit };
-// kPaper: the published method, its coverage step replaced by a better one. kTight: centres, radii
-// and topology found together (core/refine), under the same budget.
-enum class Quality { kPaper, kTight };
+// kPaper: the published method, its coverage step replaced by a better one. The others, under the
+// same budget: centres, radii and topology found together (core/refine); kBalanced with an eighth
+// of the search of kTight.
+enum class Quality { kPaper, kBalanced, kTight };
+inline constexpr int kQualityCount = 3;
+// "paper", "balanced", "tight".
+[[nodiscard]] std::string_view QualityName(Quality quality);
 // What carries the centres along: a weight of every vertex; of few vertices; of the skeleton's
 // joints.
 enum class SkinningMode { kNone, kDense, kSparse, kBones };

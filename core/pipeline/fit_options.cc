@@ -157,6 +157,18 @@ absl::Status CheckLandmarks(const FitOptions& options) {
 
 }  // namespace
 
+std::string_view QualityName(Quality quality) {
+  switch (quality) {
+    case Quality::kPaper:
+      return "paper";
+    case Quality::kBalanced:
+      return "balanced";
+    case Quality::kTight:
+      return "tight";
+  }
+  return "";
+}
+
 absl::Status ValidateOptions(const FitOptions& options) {
   CAPFIT_RETURN_IF_ERROR(CheckOneBudget(options));
   CAPFIT_RETURN_IF_ERROR(

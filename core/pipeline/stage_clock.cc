@@ -14,7 +14,8 @@ constexpr double kSectionMs = 5.0;
 constexpr double kCircleMs = 50.0;
 constexpr double kCapsuleMs = 2.0;
 constexpr double kSettleMs = 60.0;
-constexpr double kRefineMs = 150.0;
+constexpr double kRefineMs = 200.0;
+constexpr double kBalancedRefineMs = 35.0;
 constexpr double kCoverageMs = 80.0;
 constexpr double kCoverageOfRefinedMs = 30.0;
 constexpr double kMetricsMs = 20.0;
@@ -25,9 +26,10 @@ constexpr double kSparseWeightsMs = 10.0;
 constexpr double kSmallestStep = 0.005;
 
 std::array<double, kStageCount> SharesOf(const FitOptions& options) {
-  const bool is_tight = options.quality == Quality::kTight;
+  const bool is_searched = options.quality != Quality::kPaper;
   const bool is_best = options.fit == FitMode::kBestFit;
-  const bool has_polygons = !is_tight || options.want_polygons || options.polygon_error.has_value();
+  const bool has_polygons =
+      !is_searched || options.want_polygons || options.polygon_error.has_value();
   std::array<double, kStageCount> shares{};
   const auto set = [&](Stage stage, double ms) { shares[static_cast<std::size_t>(stage)] = ms; };
   set(Stage::kMesh, kMeshMs);
@@ -37,8 +39,12 @@ std::array<double, kStageCount> SharesOf(const FitOptions& options) {
     set(Stage::kCircle, kCircleMs);
     set(Stage::kCapsule, kCapsuleMs);
   }
-  if (is_tight || is_best) set(Stage::kRefine, is_tight ? kRefineMs : kSettleMs);
-  set(Stage::kCoverage, is_tight || is_best ? kCoverageOfRefinedMs : kCoverageMs);
+  if (is_searched || is_best) {
+    set(Stage::kRefine, options.quality == Quality::kTight      ? kRefineMs
+                        : options.quality == Quality::kBalanced ? kBalancedRefineMs
+                                                                : kSettleMs);
+  }
+  set(Stage::kCoverage, is_searched || is_best ? kCoverageOfRefinedMs : kCoverageMs);
   set(Stage::kMetrics, kMetricsMs);
   if (options.skinning != SkinningMode::kNone) {
     set(Stage::kSkinning,

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/side_by_side.h"
 #include "core/base/status.h"
 #include "core/refine/best_fit/best_fit_objective.h"
 #include "core/refine/best_fit/growth.h"
@@ -50,8 +49,9 @@ constexpr double kFineLooseness = 0.5;  // the shape is found, it need not be fo
 constexpr int kFineTakeInSteps = 2;
 constexpr int kHungSteps = 8;      // for a layout that is kept
 constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
-// Of two enclosing searches the one from layouts for its budget, and of all the time both.
-constexpr double kSearchedOwn = 0.65;
+// Of an enclosing search: rounds of giving up and spending anew, and how much of the time it takes.
+constexpr int kRounds = 8;
+constexpr int kQuickRounds = 1;
 constexpr double kSearched = 0.92;
 constexpr double kFillingShare = 0.75;    // of the budget, that a standard layout must use
 constexpr double kHungShapeFound = 0.45;  // of its time, as measured
@@ -88,12 +88,13 @@ std::vector<Eigen::Vector3f> SelectedPoints(const body::Body& body, const Refine
 
 // How best fits are grown: their edits show late what they are worth, and exchanges pay while they
 // are quick.
-GrowthOptions PlanGrowth(const capsule::Budget& budget) {
+GrowthOptions PlanGrowth(const RefineOptions& options) {
+  const capsule::Budget& budget = options.budget;
   GrowthOptions plan;
   plan.piece_cost = kPieceCost;
   plan.thorough_share = 0.15;
   const bool few = std::min(budget.max_primitives, budget.max_spheres) <= kFewPrimitives;
-  plan.exchanges = few ? kExchangesOfFew : kExchangesOfMany;
+  if (options.thorough) plan.exchanges = few ? kExchangesOfFew : kExchangesOfMany;
   return plan;
 }
 
@@ -103,12 +104,13 @@ void RemoveUseless(capsule::MirroredSet& graph) {
 }
 
 // Settles the start and brings it up to the budget.
-capsule::MirroredSet FindSet(const BestFitObjective& objective, const capsule::Budget& budget,
+capsule::MirroredSet FindSet(const BestFitObjective& objective, const RefineOptions& options,
                              const ThreadPool& pool, double until, WorkMeter& meter,
                              capsule::MirroredSet graph) {
+  const capsule::Budget& budget = options.budget;
   const double begin = meter.until();
   const auto at = [&](double share) { return begin + share * (until - begin); };
-  GrowthOptions plan = PlanGrowth(budget);
+  GrowthOptions plan = PlanGrowth(options);
   GrowthOptions at_first = plan;
   at_first.exchanges = 0;
   at_first.until = at(kGrown);
@@ -135,7 +137,7 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const capsule::B
 }
 
 // The best set that one of the starts leads to.
-capsule::MirroredSet FindBestSet(const BestFitObjective& objective, const capsule::Budget& budget,
+capsule::MirroredSet FindBestSet(const BestFitObjective& objective, const RefineOptions& options,
                                  const ThreadPool& pool, WorkMeter& meter,
                                  std::vector<capsule::MirroredSet> starts) {
   capsule::MirroredSet best;
@@ -143,10 +145,10 @@ capsule::MirroredSet FindBestSet(const BestFitObjective& objective, const capsul
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const double until = static_cast<double>(i + 1) / static_cast<double>(starts.size());
     capsule::MirroredSet graph =
-        FindSet(objective, budget, pool, until, meter, std::move(starts[i]));
+        FindSet(objective, options, pool, until, meter, std::move(starts[i]));
     if (meter.IsCancelled()) return graph;
     // Over the budget only where nothing more could be spared.
-    const double value = objective.Value(graph) + budget.Excess(graph.count());
+    const double value = objective.Value(graph) + options.budget.Excess(graph.count());
     if (value < least) {
       least = value;
       best = std::move(graph);
@@ -169,41 +171,10 @@ BestFitObjective MakeBestFitObjective(const body::Body& body, const RefineOption
 
 capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& options,
                                  const ThreadPool& pool, WorkMeter& meter) {
-  const capsule::Budget& budget = options.budget;
   std::vector<capsule::MirroredSet> starts =
-      StartingGraphs(FitKind::kBestFit, body, options.parts, budget, /*sizes=*/1, kMostSpared);
-  return FindBestSet(MakeBestFitObjective(body, options, body.is_symmetric), budget, pool, meter,
+      StartingGraphs(FitKind::kBestFit, body, options.parts, options.budget, kMostSpared);
+  return FindBestSet(MakeBestFitObjective(body, options, body.is_symmetric), options, pool, meter,
                      std::move(starts));
-}
-
-// Settles each of the graphs once more, with points enough to tell their values apart; the best
-// first.
-std::vector<capsule::MirroredSet> Finish(const EnclosingTask& task,
-                                         const std::vector<capsule::MirroredSet>& graphs,
-                                         const ThreadPool& pool, WorkMeter& meter) {
-  std::int64_t work = 0;
-  for (const capsule::MirroredSet& graph : graphs) {
-    work += (kFineSteps + kFineTakeInSteps) * graph.primitive_count();
-  }
-  meter.Expect(1.0, work);
-  struct Finished {
-    capsule::MirroredSet graph;
-    double value;
-  };
-  const ThreadPool alone(1);
-  std::vector<Finished> finished(graphs.size());
-  pool.ForEach(graphs.size(), [&](std::size_t i) {
-    capsule::MirroredSet graph = graphs[i];
-    task.FindShape(kFineSteps, kFineLooseness, /*seed=*/1, alone, meter, graph);
-    task.TakeIn(kFineTakeInSteps, /*seed=*/2, alone, meter, graph);
-    const double value = task.Value(graph, alone);
-    finished[i] = {std::move(graph), value};
-  });
-  std::stable_sort(finished.begin(), finished.end(),
-                   [](const Finished& a, const Finished& b) { return a.value < b.value; });
-  std::vector<capsule::MirroredSet> result;
-  for (Finished& f : finished) result.push_back(std::move(f.graph));
-  return result;
 }
 
 // Between the points of the enclosing search.
@@ -233,35 +204,23 @@ std::vector<capsule::MirroredSet> StandardStarts(const body::Body& body,
   return starts;
 }
 
-// From each kind of starts a search of its own: which of them leads further shows only at their
-// ends. Side by side, as a search alone cannot use many threads all the time.
-std::vector<capsule::MirroredSet> SearchSideBySide(
-    const EnclosingTask& task, const capsule::Budget& budget,
-    const std::vector<std::vector<capsule::MirroredSet>>& starts, const ThreadPool& pool,
-    WorkMeter& meter) {
-  const double from = meter.until();
-  meter.Expect(kSearched, 1);
-  const std::vector<double> shares = starts.size() == 1
-                                         ? std::vector<double>{1.0}
-                                         : std::vector<double>{kSearchedOwn, 1.0 - kSearchedOwn};
-  SideBySide searches(meter.observer(), from, kSearched, shares);
-  std::vector<std::vector<capsule::MirroredSet>> found(starts.size());
-  searches.Run(pool, [&](std::size_t i, FitObserver& observer) {
-    found[i] = FindEnclosingGraphs(task, budget, starts[i], pool, observer);
-  });
-  std::vector<capsule::MirroredSet> all;
-  for (std::vector<capsule::MirroredSet>& graphs : found) {
-    std::move(graphs.begin(), graphs.end(), std::back_inserter(all));
-  }
-  return all;
+// What the enclosing search starts from.
+std::vector<capsule::MirroredSet> StartsOf(const body::Body& body, const RefineOptions& options,
+                                           int primitives) {
+  std::vector<capsule::MirroredSet> standard = StandardStarts(body, options, primitives);
+  // To spare much takes long, but in a larger layout it leaves a better one than growth finds.
+  const bool is_quick = !options.thorough && !standard.empty();
+  std::vector<capsule::MirroredSet> starts =
+      StartingGraphs(FitKind::kEnclose, body, options.parts, options.budget,
+                     is_quick ? primitives / 2 : capsule::kNoLimit);
+  std::move(standard.begin(), standard.end(), std::back_inserter(starts));
+  return starts;
 }
 
-std::vector<capsule::MirroredSet> FindEnclosing(const body::Body& body,
-                                                const tighten::CoverTarget& target,
-                                                const RefineOptions& options,
-                                                const ThreadPool& pool, WorkMeter& meter) {
-  const capsule::Budget& budget = options.budget;
-  const int primitives = budget.UsualPrimitives();
+capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverTarget& target,
+                                   const RefineOptions& options, const ThreadPool& pool,
+                                   WorkMeter& meter) {
+  const int primitives = options.budget.UsualPrimitives();
   const Spacings spacings = SpacingsFor(primitives);
   // Each thins the points out on one thread, for some milliseconds on large meshes.
   std::array<std::optional<EnclosingTask>, 2> tasks;
@@ -269,19 +228,13 @@ std::vector<capsule::MirroredSet> FindEnclosing(const body::Body& body,
     tasks[i].emplace(target, body.is_symmetric, options.tolerance_m,
                      i == 0 ? spacings.usual : spacings.fine);
   });
-  // Up to twice as many: what is spared in a good layout leaves a better one than growth finds.
-  const int most_spared = primitives > kFewPrimitives ? 0 : primitives;
-  std::vector<std::vector<capsule::MirroredSet>> starts = {
-      StartingGraphs(FitKind::kEnclose, body, options.parts, budget, /*sizes=*/2, most_spared)};
-  std::vector<capsule::MirroredSet> standard = StandardStarts(body, options, primitives);
-  if (!standard.empty()) starts.push_back(std::move(standard));
-  const std::vector<capsule::MirroredSet> found =
-      SearchSideBySide(*tasks[0], budget, starts, pool, meter);
-  if (meter.IsCancelled()) return found;
-  std::vector<capsule::MirroredSet> finished = Finish(*tasks[1], found, pool, meter);
-  // Few primitives are judged well enough by thinned points.
-  if (primitives <= kFewPrimitives) finished.resize(1);
-  return finished;
+  capsule::MirroredSet graph =
+      FindEnclosingGraph(*tasks[0], options.budget, StartsOf(body, options, primitives),
+                         options.thorough ? kRounds : kQuickRounds, kSearched, pool, meter);
+  meter.Expect(1.0, std::int64_t{kFineSteps + kFineTakeInSteps} * graph.primitive_count());
+  tasks[1]->FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
+  tasks[1]->TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graph);
+  return graph;
 }
 
 // A layout that hangs on the body in the places that it had on another one.
@@ -328,29 +281,21 @@ void MirrorParts(const body::PartSelection& parts, capsule::PrimitiveSet& set) {
 
 }  // namespace
 
-std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
-                                             const tighten::CoverTarget& target,
-                                             const RefineOptions& options, const ThreadPool& pool,
-                                             FitObserver& observer) {
+capsule::PrimitiveSet RefineSet(const body::Body& body, const tighten::CoverTarget& target,
+                                const RefineOptions& options, const ThreadPool& pool,
+                                FitObserver& observer) {
   WorkMeter meter(observer);
-  std::vector<capsule::MirroredSet> graphs;
-  if (options.enclose) {
-    graphs = FindEnclosing(body, target, options, pool, meter);
-  } else {
-    graphs.push_back(FindBestFit(body, options, pool, meter));
-  }
+  const capsule::MirroredSet graph = options.enclose
+                                         ? FindEnclosing(body, target, options, pool, meter)
+                                         : FindBestFit(body, options, pool, meter);
   meter.Expect(1.0, 1);
-  std::vector<capsule::PrimitiveSet> sets;
-  for (const capsule::MirroredSet& graph : graphs) {
-    capsule::PrimitiveSet set = graph.set();
-    pool.ForEach(graph.spheres().size(), [&](std::size_t v) {
-      if (observer.IsCancelled()) return;
-      set.origins[v].part = PartAt(body, graph.spheres()[v].center_m);
-    });
-    if (graph.is_mirrored()) MirrorParts(options.parts, set);
-    sets.push_back(std::move(set));
-  }
-  return sets;
+  capsule::PrimitiveSet set = graph.set();
+  pool.ForEach(graph.spheres().size(), [&](std::size_t v) {
+    if (observer.IsCancelled()) return;
+    set.origins[v].part = PartAt(body, graph.spheres()[v].center_m);
+  });
+  if (graph.is_mirrored()) MirrorParts(options.parts, set);
+  return set;
 }
 
 absl::StatusOr<capsule::PrimitiveSet> FitToLayout(const body::Body& body,

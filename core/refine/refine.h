@@ -22,26 +22,26 @@ struct RefineOptions {
   capsule::Budget budget;    // at least 3 spheres' worth
   double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, 0.1]
   body::PartSelection parts;
+  // False: an eighth of the rounds that improve what the layouts lead to, and no exchanges in a
+  // best fit: less than half the time, and some hundredths more E_r.
+  bool thorough = true;
   std::uint64_t seed = 0;  // of the best fit's samples
 };
 
-// Finds centres, radii and topology together: hangs a layout on the body's bones, optimises it,
-// then grows or spares primitives where that pays most, up to the budget, and exchanges some. A
-// body whose is_symmetric holds gets an exactly symmetric set; others are not forced. Any parts may
-// be missing. A best fit prefers capsules that hang together to lone spheres (one piece is worth a
-// third of a primitive) and leaves out no limb; beside the best of unconnected spheres that costs
-// about a twentieth of E_r.
+// Finds centres, radii and topology together: hangs layouts on the body's bones, optimises them,
+// spares or grows primitives where that pays most, up to the budget, and then gives up some and
+// spends them anew, again and again. A body whose is_symmetric holds gets an exactly symmetric set;
+// others are not forced. Any parts may be missing. A best fit prefers capsules that hang together
+// to lone spheres (one piece is worth a third of a primitive) and leaves out no limb; beside the
+// best of unconnected spheres that costs about a twentieth of E_r.
 //
-// `target`: tighten::TargetOf(body, options.parts). Returns one set or, of larger enclosing ones,
-// a few, those that seem best first: which of them is tightest only coverage can tell. Same input,
-// same bits, for any pool. On cancellation the set so far comes back. Tells the
-// observer the fraction of the stage. Grows with budget and
-// vertices.
-[[nodiscard]] std::vector<capsule::PrimitiveSet> RefineSet(const body::Body& body,
-                                                           const tighten::CoverTarget& target,
-                                                           const RefineOptions& options,
-                                                           const ThreadPool& pool,
-                                                           FitObserver& observer);
+// `target`: tighten::TargetOf(body, options.parts). Same input, same bits, for any pool. On
+// cancellation the set so far comes back. Tells the observer the fraction of the stage. Grows with
+// budget and vertices.
+[[nodiscard]] capsule::PrimitiveSet RefineSet(const body::Body& body,
+                                              const tighten::CoverTarget& target,
+                                              const RefineOptions& options, const ThreadPool& pool,
+                                              FitObserver& observer);
 
 // The tightest set of a given layout: its spheres and capsules by the same numbers, moved and sized
 // for this body. Of the options the budget does not count. Errors as HangLayout's. The layout must

@@ -98,8 +98,9 @@ constexpr Table<pipeline::FitMode, v1::FitMode, 3> kFitModes = {
      {pipeline::FitMode::kBestFit, v1::FIT_MODE_BEST_FIT},
      {pipeline::FitMode::kEnclose, v1::FIT_MODE_UNSPECIFIED}}};
 
-constexpr Table<pipeline::Quality, v1::Quality, 3> kQualities = {
+constexpr Table<pipeline::Quality, v1::Quality, 4> kQualities = {
     {{pipeline::Quality::kPaper, v1::QUALITY_PAPER},
+     {pipeline::Quality::kBalanced, v1::QUALITY_BALANCED},
      {pipeline::Quality::kTight, v1::QUALITY_TIGHT},
      {pipeline::Quality::kPaper, v1::QUALITY_UNSPECIFIED}}};
 

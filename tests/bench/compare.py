@@ -8,7 +8,10 @@ import subprocess
 import tempfile
 import textwrap
 
+# Name, options now, and options of the other build where they differ.
 CASES = [("PAPER, 64", ["--quality", "paper", "--max-primitives", "64"]),
+         ("PAPER → BALANCED, 64", ["--quality", "balanced", "--max-primitives", "64"],
+          ["--quality", "paper", "--max-primitives", "64"]),
          ("TIGHT, 64", ["--quality", "tight", "--max-primitives", "64"]),
          ("TIGHT, 128", ["--quality", "tight", "--max-primitives", "128"]),
          ("TIGHT, 250", ["--quality", "tight", "--max-primitives", "250"]),
@@ -39,11 +42,11 @@ def median(runs, name):
 
 
 def measure(arguments, body, folder):
-    for case, options in CASES:
+    for case, options, *other in CASES:
         for threads in (1, 2):
             before, after = [], []
             for _ in range(arguments.runs):
-                before.append(fit(arguments.other, body, options, threads, folder))
+                before.append(fit(arguments.other, body, (other or [options])[0], threads, folder))
                 after.append(fit(arguments.this, body, options, threads, folder))
             yield case, threads, before, after
 

@@ -82,7 +82,7 @@ def measure_times(store, progress, time_body, scales, budgets, runs):
             "is_series": "_tri_" in stem(scale) or stem(scale).startswith("mannequin_")}
         row[cells.SPHERE_MESHES] = store.sphere_mesh_times(
             scale, [FIGURE_10_BUDGET], runs)[FIGURE_10_BUDGET]
-        for method in ("paper enclose", "tight enclose", "tight best"):
+        for method in ("paper enclose", "balanced enclose", "tight enclose", "tight best"):
             kept = store.has_time(store.key(f"time{runs}", scale, method, FIGURE_10_BUDGET))
             cell = row[method] = store.time_cell(scale, method, FIGURE_10_BUDGET, runs)
             progress.step(f"scale  {stem(scale)} {method}  "

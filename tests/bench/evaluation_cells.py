@@ -13,6 +13,7 @@ METHODS = {
     PUBLISHED: [],
     "paper enclose": ["--quality", "paper", "--fit", "enclose"],
     "paper best": ["--quality", "paper", "--fit", "best"],
+    "balanced enclose": ["--quality", "balanced", "--fit", "enclose"],
     "tight enclose": ["--quality", "tight", "--fit", "enclose"],
     "tight best": ["--quality", "tight", "--fit", "best"],
 }

@@ -15,6 +15,7 @@ STYLE = {
     "published enclose": ("#b2182b", "D", ":", "the paper's method as published"),
     "paper enclose": ("#e08214", "s", "-", "capfit, paper"),
     "paper best": ("#e08214", "s", "-", "capfit, paper"),
+    "balanced enclose": ("#1b9e77", "v", "-", "capfit, balanced"),
     "tight enclose": ("#2166ac", "o", "-", "capfit, tight"),
     "tight best": ("#2166ac", "o", "-", "capfit, tight"),
     SPHERE_MESHES: ("#555555", "^", "--", "improved Sphere-Meshes, own code"),
@@ -59,7 +60,8 @@ def figure_9(errors, budgets, path):
     for row, (name, label, ticks) in enumerate(rows):
         for column, (title, fit) in enumerate(columns):
             axes = grid[row][column]
-            for method in (SPHERE_MESHES, f"published {fit}", f"paper {fit}", f"tight {fit}"):
+            for method in (SPHERE_MESHES, f"published {fit}", f"paper {fit}",
+                           f"balanced {fit}", f"tight {fit}"):
                 if method not in STYLE:
                     continue
                 color, marker, line, words = STYLE[method]
@@ -86,6 +88,7 @@ def table_1(times, budgets, path):
     lines = [(SPHERE_MESHES, "-", SPHERE_MESHES + " (2013), own code, one thread"),
              ("paper enclose", "-", "capfit, paper, ENCLOSE"),
              ("paper best", ":", "capfit, paper, BEST_FIT"),
+             ("balanced enclose", "-", "capfit, balanced, ENCLOSE"),
              ("tight enclose", "-", "capfit, tight, ENCLOSE"),
              ("tight best", ":", "capfit, tight, BEST_FIT")]
     for method, line, words in lines:
@@ -123,7 +126,7 @@ def figure_10(ratios, path):
             axes.plot([row["faces"] for row in chosen], [value(row) for row in chosen],
                       color=color, marker=marker, markersize=5, **style)
 
-    for method in ("paper enclose", "tight enclose", "tight best"):
+    for method in ("paper enclose", "balanced enclose", "tight enclose", "tight best"):
         fit, line = ("BEST_FIT", ":") if method.endswith("best") else ("ENCLOSE", "-")
         label = f"{STYLE[method][3]}, {fit}"
         draw(left, lambda row, m=method: seconds(row, SPHERE_MESHES) / seconds(row, m), method, line,

@@ -1,6 +1,6 @@
 // Median time of each stage of a fit, for several numbers of threads in the same run.
 //
-//   fit_times BODY... [--primitives 64...] [--quality paper|tight] [--fit enclose|best]
+//   fit_times BODY... [--primitives 64...] [--quality paper|balanced|tight] [--fit enclose|best]
 //             [--threads 1 2] [--runs 9] [--parts all|chains]
 #include <algorithm>
 #include <chrono>
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   Task task{{}, {1, 2}, 9};
   app.add_option("bodies", bodies, "mesh files")->required();
   app.add_option("--primitives", primitives);
-  app.add_option("--quality", quality)->check(CLI::IsMember({"paper", "tight"}));
+  app.add_option("--quality", quality)->check(CLI::IsMember({"paper", "balanced", "tight"}));
   app.add_option("--fit", fit)->check(CLI::IsMember({"enclose", "best"}));
   app.add_option("--parts", parts)->check(CLI::IsMember({"all", "chains"}));
   app.add_option("--threads", task.threads);
@@ -98,7 +98,10 @@ int main(int argc, char** argv) {
   app.add_flag("--grow-only", task.options.grows_only);
   CLI11_PARSE(app, argc, argv);
   if (parts == "all") task.options.parts = {true, true, true, true, true, true};
-  if (quality == "tight") task.options.quality = capfit::pipeline::Quality::kTight;
+  for (int i = 0; i < capfit::pipeline::kQualityCount; ++i) {
+    const auto named = static_cast<capfit::pipeline::Quality>(i);
+    if (quality == QualityName(named)) task.options.quality = named;
+  }
   if (fit == "best") task.options.fit = capfit::pipeline::FitMode::kBestFit;
 
   std::printf("%-42s %5s %2s", "ms", "n_p", "th");

@@ -59,8 +59,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"approximate b.obj -o r.json --lcoal=1", "did you mean --local?"},
         Case{"--versoin", "capfit has no flag --versoin; did you mean --version?"},
         Case{"approximate b.obj -o r.json --quality fast",
-             "--quality: 'fast' is none of paper, tight"},
-        Case{"approximate b.obj -o r.json --quality 1", "--quality: '1' is none of paper, tight"},
+             "--quality: 'fast' is none of paper, balanced, tight"},
+        Case{"approximate b.obj -o r.json --quality 1",
+             "--quality: '1' is none of paper, balanced, tight"},
         Case{"approximate b.obj -o r.json --fit loose",
              "--fit: 'loose' is none of enclose, best\n"},
         Case{"approximate b.obj -o r.json --sex none",
@@ -101,7 +102,7 @@ TEST(CommandLine, HelpIsInGroups) {
   for (const char* const group : {"Input:", "Output:", "What to fit:", "Budget (", "Server:"}) {
     EXPECT_THAT(help.out, HasSubstr(std::string("\n") + group)) << group;
   }
-  EXPECT_THAT(help.out, HasSubstr("paper|tight"));
+  EXPECT_THAT(help.out, HasSubstr("paper|balanced|tight"));
 }
 
 TEST(CommandLine, HelpAllHasEveryCommandAndFlag) {

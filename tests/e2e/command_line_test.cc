@@ -378,7 +378,7 @@ TEST_F(CommandLine, InfoIsReadableAndJson) {
   const Outcome table = RunCapfit({"info", "--server", server_->address()});
   EXPECT_EQ(table.exit_code, 0) << table.err;
   for (const char* const words : {"limits", "2000000", "mesh files: obj, ply, stl, off, glb",
-                                  "nvcloth", "quality    paper, tight"}) {
+                                  "nvcloth", "quality    paper, balanced, tight"}) {
     EXPECT_THAT(table.out, HasSubstr(words));
   }
   const Outcome json = RunCapfit({"info", "--server", server_->address(), "--json"});
@@ -403,7 +403,7 @@ TEST_F(CommandLine, BashCompletesCommandsFlagsWordsAndFiles) {
   EXPECT_EQ(Completed("capfit ap"), "approximate ");
   EXPECT_EQ(Completed("capfit e"), "evaluate export ");
   EXPECT_EQ(Completed("capfit approximate --max-p"), "--max-primitives ");
-  EXPECT_EQ(Completed("capfit approximate b.obj --quality ''"), "paper tight ");
+  EXPECT_EQ(Completed("capfit approximate b.obj --quality ''"), "paper balanced tight ");
   EXPECT_EQ(Completed("capfit approximate --parts le"), "legs ");
   EXPECT_EQ(Completed("capfit render --views ba"), "back-quarter back ");
   EXPECT_EQ(Completed("capfit completion ''"), "bash ");

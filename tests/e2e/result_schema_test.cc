@@ -57,6 +57,7 @@ TEST(ResultSchema, HoldsForEveryKindOfFit) {
              {"--local", "--fit", "best", "--parts", "all", "--polygons"},
              {"--local", "--quality", "tight", "--polygons", "--max-primitives", "30"},
              {"--local", "--quality", "tight", "--fit", "best", "--max-spheres", "20"},
+             {"--local", "--quality", "balanced"},
              {"--local", "--engine", "unity_cloth", "--tolerance-mm", "2"},
              {"--local", "--polygon-error", "0.5", "--require-parts", "arms,legs"},
              {"--local", "--parts", "arms,legs", "--seed", "18446744073709551615"},

@@ -28,7 +28,7 @@ TEST(EnumConversion, EveryCoreValueComesBack) {
   ExpectRoundTrip<Stage>(kStageCount);
   ExpectRoundTrip<section::Sex>(3);
   ExpectRoundTrip<pipeline::FitMode>(2);
-  ExpectRoundTrip<pipeline::Quality>(2);
+  ExpectRoundTrip<pipeline::Quality>(pipeline::kQualityCount);
   ExpectRoundTrip<pipeline::SkinningMode>(4);
 }
 

@@ -43,7 +43,7 @@ TEST(Features, HaveAWordForEveryOption) {
       {"budget",
        {"budget.max_primitives", "budget.spheres_and_capsules", "budget.max_polygon_error"}},
       {"fit_mode", {"fit.enclose", "fit.best_fit"}},
-      {"quality", {"quality.paper", "quality.tight"}},
+      {"quality", {"quality.paper", "quality.balanced", "quality.tight"}},
       {"parts", {}},  // every server fits every part
       {"sex", {"option.sex"}},
       {"skinning", {"skinning.dense", "skinning.sparse", "skinning.bones"}},
@@ -69,7 +69,7 @@ TEST(Features, HaveAWordForEveryOption) {
   EXPECT_EQ(words, std::set<std::string>(documented.begin(), documented.end()));
   EXPECT_EQ(v1::Budget::descriptor()->field_count(), 3);
   EXPECT_EQ(v1::FitMode_descriptor()->value_count(), 3);
-  EXPECT_EQ(v1::Quality_descriptor()->value_count(), 3);
+  EXPECT_EQ(v1::Quality_descriptor()->value_count(), 4);
   EXPECT_EQ(v1::SkinningForm_descriptor()->value_count(), 5);
 }
 

@@ -19,7 +19,7 @@ TEST(FitCost, MoreWorkIsExpectedToTakeLonger) {
 TEST(FitCost, LearnsWhatFitsOfAKindTake) {
   FitCost cost;
   const FitSize large{200'000, Quality::kTight, false};
-  const FitSize other{200'000, Quality::kPaper, false};
+  const FitSize other{200'000, Quality::kBalanced, false};
   const double before = cost.ExpectedSeconds(other);
   for (int i = 0; i < 50; ++i) cost.Learn(large, 7.0);
   EXPECT_NEAR(cost.ExpectedSeconds(large), 7.0, 0.01);

@@ -139,7 +139,8 @@ class Client:
                             with commas; default: torso, arms, legs
         require_parts       refuse a body without these
         fit_mode            "enclose": nothing outside; "best": the smallest error
-        quality             "paper": the published method; "tight": closer
+        quality             "paper": the published method; "tight": closer, in more time; "balanced":
+                            almost as close, in about the time of "paper"
         tolerance_m         how far a vertex may stick out with "enclose", in metres
         sex                 "auto", "female", "male": whether the bust may be split
         skinning            what carries the centres along: "sparse" (some 100 vertices each),

@@ -4,29 +4,29 @@
 
 #include <vector>
 
-#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
+#include "core/base/work_meter.h"
 #include "core/capsule/mirrored_set.h"
-#include "core/refine/best_fit/growth.h"
 #include "core/refine/enclosing/enclosing_task.h"
 
 namespace capfit::refine {
 
-// Settles each start and spares what is beyond the budget where the least is lost. The small ones
-// grow in rounds, two at a time and each in two ways: in the graph loosened, ties between near
-// spheres and leaves at the points that stick out are added where they win most at once, and the
-// rest of the round cuts capsules in two where most volume lies between them and the body. Then, of
-// few primitives, exchanges: what is least missed goes, what it cost is spent again, and the best
-// of a few such trials is kept if it is better; of many, up to a quarter is given up and spent anew
-// at once. What is left of the budget then, too little for a cut, is tried on ties and leaves.
+// Settles each start and spares what is beyond the budget where the least is lost. The best of the
+// smaller ones grows in rounds: in the graph loosened, ties between near spheres and leaves at the
+// points that stick out are added where they win most at once, and the rest of the round cuts
+// capsules in two where most volume lies between them and the body. The best of all is then renewed
+// in `rounds` rounds: up to a quarter of the primitives, what is least missed, is given up and
+// spent anew in the same way, and the result kept if it is better. What is left of the budget then,
+// too little for a cut, is tried on ties and leaves.
 //
-// `starts` must not be empty. Tells the observer the fraction of its own work. Returns the best few
-// graphs, best first, as far as the task's thinned points tell; they fit the budget unless
-// cancelled. Trials run in parallel, and searches may run side by side; same bits for any pool.
-// About 0.1 s on two cores at 64 primitives, 0.25 s at 128, 1 s at 250.
-[[nodiscard]] std::vector<capsule::MirroredSet> FindEnclosingGraphs(
+// `starts` must not be empty. Brings the stage from its beginning to `until`. The graph fits the
+// budget unless cancelled. What is tried runs in parallel; same bits for any pool. A round takes
+// about 20 ms on two cores at 64 primitives, 40 ms at 128, 100 ms at 250; the starts as long as two
+// to four of these.
+[[nodiscard]] capsule::MirroredSet FindEnclosingGraph(
     const EnclosingTask& task, const capsule::Budget& budget,
-    const std::vector<capsule::MirroredSet>& starts, const ThreadPool& pool, FitObserver& observer);
+    const std::vector<capsule::MirroredSet>& starts, int rounds, double until,
+    const ThreadPool& pool, WorkMeter& meter);
 
 }  // namespace capfit::refine
 

@@ -315,10 +315,563 @@ constexpr auto kShell64BustEdges = std::to_array<LayoutEdge>({{0, 3, false},
                                                               {3, 17, false},
                                                               {8, 17, false}});
 
+// 62 + 66 for enclosing, with head, hands and feet.
+constexpr auto kShellFull128Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.72, 0.0, -0.3}, 1.1, false},     // 0
+    {BoneId::kRibs, {1.24, 0.5, -0.1}, 1.3, true},       // 1
+    {BoneId::kChest, {1.01, 0.0, -0.2}, 0.7, false},     // 2
+    {BoneId::kUpperArm, {0.07, -0.1, -0.0}, 1.4, true},  // 3
+    {BoneId::kPelvis, {0.60, 0.3, 0.1}, 1.6, true},      // 4
+    {BoneId::kThigh, {0.93, -0.0, 0.1}, 0.9, true},      // 5
+    {BoneId::kShin, {1.85, 0.0, 0.3}, 0.6, true},        // 6
+    {BoneId::kHand, {0.76, -0.0, -0.9}, 0.7, true},      // 7
+    {BoneId::kFoot, {0.89, 0.2, 0.1}, 1.6, true},        // 8
+    {BoneId::kShin, {0.33, 0.0, -0.2}, 1.0, true},       // 9
+    {BoneId::kHead, {0.60, 0.0, 0.6}, 1.2, true},        // 10
+    {BoneId::kThigh, {0.73, -0.0, 0.1}, 1.1, true},      // 11
+    {BoneId::kHead, {0.52, 0.0, 0.0}, 1.4, false},       // 12
+    {BoneId::kBelly, {1.00, 0.4, 0.1}, 1.0, true},       // 13
+    {BoneId::kUpperArm, {0.89, 0.0, -0.1}, 1.0, true},   // 14
+    {BoneId::kRibs, {1.18, 1.0, 0.6}, 0.7, true},        // 15
+    {BoneId::kClavicle, {0.34, -0.4, -0.2}, 1.5, true},  // 16
+    {BoneId::kBelly, {0.19, 0.0, 0.0}, 1.1, false},      // 17
+    {BoneId::kHead, {0.33, 0.0, 1.4}, 0.8, false},       // 18
+    {BoneId::kHead, {0.63, 0.0, 2.0}, 0.1, false},       // 19
+    {BoneId::kHand, {0.22, -0.1, -0.1}, 1.2, true},      // 20
+    {BoneId::kHead, {0.71, 0.0, 0.6}, 1.3, false},       // 21
+    {BoneId::kHand, {0.62, -0.3, 2.2}, 0.8, true},       // 22
+    {BoneId::kHand, {0.86, -0.2, 0.1}, 1.0, true},       // 23
+    {BoneId::kHead, {0.70, 0.0, 0.1}, 1.4, false},       // 24
+    {BoneId::kHead, {0.51, 0.0, 2.2}, 0.2, false},       // 25
+    {BoneId::kHeel, {0.59, 0.1, -0.4}, 1.4, true},       // 26
+    {BoneId::kThigh, {-0.21, -0.3, 0.2}, 1.4, true},     // 27
+    {BoneId::kFoot, {0.28, 0.0, -0.8}, 1.6, true},       // 28
+    {BoneId::kHead, {0.71, 0.0, -0.4}, 1.2, false},      // 29
+    {BoneId::kBelly, {0.49, 0.0, 0.0}, 0.9, false},      // 30
+    {BoneId::kHead, {0.62, 0.0, -0.6}, 1.0, false},      // 31
+    {BoneId::kShin, {1.12, -0.0, -0.3}, 0.5, true},      // 32
+    {BoneId::kShin, {1.06, 0.0, -0.2}, 0.3, true},       // 33
+    {BoneId::kThigh, {0.28, -0.1, 0.1}, 1.1, true},      // 34
+    {BoneId::kShin, {0.79, 0.0, 0.1}, 0.5, true},        // 35
+    {BoneId::kHead, {0.44, 0.2, 0.6}, 0.9, true},        // 36
+});
+constexpr auto kShellFull128Edges = std::to_array<LayoutEdge>({
+    {5, 9, false},   {5, 11, false},  {2, 3, false},   {3, 14, false},  {1, 13, false},
+    {4, 13, true},   {0, 3, false},   {1, 15, false},  {1, 16, false},  {3, 16, false},
+    {13, 17, false}, {7, 20, false},  {19, 21, false}, {20, 22, false}, {21, 24, false},
+    {2, 25, false},  {10, 18, false}, {6, 26, false},  {13, 27, false}, {8, 28, false},
+    {24, 29, false}, {4, 30, false},  {16, 16, true},  {6, 32, false},  {9, 33, false},
+    {4, 34, false},  {11, 34, false}, {6, 35, false},  {9, 35, false},  {7, 22, false},
+    {11, 27, false}, {19, 29, false}, {14, 20, false}, {2, 36, false},  {12, 25, false},
+    {10, 29, false}, {1, 1, true},
+});
+
+// 109 + 141 for enclosing, with head, hands and feet.
+constexpr auto kShellFull250Nodes = std::to_array<LayoutNode>({
+    {BoneId::kRibs, {1.24, 0.5, -0.1}, 1.3, true},       // 0
+    {BoneId::kChest, {0.94, 0.0, -0.3}, 0.8, false},     // 1
+    {BoneId::kUpperArm, {0.10, -0.0, -0.1}, 1.2, true},  // 2
+    {BoneId::kBelly, {0.21, -0.2, -0.0}, 1.0, true},     // 3
+    {BoneId::kThigh, {0.88, -0.0, 0.3}, 0.8, true},      // 4
+    {BoneId::kHeel, {0.64, 0.1, -0.4}, 1.3, true},       // 5
+    {BoneId::kHand, {2.80, -0.2, -1.8}, 0.2, true},      // 6
+    {BoneId::kFoot, {0.97, -0.8, 0.6}, 0.7, true},       // 7
+    {BoneId::kShin, {0.44, 0.0, -0.2}, 1.0, true},       // 8
+    {BoneId::kHead, {0.63, 0.5, 1.2}, 0.5, true},        // 9
+    {BoneId::kThigh, {0.37, -0.1, 0.4}, 1.2, true},      // 10
+    {BoneId::kHead, {0.71, 0.0, 0.2}, 1.3, false},       // 11
+    {BoneId::kRibs, {0.10, 0.3, 0.1}, 0.9, true},        // 12
+    {BoneId::kShin, {0.85, 0.0, 0.0}, 0.6, true},        // 13
+    {BoneId::kRibs, {0.98, 0.7, 0.6}, 0.9, true},        // 14
+    {BoneId::kClavicle, {0.32, -0.4, -0.2}, 1.5, true},  // 15
+    {BoneId::kThigh, {0.18, -0.2, -0.0}, 1.2, true},     // 16
+    {BoneId::kHand, {0.59, -0.3, 2.4}, 0.7, true},       // 17
+    {BoneId::kBelly, {0.22, 0.0, 0.2}, 1.1, false},      // 18
+    {BoneId::kForearm, {1.24, 0.0, -0.4}, 0.5, true},    // 19
+    {BoneId::kHead, {0.62, 0.0, -0.5}, 1.1, false},      // 20
+    {BoneId::kHead, {0.40, 0.0, 1.0}, 1.0, false},       // 21
+    {BoneId::kHead, {0.27, 0.0, 0.1}, 0.9, false},       // 22
+    {BoneId::kPelvis, {0.90, 0.7, 0.2}, 1.3, true},      // 23
+    {BoneId::kHead, {0.71, 0.0, 0.6}, 1.3, false},       // 24
+    {BoneId::kHead, {0.59, 0.0, 0.1}, 1.4, false},       // 25
+    {BoneId::kPelvis, {0.65, 0.4, -0.1}, 1.5, true},     // 26
+    {BoneId::kFoot, {0.83, 0.1, 0.2}, 0.7, true},        // 27
+    {BoneId::kHead, {0.51, 0.0, 2.3}, 0.1, false},       // 28
+    {BoneId::kHead, {0.71, 0.0, -0.5}, 1.1, false},      // 29
+    {BoneId::kHand, {0.44, -0.1, 1.3}, 0.9, true},       // 30
+    {BoneId::kThigh, {0.16, -0.4, 0.7}, 0.9, true},      // 31
+    {BoneId::kShin, {1.81, -0.1, -0.2}, 0.6, true},      // 32
+    {BoneId::kRibs, {0.25, 0.6, -0.0}, 0.9, true},       // 33
+    {BoneId::kFoot, {0.13, -0.1, -0.4}, 1.2, true},      // 34
+    {BoneId::kShin, {0.33, -0.0, -0.5}, 0.8, true},      // 35
+    {BoneId::kForearm, {0.42, -0.0, -0.1}, 1.1, true},   // 36
+    {BoneId::kThigh, {0.39, -0.1, 0.1}, 1.2, true},      // 37
+    {BoneId::kBelly, {0.87, 0.7, -0.0}, 0.8, true},      // 38
+    {BoneId::kThigh, {0.94, -0.0, -0.0}, 0.8, true},     // 39
+    {BoneId::kThigh, {0.00, 0.0, 0.2}, 1.1, true},       // 40
+    {BoneId::kFoot, {0.82, -0.9, 0.2}, 0.7, true},       // 41
+    {BoneId::kHead, {0.29, 0.0, 1.7}, 0.4, false},       // 42
+    {BoneId::kThigh, {0.33, -0.1, 0.3}, 1.2, true},      // 43
+    {BoneId::kUpperArm, {0.17, -0.0, 0.0}, 1.3, true},   // 44
+    {BoneId::kClavicle, {0.64, -0.0, -0.2}, 1.1, true},  // 45
+    {BoneId::kFoot, {0.99, 1.1, 0.5}, 0.6, true},        // 46
+    {BoneId::kUpperArm, {0.16, -0.0, -0.1}, 1.3, true},  // 47
+    {BoneId::kBelly, {0.58, 0.4, 0.0}, 1.0, true},       // 48
+    {BoneId::kHead, {0.72, 0.0, -0.1}, 1.3, false},      // 49
+    {BoneId::kForearm, {0.06, 0.0, 0.1}, 0.9, true},     // 50
+    {BoneId::kUpperArm, {0.77, -0.0, -0.2}, 0.8, true},  // 51
+    {BoneId::kHand, {0.79, -0.2, -1.0}, 0.6, true},      // 52
+    {BoneId::kUpperArm, {0.67, -0.0, 0.1}, 0.9, true},   // 53
+    {BoneId::kHand, {0.23, -0.0, 0.6}, 0.9, true},       // 54
+    {BoneId::kHand, {0.10, -0.0, 0.1}, 0.9, true},       // 55
+    {BoneId::kThigh, {-0.06, -0.2, 0.2}, 1.2, true},     // 56
+    {BoneId::kFoot, {0.78, 1.2, 0.0}, 0.7, true},        // 57
+    {BoneId::kPelvis, {0.79, -0.1, -0.3}, 1.1, true},    // 58
+    {BoneId::kHead, {0.36, 0.0, 0.8}, 0.9, false},       // 59
+    {BoneId::kThigh, {0.15, -0.1, 0.3}, 1.2, true},      // 60
+});
+constexpr auto kShellFull250Edges = std::to_array<LayoutEdge>({
+    {1, 9, false},   {1, 2, false},   {0, 12, false},  {5, 13, false},  {3, 12, false},
+    {0, 14, false},  {0, 15, false},  {0, 12, true},   {6, 17, false},  {20, 22, false},
+    {12, 23, false}, {12, 18, false}, {21, 24, false}, {22, 25, false}, {5, 27, false},
+    {12, 12, true},  {21, 28, false}, {6, 30, false},  {15, 15, true},  {10, 31, false},
+    {3, 12, true},   {0, 33, false},  {13, 34, false}, {8, 35, false},  {18, 33, false},
+    {24, 28, false}, {0, 15, true},   {35, 39, false}, {37, 39, false}, {23, 40, false},
+    {32, 41, false}, {33, 38, false}, {0, 2, true},    {1, 15, false},  {21, 42, false},
+    {2, 44, false},  {15, 45, false}, {7, 46, false},  {0, 45, false},  {1, 45, false},
+    {0, 38, true},   {26, 48, true},  {11, 49, false}, {29, 49, false}, {16, 37, false},
+    {39, 43, false}, {4, 10, false},  {10, 39, false}, {23, 38, false}, {47, 50, false},
+    {26, 48, false}, {47, 51, false}, {19, 52, false}, {44, 53, false}, {0, 0, true},
+    {52, 54, false}, {36, 55, false}, {3, 56, true},   {4, 8, false},   {32, 57, false},
+    {46, 57, false}, {16, 58, false}, {26, 58, false}, {18, 31, false}, {36, 50, false},
+    {2, 47, false},  {21, 59, false}, {25, 59, false}, {10, 56, false}, {43, 60, false},
+    {56, 60, false}, {36, 51, false}, {8, 13, false},  {37, 40, false}, {7, 57, false},
+    {27, 34, false}, {9, 21, false},
+});
+
+// 58 + 69 for enclosing, without head, hands and feet.
+constexpr auto kShell128Nodes = std::to_array<LayoutNode>({
+    {BoneId::kRibs, {0.96, 0.7, 0.6}, 0.9, true},        // 0
+    {BoneId::kForearm, {0.94, -0.1, 0.0}, 0.8, true},    // 1
+    {BoneId::kPelvis, {0.77, 0.5, 0.1}, 1.5, true},      // 2
+    {BoneId::kShin, {0.05, -0.0, -0.1}, 1.1, true},      // 3
+    {BoneId::kShin, {0.94, -0.1, -0.2}, 0.6, true},      // 4
+    {BoneId::kRibs, {1.18, 0.5, -0.1}, 1.3, true},       // 5
+    {BoneId::kBelly, {0.28, 0.0, 0.3}, 1.1, false},      // 6
+    {BoneId::kThigh, {0.39, -0.0, 0.3}, 1.2, true},      // 7
+    {BoneId::kUpperArm, {0.03, -0.1, -0.1}, 1.4, true},  // 8
+    {BoneId::kClavicle, {0.26, 0.6, -0.4}, 1.1, true},   // 9
+    {BoneId::kBelly, {0.71, 0.0, 0.2}, 0.8, false},      // 10
+    {BoneId::kForearm, {0.53, -0.0, -0.3}, 0.9, true},   // 11
+    {BoneId::kClavicle, {0.58, -0.6, -0.0}, 1.3, true},  // 12
+    {BoneId::kShin, {0.35, -0.0, -0.2}, 1.1, true},      // 13
+    {BoneId::kChest, {0.84, 0.0, -0.2}, 1.1, false},     // 14
+    {BoneId::kThigh, {0.19, -0.2, 0.2}, 1.3, true},      // 15
+    {BoneId::kBelly, {0.06, 0.7, 0.5}, 0.5, true},       // 16
+    {BoneId::kRibs, {-0.00, 0.7, -0.0}, 0.8, true},      // 17
+    {BoneId::kBelly, {0.21, 0.0, 0.0}, 1.3, false},      // 18
+    {BoneId::kPelvis, {0.70, 0.3, -0.3}, 1.3, true},     // 19
+    {BoneId::kClavicle, {0.37, -0.5, -0.2}, 1.7, true},  // 20
+    {BoneId::kBelly, {0.51, 0.6, 0.1}, 1.1, true},       // 21
+    {BoneId::kShin, {0.94, -0.1, 0.1}, 0.6, true},       // 22
+    {BoneId::kShin, {0.50, -0.1, -0.5}, 0.8, true},      // 23
+    {BoneId::kShin, {0.15, -0.0, 0.2}, 1.0, true},       // 24
+    {BoneId::kForearm, {0.32, -0.0, 0.0}, 1.1, true},    // 25
+    {BoneId::kUpperArm, {0.24, -0.1, 0.1}, 0.8, true},   // 26
+    {BoneId::kForearm, {0.21, 0.0, 0.1}, 0.9, true},     // 27
+    {BoneId::kBelly, {0.35, 0.7, -0.1}, 0.9, true},      // 28
+    {BoneId::kChest, {0.21, 0.0, -0.2}, 1.8, false},     // 29
+    {BoneId::kThigh, {0.31, -0.0, 0.1}, 1.2, true},      // 30
+    {BoneId::kChest, {0.44, 0.0, -0.4}, 1.2, false},     // 31
+});
+constexpr auto kShell128Edges = std::to_array<LayoutEdge>({
+    {8, 9, false},   {1, 11, false},  {6, 12, false},  {8, 12, false},  {5, 9, true},
+    {5, 10, false},  {7, 15, false},  {2, 18, false},  {17, 18, false}, {0, 5, false},
+    {15, 19, false}, {5, 20, false},  {2, 21, false},  {17, 21, false}, {2, 15, false},
+    {13, 22, false}, {4, 23, false},  {3, 13, false},  {7, 24, false},  {1, 25, false},
+    {11, 27, false}, {15, 28, false}, {20, 20, true},  {3, 30, false},  {9, 31, false},
+    {8, 11, false},  {12, 20, false}, {2, 21, true},   {16, 21, true},  {0, 12, false},
+    {16, 28, false}, {13, 24, false}, {13, 23, false}, {15, 21, true},  {17, 28, false},
+});
+
+// 108 + 141 for enclosing, without head, hands and feet.
+constexpr auto kShell250Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.36, 0.0, 0.1}, 1.1, false},      // 0
+    {BoneId::kRibs, {1.14, 0.6, -0.1}, 1.2, true},       // 1
+    {BoneId::kForearm, {0.94, -0.1, -0.2}, 0.6, true},   // 2
+    {BoneId::kPelvis, {0.67, 0.4, -0.1}, 1.6, true},     // 3
+    {BoneId::kShin, {0.07, -0.0, 0.2}, 1.0, true},       // 4
+    {BoneId::kShin, {0.95, -0.1, 0.1}, 0.6, true},       // 5
+    {BoneId::kClavicle, {0.33, -0.8, -0.2}, 1.7, true},  // 6
+    {BoneId::kBelly, {0.24, 0.0, 0.1}, 1.2, false},      // 7
+    {BoneId::kThigh, {0.33, -0.1, 0.3}, 1.2, true},      // 8
+    {BoneId::kUpperArm, {0.03, -0.0, -0.1}, 1.2, true},  // 9
+    {BoneId::kChest, {0.72, 0.5, -0.5}, 1.0, true},      // 10
+    {BoneId::kBelly, {0.46, 0.0, 0.4}, 0.8, false},      // 11
+    {BoneId::kClavicle, {0.52, -0.8, 0.1}, 1.4, true},   // 12
+    {BoneId::kShin, {0.49, -0.1, -0.1}, 1.0, true},      // 13
+    {BoneId::kChest, {1.46, 0.0, -0.6}, 0.2, false},     // 14
+    {BoneId::kThigh, {0.30, -0.2, 0.6}, 0.9, true},      // 15
+    {BoneId::kBelly, {-0.03, 0.4, 0.5}, 0.7, true},      // 16
+    {BoneId::kBelly, {1.06, 0.6, 0.0}, 0.8, true},       // 17
+    {BoneId::kBelly, {0.22, 0.0, -0.0}, 1.3, false},     // 18
+    {BoneId::kBelly, {0.42, 0.7, 0.1}, 1.1, true},       // 19
+    {BoneId::kRibs, {0.97, 0.7, 0.6}, 0.8, true},        // 20
+    {BoneId::kShin, {0.13, -0.0, -0.3}, 1.0, true},      // 21
+    {BoneId::kShin, {0.24, -0.0, -0.1}, 1.1, true},      // 22
+    {BoneId::kThigh, {0.11, -0.1, -0.2}, 1.0, true},     // 23
+    {BoneId::kThigh, {0.98, -0.0, -0.1}, 0.8, true},     // 24
+    {BoneId::kBelly, {0.54, -0.1, 0.3}, 0.9, true},      // 25
+    {BoneId::kThigh, {0.23, -0.1, 0.1}, 1.2, true},      // 26
+    {BoneId::kThigh, {0.70, -0.0, 0.1}, 1.0, true},      // 27
+    {BoneId::kBelly, {0.23, 0.6, 0.2}, 1.0, true},       // 28
+    {BoneId::kShin, {0.95, -0.1, -0.2}, 0.6, true},      // 29
+    {BoneId::kPelvis, {0.92, 0.1, 0.2}, 1.3, true},      // 30
+    {BoneId::kThigh, {0.48, -0.0, 0.3}, 1.1, true},      // 31
+    {BoneId::kUpperArm, {0.16, -0.0, 0.1}, 1.3, true},   // 32
+    {BoneId::kClavicle, {0.58, -0.1, -0.1}, 1.2, true},  // 33
+    {BoneId::kChest, {0.90, 0.4, -0.1}, 0.7, true},      // 34
+    {BoneId::kClavicle, {0.80, 0.3, -0.3}, 0.9, true},   // 35
+    {BoneId::kForearm, {0.40, -0.0, -0.1}, 1.1, true},   // 36
+    {BoneId::kChest, {0.88, 0.1, 0.6}, 0.2, true},       // 37
+    {BoneId::kClavicle, {0.67, -0.8, -0.2}, 0.7, true},  // 38
+    {BoneId::kShin, {0.56, -0.1, -0.5}, 0.8, true},      // 39
+    {BoneId::kForearm, {0.38, -0.0, -0.1}, 1.0, true},   // 40
+    {BoneId::kUpperArm, {0.79, -0.0, -0.1}, 0.9, true},  // 41
+    {BoneId::kShin, {0.43, -0.1, -0.5}, 0.9, true},      // 42
+    {BoneId::kForearm, {0.96, -0.0, 0.2}, 0.6, true},    // 43
+    {BoneId::kShin, {0.76, -0.1, -0.0}, 0.8, true},      // 44
+    {BoneId::kBelly, {0.76, 0.3, -0.0}, 0.8, true},      // 45
+    {BoneId::kChest, {0.32, 0.0, -0.4}, 1.7, false},     // 46
+    {BoneId::kRibs, {0.95, 0.3, 0.4}, 0.7, true},        // 47
+    {BoneId::kThigh, {0.08, -0.3, -0.4}, 0.9, true},     // 48
+    {BoneId::kForearm, {0.11, -0.0, -0.1}, 1.0, true},   // 49
+    {BoneId::kUpperArm, {0.81, -0.0, 0.1}, 0.9, true},   // 50
+    {BoneId::kRibs, {0.81, 0.7, 0.3}, 0.7, true},        // 51
+    {BoneId::kClavicle, {0.46, 0.0, -0.3}, 1.2, true},   // 52
+    {BoneId::kShin, {0.37, -0.1, -0.5}, 0.9, true},      // 53
+    {BoneId::kUpperArm, {0.22, -0.0, -0.2}, 1.2, true},  // 54
+    {BoneId::kRibs, {0.18, 0.7, -0.1}, 0.8, true},       // 55
+    {BoneId::kUpperArm, {0.46, -0.0, 0.1}, 1.0, true},   // 56
+});
+constexpr auto kShell250Edges = std::to_array<LayoutEdge>({
+    {9, 12, false},  {6, 10, true},   {6, 11, false},  {6, 10, false},  {17, 18, false},
+    {17, 19, false}, {1, 20, false},  {7, 19, false},  {6, 17, true},   {6, 20, false},
+    {4, 22, false},  {13, 22, false}, {3, 23, false},  {8, 27, false},  {24, 27, false},
+    {3, 28, false},  {19, 28, false}, {1, 12, false},  {3, 19, false},  {26, 27, false},
+    {6, 17, false},  {15, 25, true},  {8, 30, false},  {28, 30, false}, {4, 31, false},
+    {8, 31, false},  {9, 32, false},  {17, 28, false}, {9, 35, false},  {10, 35, false},
+    {2, 36, false},  {14, 37, false}, {34, 37, false}, {1, 35, false},  {29, 39, false},
+    {32, 41, false}, {0, 20, false},  {14, 33, false}, {39, 42, false}, {40, 41, false},
+    {6, 35, false},  {36, 43, false}, {5, 44, false},  {13, 44, false}, {1, 45, false},
+    {23, 24, false}, {22, 24, false}, {14, 46, false}, {19, 47, true},  {20, 47, false},
+    {3, 48, false},  {26, 48, false}, {40, 50, false}, {36, 49, false}, {6, 52, false},
+    {33, 52, false}, {21, 53, false}, {9, 54, false},  {41, 54, false}, {7, 55, false},
+    {12, 55, false}, {22, 42, false}, {19, 45, false}, {19, 25, true},  {36, 40, false},
+    {46, 51, false}, {18, 45, false}, {10, 46, false}, {32, 56, false}, {50, 56, false},
+    {9, 52, false},
+});
+
+// 208 + 292 for enclosing, with head, hands and feet.
+constexpr auto kShellFull500Nodes = std::to_array<LayoutNode>({
+    {BoneId::kRibs, {0.91, 0.0, -0.1}, 0.9, false},      // 0
+    {BoneId::kRibs, {1.09, 0.4, -0.1}, 1.2, true},       // 1
+    {BoneId::kChest, {1.00, 0.0, -0.1}, 0.8, false},     // 2
+    {BoneId::kClavicle, {0.51, 0.5, -0.4}, 0.9, true},   // 3
+    {BoneId::kForearm, {0.95, -0.0, -0.2}, 0.5, true},   // 4
+    {BoneId::kPelvis, {0.66, 0.2, -0.3}, 1.3, true},     // 5
+    {BoneId::kShin, {-0.03, -0.0, -0.0}, 1.0, true},     // 6
+    {BoneId::kHeel, {0.60, 0.1, -0.3}, 1.3, true},       // 7
+    {BoneId::kHand, {2.19, -0.3, 0.2}, 0.2, true},       // 8
+    {BoneId::kFoot, {0.93, 1.3, 0.3}, 0.8, true},        // 9
+    {BoneId::kShin, {0.37, 0.0, -0.1}, 0.9, true},       // 10
+    {BoneId::kHead, {0.73, 0.1, 0.9}, 0.9, true},        // 11
+    {BoneId::kThigh, {0.46, -0.1, 0.1}, 1.1, true},      // 12
+    {BoneId::kHead, {0.71, 0.0, 0.5}, 1.3, false},       // 13
+    {BoneId::kBelly, {0.98, 0.4, 0.1}, 0.9, true},       // 14
+    {BoneId::kUpperArm, {0.94, -0.0, -0.1}, 0.8, true},  // 15
+    {BoneId::kShin, {0.79, 0.0, -0.2}, 0.5, true},       // 16
+    {BoneId::kRibs, {0.97, 0.7, 0.7}, 0.8, true},        // 17
+    {BoneId::kClavicle, {0.35, -0.5, -0.1}, 1.5, true},  // 18
+    {BoneId::kBelly, {0.37, 0.0, 0.0}, 1.2, false},      // 19
+    {BoneId::kHand, {0.43, -0.1, 1.5}, 0.5, true},       // 20
+    {BoneId::kPelvis, {0.51, -0.5, 0.8}, 0.8, true},     // 21
+    {BoneId::kHand, {0.54, -0.1, -0.8}, 0.8, true},      // 22
+    {BoneId::kShin, {1.54, 0.0, 0.3}, 0.6, true},        // 23
+    {BoneId::kHead, {0.70, 0.0, -0.4}, 1.2, false},      // 24
+    {BoneId::kHead, {0.56, 0.0, 0.4}, 1.3, false},       // 25
+    {BoneId::kThigh, {0.59, -0.1, -0.1}, 0.6, true},     // 26
+    {BoneId::kBelly, {0.17, 0.6, 0.2}, 0.7, true},       // 27
+    {BoneId::kHead, {0.38, 0.0, 0.1}, 1.1, false},       // 28
+    {BoneId::kHead, {0.49, 0.0, -0.2}, 1.0, false},      // 29
+    {BoneId::kHead, {0.40, 0.0, 1.1}, 1.0, false},       // 30
+    {BoneId::kHead, {0.71, 0.0, -0.1}, 1.3, false},      // 31
+    {BoneId::kFoot, {0.11, -0.0, -0.2}, 1.2, true},      // 32
+    {BoneId::kHead, {0.51, 0.0, 2.3}, 0.1, false},       // 33
+    {BoneId::kForearm, {0.38, -0.0, -0.2}, 1.0, true},   // 34
+    {BoneId::kBelly, {0.30, 0.6, -0.0}, 1.2, true},      // 35
+    {BoneId::kThigh, {0.31, -0.1, 0.3}, 1.2, true},      // 36
+    {BoneId::kHead, {0.48, 0.0, -0.1}, 1.1, false},      // 37
+    {BoneId::kHand, {0.23, -0.0, 0.7}, 0.8, true},       // 38
+    {BoneId::kHand, {0.46, -0.1, 0.4}, 0.8, true},       // 39
+    {BoneId::kThigh, {0.26, 0.1, -0.1}, 0.8, true},      // 40
+    {BoneId::kThigh, {0.37, -0.1, 0.3}, 1.2, true},      // 41
+    {BoneId::kHead, {0.34, 0.0, 0.8}, 1.0, false},       // 42
+    {BoneId::kChest, {1.64, 0.0, 1.7}, 0.3, false},      // 43
+    {BoneId::kThigh, {0.98, 0.0, 0.3}, 0.7, true},       // 44
+    {BoneId::kShin, {0.18, -0.0, -0.1}, 0.9, true},      // 45
+    {BoneId::kFoot, {0.65, -0.8, -0.2}, 0.9, true},      // 46
+    {BoneId::kThigh, {0.75, -0.0, -0.1}, 0.8, true},     // 47
+    {BoneId::kUpperArm, {0.42, -0.0, -0.2}, 1.0, true},  // 48
+    {BoneId::kRibs, {0.98, 0.0, -0.7}, 0.5, false},      // 49
+    {BoneId::kBelly, {0.15, 0.0, 0.6}, 0.7, false},      // 50
+    {BoneId::kClavicle, {0.43, -0.2, -0.1}, 0.7, true},  // 51
+    {BoneId::kThigh, {0.27, 0.1, 0.1}, 1.0, true},       // 52
+    {BoneId::kShin, {0.59, -0.1, -0.1}, 0.3, true},      // 53
+    {BoneId::kThigh, {0.53, 0.1, 0.4}, 0.6, true},       // 54
+    {BoneId::kFoot, {0.78, -0.9, 0.2}, 0.8, true},       // 55
+    {BoneId::kClavicle, {0.93, 0.2, -0.1}, 0.8, true},   // 56
+    {BoneId::kChest, {0.28, 0.0, -0.1}, 1.3, false},     // 57
+    {BoneId::kFoot, {0.99, -0.8, 0.5}, 0.6, true},       // 58
+    {BoneId::kBelly, {0.98, 0.6, -0.0}, 0.8, true},      // 59
+    {BoneId::kFoot, {0.71, 1.0, -0.1}, 1.1, true},       // 60
+    {BoneId::kHand, {0.70, -0.2, -1.4}, 0.4, true},      // 61
+    {BoneId::kFoot, {1.03, -0.1, 0.6}, 0.7, true},       // 62
+    {BoneId::kUpperArm, {0.62, -0.0, 0.1}, 0.9, true},   // 63
+    {BoneId::kRibs, {0.92, 0.5, -0.0}, 1.0, true},       // 64
+    {BoneId::kFoot, {0.51, 0.1, -0.4}, 1.2, true},       // 65
+    {BoneId::kShin, {0.37, 0.0, -0.1}, 0.9, true},       // 66
+    {BoneId::kShin, {0.20, -0.0, -0.4}, 0.8, true},      // 67
+    {BoneId::kBelly, {0.43, 0.4, 0.1}, 1.1, true},       // 68
+    {BoneId::kHead, {0.57, 0.9, -0.0}, 0.5, true},       // 69
+    {BoneId::kHand, {0.62, -0.5, 2.6}, 0.4, true},       // 70
+    {BoneId::kUpperArm, {0.19, -0.0, 0.1}, 1.2, true},   // 71
+    {BoneId::kForearm, {0.43, 0.0, 0.1}, 1.0, true},     // 72
+    {BoneId::kShin, {0.83, 0.0, 0.1}, 0.5, true},        // 73
+    {BoneId::kShin, {0.31, -0.0, -0.5}, 0.7, true},      // 74
+    {BoneId::kClavicle, {0.64, 0.1, -0.2}, 1.0, true},   // 75
+    {BoneId::kPelvis, {0.91, 0.6, 0.3}, 1.2, true},      // 76
+    {BoneId::kHand, {0.34, -0.1, 1.4}, 0.4, true},       // 77
+    {BoneId::kFoot, {0.56, 0.9, -0.7}, 0.8, true},       // 78
+    {BoneId::kFoot, {0.44, 0.9, -1.1}, 0.6, true},       // 79
+    {BoneId::kShin, {0.54, 0.0, -0.4}, 0.7, true},       // 80
+    {BoneId::kShin, {0.38, 0.0, -0.5}, 0.7, true},       // 81
+    {BoneId::kUpperArm, {0.23, -0.0, -0.2}, 1.2, true},  // 82
+    {BoneId::kThigh, {0.84, -0.0, 0.0}, 0.8, true},      // 83
+    {BoneId::kClavicle, {0.35, -0.8, 0.0}, 1.5, true},   // 84
+    {BoneId::kRibs, {1.15, 0.7, 0.3}, 1.0, true},        // 85
+    {BoneId::kChest, {0.66, 0.3, -0.3}, 1.1, true},      // 86
+    {BoneId::kHead, {0.60, 0.0, -0.4}, 1.1, false},      // 87
+    {BoneId::kChest, {1.05, 0.5, -0.0}, 0.5, true},      // 88
+    {BoneId::kBelly, {0.11, 0.0, -0.4}, 0.7, false},     // 89
+    {BoneId::kShin, {0.62, 0.0, -0.0}, 0.7, true},       // 90
+    {BoneId::kRibs, {0.45, 0.3, -0.0}, 1.0, true},       // 91
+    {BoneId::kRibs, {0.37, 0.1, -0.1}, 0.9, true},       // 92
+    {BoneId::kUpperArm, {0.09, -0.3, 0.1}, 1.2, true},   // 93
+    {BoneId::kRibs, {1.09, 1.0, 0.3}, 0.5, true},        // 94
+    {BoneId::kForearm, {1.21, 0.0, 0.2}, 0.5, true},     // 95
+    {BoneId::kForearm, {-0.01, 0.0, 0.1}, 1.0, true},    // 96
+    {BoneId::kThigh, {0.23, -0.1, -0.0}, 1.2, true},     // 97
+    {BoneId::kUpperArm, {0.12, -0.1, -0.1}, 1.3, true},  // 98
+    {BoneId::kHeel, {0.62, 0.1, -0.7}, 1.4, true},       // 99
+    {BoneId::kShin, {0.87, 0.0, 0.2}, 0.5, true},        // 100
+    {BoneId::kHead, {0.71, 0.0, 0.2}, 1.3, false},       // 101
+    {BoneId::kPelvis, {0.69, -0.3, 0.4}, 1.0, true},     // 102
+    {BoneId::kRibs, {0.72, 0.1, -0.2}, 0.9, true},       // 103
+    {BoneId::kClavicle, {0.47, 0.1, -0.3}, 1.1, true},   // 104
+    {BoneId::kThigh, {-0.02, -0.1, 0.2}, 1.2, true},     // 105
+    {BoneId::kBelly, {0.95, 0.0, 0.3}, 0.6, false},      // 106
+    {BoneId::kRibs, {0.40, 0.6, -0.1}, 1.0, true},       // 107
+    {BoneId::kClavicle, {0.43, -0.6, 0.1}, 1.1, true},   // 108
+    {BoneId::kThigh, {0.14, -0.2, 0.3}, 0.9, true},      // 109
+    {BoneId::kThigh, {1.04, -0.0, 0.0}, 0.8, true},      // 110
+    {BoneId::kThigh, {0.13, -0.3, 0.0}, 1.1, true},      // 111
+    {BoneId::kShin, {0.95, 0.0, -0.1}, 0.5, true},       // 112
+    {BoneId::kUpperArm, {0.49, -0.0, -0.0}, 1.1, true},  // 113
+    {BoneId::kChest, {0.20, 0.0, -0.1}, 1.5, false},     // 114
+});
+constexpr auto kShellFull500Edges = std::to_array<LayoutEdge>({
+    {2, 11, false},   {2, 3, false},    {1, 18, false},   {5, 19, false},   {14, 19, false},
+    {8, 20, false},   {4, 22, false},   {8, 22, false},   {5, 27, false},   {1, 14, true},
+    {13, 29, false},  {0, 2, false},    {11, 30, false},  {25, 31, false},  {30, 33, false},
+    {4, 34, false},   {5, 35, false},   {14, 35, false},  {12, 36, false},  {21, 36, false},
+    {25, 37, false},  {22, 38, false},  {8, 39, false},   {15, 34, false},  {36, 40, false},
+    {26, 41, false},  {25, 42, false},  {28, 42, false},  {12, 27, false},  {13, 33, false},
+    {30, 43, false},  {19, 21, false},  {26, 44, false},  {15, 48, false},  {44, 45, false},
+    {6, 12, false},   {17, 49, false},  {4, 38, false},   {21, 50, false},  {2, 51, false},
+    {27, 52, false},  {41, 52, false},  {9, 55, false},   {46, 55, false},  {3, 56, false},
+    {1, 57, false},   {13, 30, false},  {55, 58, false},  {1, 59, false},   {46, 60, false},
+    {8, 61, false},   {9, 62, false},   {3, 51, false},   {15, 63, false},  {32, 65, false},
+    {53, 66, false},  {5, 68, false},   {14, 68, true},   {40, 59, false},  {25, 69, false},
+    {20, 70, false},  {63, 71, false},  {4, 72, false},   {15, 72, false},  {16, 73, false},
+    {10, 74, false},  {67, 74, false},  {3, 75, false},   {18, 75, false},  {27, 76, false},
+    {1, 75, false},   {59, 76, false},  {6, 41, false},   {14, 27, false},  {39, 77, false},
+    {32, 78, false},  {65, 79, false},  {66, 80, false},  {10, 81, false},  {48, 82, false},
+    {3, 84, false},   {1, 85, false},   {17, 85, false},  {2, 86, false},   {18, 86, true},
+    {24, 87, false},  {37, 87, false},  {59, 85, true},   {21, 68, false},  {45, 47, false},
+    {2, 88, false},   {19, 89, false},  {17, 64, false},  {41, 44, false},  {16, 80, false},
+    {66, 90, false},  {73, 90, false},  {76, 92, false},  {56, 93, false},  {71, 93, false},
+    {5, 27, true},    {80, 81, false},  {85, 91, false},  {35, 40, false},  {52, 68, false},
+    {17, 94, false},  {72, 95, false},  {63, 96, false},  {12, 97, false},  {56, 98, false},
+    {82, 98, false},  {7, 99, false},   {32, 99, false},  {16, 100, false}, {23, 100, false},
+    {13, 101, false}, {31, 101, false}, {67, 83, false},  {50, 91, false},  {3, 18, false},
+    {46, 99, false},  {56, 75, false},  {41, 102, false}, {1, 103, false},  {14, 103, false},
+    {86, 104, false}, {93, 104, false}, {36, 105, false}, {72, 96, false},  {10, 67, false},
+    {79, 99, false},  {59, 105, false}, {56, 63, false},  {85, 104, false}, {12, 52, false},
+    {27, 40, false},  {3, 91, false},   {1, 106, false},  {14, 107, false}, {84, 107, false},
+    {18, 108, true},  {93, 108, false}, {26, 109, false}, {76, 109, false}, {10, 110, false},
+    {54, 110, false}, {5, 111, false},  {97, 111, false}, {7, 112, false},  {16, 112, false},
+    {15, 113, false}, {71, 113, false}, {18, 114, false}, {30, 31, false},
+});
+
+// 200 + 300 for enclosing, without head, hands and feet.
+constexpr auto kShell500Nodes = std::to_array<LayoutNode>({
+    {BoneId::kRibs, {0.74, 0.0, -0.0}, 1.0, false},      // 0
+    {BoneId::kRibs, {0.96, 0.7, 0.7}, 0.8, true},        // 1
+    {BoneId::kForearm, {0.94, -0.1, -0.2}, 0.6, true},   // 2
+    {BoneId::kBelly, {0.34, 0.5, -0.0}, 1.2, true},      // 3
+    {BoneId::kShin, {0.03, -0.0, -0.1}, 1.1, true},      // 4
+    {BoneId::kShin, {0.95, -0.1, 0.1}, 0.6, true},       // 5
+    {BoneId::kClavicle, {0.32, -0.8, -0.2}, 1.7, true},  // 6
+    {BoneId::kBelly, {0.28, 0.0, 0.0}, 1.3, false},      // 7
+    {BoneId::kThigh, {0.27, -0.1, 0.3}, 1.2, true},      // 8
+    {BoneId::kClavicle, {0.87, 0.2, -0.2}, 1.0, true},   // 9
+    {BoneId::kClavicle, {0.27, 0.5, -0.5}, 1.0, true},   // 10
+    {BoneId::kForearm, {0.10, -0.0, 0.1}, 1.0, true},    // 11
+    {BoneId::kForearm, {0.34, -0.0, -0.2}, 1.0, true},   // 12
+    {BoneId::kClavicle, {0.39, -0.9, -0.2}, 1.4, true},  // 13
+    {BoneId::kShin, {0.49, -0.1, -0.1}, 1.0, true},      // 14
+    {BoneId::kChest, {0.83, 0.0, -0.5}, 0.7, false},     // 15
+    {BoneId::kPelvis, {0.61, -0.3, 0.7}, 0.9, true},     // 16
+    {BoneId::kBelly, {0.67, 0.8, -0.1}, 0.6, true},      // 17
+    {BoneId::kRibs, {0.26, 0.5, 0.2}, 0.3, true},        // 18
+    {BoneId::kChest, {0.23, 0.0, 0.0}, 1.3, false},      // 19
+    {BoneId::kThigh, {0.55, 0.2, 0.4}, 0.8, true},       // 20
+    {BoneId::kUpperArm, {0.13, -0.0, -0.0}, 1.3, true},  // 21
+    {BoneId::kBelly, {0.54, 0.0, 0.1}, 1.0, false},      // 22
+    {BoneId::kChest, {0.79, 0.6, -0.3}, 0.8, true},      // 23
+    {BoneId::kShin, {0.40, -0.1, -0.5}, 0.9, true},      // 24
+    {BoneId::kShin, {0.54, -0.1, -0.5}, 0.8, true},      // 25
+    {BoneId::kThigh, {0.43, -0.0, 0.3}, 1.1, true},      // 26
+    {BoneId::kThigh, {0.28, 0.1, -0.4}, 0.6, true},      // 27
+    {BoneId::kShin, {0.12, -0.0, 0.1}, 1.0, true},       // 28
+    {BoneId::kThigh, {0.43, -0.0, 0.0}, 1.1, true},      // 29
+    {BoneId::kUpperArm, {0.12, -0.4, 0.1}, 0.3, true},   // 30
+    {BoneId::kThigh, {0.25, -0.1, 0.2}, 1.2, true},      // 31
+    {BoneId::kClavicle, {0.51, -0.8, 0.9}, 0.3, true},   // 32
+    {BoneId::kThigh, {0.51, -0.0, 0.1}, 1.1, true},      // 33
+    {BoneId::kPelvis, {0.97, 0.7, 0.2}, 1.3, true},      // 34
+    {BoneId::kShin, {0.96, -0.1, -0.1}, 0.5, true},      // 35
+    {BoneId::kForearm, {0.95, -0.1, 0.2}, 0.6, true},    // 36
+    {BoneId::kChest, {0.19, 0.5, -0.1}, 1.5, true},      // 37
+    {BoneId::kUpperArm, {0.69, -0.0, -0.2}, 0.9, true},  // 38
+    {BoneId::kForearm, {0.48, -0.0, -0.2}, 1.0, true},   // 39
+    {BoneId::kRibs, {1.08, 0.4, -0.0}, 1.1, true},       // 40
+    {BoneId::kUpperArm, {0.75, -0.0, 0.1}, 0.9, true},   // 41
+    {BoneId::kRibs, {0.22, 0.5, 0.1}, 0.8, true},        // 42
+    {BoneId::kUpperArm, {0.10, -0.0, -0.0}, 1.3, true},  // 43
+    {BoneId::kShin, {0.25, -0.0, -0.1}, 1.1, true},      // 44
+    {BoneId::kClavicle, {0.53, -0.0, -0.1}, 1.1, true},  // 45
+    {BoneId::kChest, {0.99, 0.7, 0.1}, 0.2, true},       // 46
+    {BoneId::kRibs, {0.48, 0.3, -0.3}, 0.5, true},       // 47
+    {BoneId::kBelly, {0.60, 0.0, 0.1}, 0.5, false},      // 48
+    {BoneId::kChest, {0.92, 0.5, 0.6}, 0.2, true},       // 49
+    {BoneId::kBelly, {0.47, 0.0, 0.2}, 0.9, false},      // 50
+    {BoneId::kChest, {1.45, 0.0, -0.6}, 0.1, false},     // 51
+    {BoneId::kThigh, {0.21, -0.3, 0.7}, 0.8, true},      // 52
+    {BoneId::kShin, {0.81, -0.1, 0.0}, 0.7, true},       // 53
+    {BoneId::kForearm, {0.32, -0.5, 0.1}, 0.4, true},    // 54
+    {BoneId::kUpperArm, {0.38, -0.0, -0.4}, 0.6, true},  // 55
+    {BoneId::kChest, {0.10, 0.0, -0.2}, 1.6, false},     // 56
+    {BoneId::kClavicle, {0.85, 0.1, -1.0}, 0.2, true},   // 57
+    {BoneId::kChest, {1.01, 0.3, -0.3}, 0.5, true},      // 58
+    {BoneId::kRibs, {0.78, 0.6, -0.1}, 1.0, true},       // 59
+    {BoneId::kChest, {0.23, 0.0, -0.7}, 0.7, false},     // 60
+    {BoneId::kPelvis, {0.90, 0.4, 0.1}, 1.0, true},      // 61
+    {BoneId::kForearm, {0.48, -0.0, 0.0}, 1.0, true},    // 62
+    {BoneId::kBelly, {0.56, 0.9, -0.1}, 0.6, true},      // 63
+    {BoneId::kBelly, {0.83, 0.2, -0.1}, 0.6, true},      // 64
+    {BoneId::kShin, {0.10, 0.0, 0.4}, 0.8, true},        // 65
+    {BoneId::kPelvis, {0.68, 0.3, -0.2}, 1.4, true},     // 66
+    {BoneId::kUpperArm, {0.20, -0.0, -0.2}, 1.2, true},  // 67
+    {BoneId::kRibs, {0.23, 0.0, -0.1}, 0.4, false},      // 68
+    {BoneId::kForearm, {0.06, -0.0, -0.1}, 1.0, true},   // 69
+    {BoneId::kRibs, {0.18, 0.3, 0.1}, 0.6, true},        // 70
+    {BoneId::kClavicle, {0.49, -0.1, -0.4}, 1.2, true},  // 71
+    {BoneId::kShin, {0.19, -0.2, 0.0}, 0.4, true},       // 72
+    {BoneId::kShin, {-0.07, 0.1, 0.3}, 0.6, true},       // 73
+    {BoneId::kShin, {0.92, -0.1, 0.1}, 0.3, true},       // 74
+    {BoneId::kChest, {0.99, 0.5, -0.4}, 0.2, true},      // 75
+    {BoneId::kBelly, {0.10, 0.0, 0.8}, 0.4, false},      // 76
+    {BoneId::kThigh, {1.15, -0.0, 0.2}, 0.1, true},      // 77
+    {BoneId::kShin, {0.62, 0.1, -0.2}, 0.2, true},       // 78
+    {BoneId::kThigh, {1.06, -0.0, -0.1}, 0.8, true},     // 79
+    {BoneId::kForearm, {0.87, -0.0, -0.4}, 0.1, true},   // 80
+    {BoneId::kForearm, {1.00, 0.0, 0.6}, 0.2, true},     // 81
+    {BoneId::kShin, {0.92, -0.1, 0.1}, 0.6, true},       // 82
+    {BoneId::kChest, {0.84, 0.0, 0.5}, 0.2, true},       // 83
+    {BoneId::kForearm, {0.91, 0.5, -0.0}, 0.2, true},    // 84
+    {BoneId::kPelvis, {0.66, 0.5, -0.1}, 1.4, true},     // 85
+    {BoneId::kForearm, {0.97, 0.3, 0.0}, 0.3, true},     // 86
+    {BoneId::kUpperArm, {0.67, 0.0, -0.0}, 0.2, true},   // 87
+    {BoneId::kRibs, {0.32, 0.6, 0.0}, 0.8, true},        // 88
+    {BoneId::kThigh, {0.29, 0.3, 0.3}, 0.7, true},       // 89
+    {BoneId::kThigh, {0.08, -0.2, 0.0}, 0.9, true},      // 90
+    {BoneId::kBelly, {0.66, 0.0, 0.1}, 0.8, true},       // 91
+    {BoneId::kBelly, {0.58, 0.4, 0.1}, 1.1, true},       // 92
+    {BoneId::kBelly, {0.71, 0.8, 0.1}, 0.5, true},       // 93
+    {BoneId::kRibs, {0.23, 0.5, 0.1}, 0.7, true},        // 94
+    {BoneId::kRibs, {0.16, 0.0, -0.0}, 0.7, false},      // 95
+    {BoneId::kRibs, {0.27, 0.5, 0.3}, 0.4, true},        // 96
+    {BoneId::kRibs, {0.44, 0.0, -0.2}, 0.3, true},       // 97
+    {BoneId::kPelvis, {0.88, 0.0, 0.2}, 1.2, true},      // 98
+    {BoneId::kRibs, {0.17, 0.6, -0.0}, 0.8, true},       // 99
+    {BoneId::kRibs, {0.72, 0.7, 0.0}, 0.9, true},        // 100
+    {BoneId::kThigh, {0.10, -0.2, 0.0}, 1.0, true},      // 101
+    {BoneId::kClavicle, {0.87, -0.8, -0.5}, 0.4, true},  // 102
+    {BoneId::kChest, {0.25, 0.0, -0.2}, 1.7, false},     // 103
+    {BoneId::kBelly, {1.06, 0.4, 0.0}, 0.9, true},       // 104
+    {BoneId::kShin, {0.78, -0.2, 0.1}, 0.2, true},       // 105
+    {BoneId::kForearm, {0.95, -0.3, -0.1}, 0.4, true},   // 106
+});
+constexpr auto kShell500Edges = std::to_array<LayoutEdge>({
+    {9, 10, false},   {10, 10, true},   {6, 10, true},    {3, 16, false},   {3, 17, false},
+    {3, 18, false},   {3, 22, false},   {16, 22, false},  {15, 23, false},  {4, 24, false},
+    {14, 24, false},  {6, 10, false},   {3, 17, true},    {5, 25, false},   {14, 25, false},
+    {8, 26, false},   {20, 26, false},  {20, 28, false},  {4, 29, false},   {8, 29, false},
+    {26, 28, false},  {4, 33, false},   {8, 33, false},   {3, 34, false},   {25, 35, false},
+    {1, 37, false},   {9, 37, false},   {21, 38, false},  {2, 39, false},   {12, 39, false},
+    {6, 9, false},    {1, 30, true},    {37, 40, false},  {11, 41, false},  {9, 43, false},
+    {4, 44, false},   {14, 44, false},  {9, 45, false},   {18, 22, false},  {24, 25, false},
+    {1, 47, false},   {15, 49, false},  {46, 49, false},  {28, 44, false},  {31, 42, false},
+    {10, 23, false},  {15, 51, false},  {27, 52, false},  {5, 53, false},   {14, 53, false},
+    {21, 55, false},  {41, 55, false},  {6, 56, false},   {32, 43, false},  {23, 51, false},
+    {29, 31, false},  {15, 58, false},  {12, 62, false},  {36, 62, false},  {50, 59, false},
+    {6, 64, false},   {9, 40, false},   {28, 33, false},  {26, 65, false},  {2, 62, false},
+    {21, 67, false},  {12, 69, false},  {0, 50, false},   {6, 64, true},    {19, 23, false},
+    {34, 42, false},  {46, 60, false},  {29, 61, false},  {38, 69, false},  {41, 43, false},
+    {13, 15, false},  {37, 57, false},  {4, 72, false},   {26, 73, false},  {49, 49, true},
+    {25, 74, false},  {1, 57, false},   {7, 68, false},   {6, 71, false},   {34, 70, true},
+    {0, 63, false},   {30, 37, false},  {23, 46, false},  {21, 41, false},  {40, 42, false},
+    {27, 66, false},  {8, 16, false},   {48, 56, false},  {51, 75, false},  {10, 15, false},
+    {11, 12, false},  {38, 67, false},  {22, 76, false},  {26, 77, false},  {25, 53, false},
+    {4, 79, false},   {24, 44, false},  {28, 73, false},  {62, 80, false},  {36, 81, false},
+    {14, 72, false},  {5, 82, false},   {49, 83, false},  {39, 84, false},  {61, 85, false},
+    {2, 86, false},   {13, 19, false},  {43, 87, false},  {37, 88, false},  {11, 62, false},
+    {16, 26, false},  {32, 55, false},  {23, 45, true},   {52, 89, false},  {8, 90, false},
+    {3, 91, false},   {7, 92, false},   {48, 95, false},  {93, 94, false},  {54, 67, false},
+    {17, 88, false},  {0, 48, false},   {7, 16, false},   {52, 76, false},  {3, 96, false},
+    {31, 33, false},  {10, 46, false},  {9, 15, false},   {32, 67, false},  {1, 97, false},
+    {50, 97, false},  {8, 98, false},   {34, 98, false},  {59, 99, false},  {63, 99, false},
+    {1, 100, false},  {17, 100, false}, {29, 101, false}, {85, 101, false}, {21, 102, false},
+    {60, 102, false}, {6, 103, false},  {40, 104, true},  {92, 104, false}, {1, 60, false},
+    {70, 70, true},   {35, 105, false}, {78, 105, false}, {36, 106, false}, {39, 54, false},
+});
+
 }  // namespace
 
 std::span<const NamedLayout> Layouts() {
-  static constexpr std::array<NamedLayout, 11> kLayouts = {{
+  static constexpr std::array<NamedLayout, 17> kLayouts = {{
       {"best fit, 32", FitKind::kBestFit, 32, false, {kBest32Nodes, kBest32Edges}},
       {"best fit, 64", FitKind::kBestFit, 64, false, {kBest64Nodes, kBest64Edges}},
       {"best fit, whole body, 32",
@@ -350,6 +903,24 @@ std::span<const NamedLayout> Layouts() {
        64,
        true,
        {kShellFull64Nodes, kShellFull64Edges}},
+      {"shell, 128", FitKind::kEnclose, 128, false, {kShell128Nodes, kShell128Edges}},
+      {"shell, 250", FitKind::kEnclose, 250, false, {kShell250Nodes, kShell250Edges}},
+      {"shell, 500", FitKind::kEnclose, 500, false, {kShell500Nodes, kShell500Edges}},
+      {"shell, whole body, 128",
+       FitKind::kEnclose,
+       128,
+       true,
+       {kShellFull128Nodes, kShellFull128Edges}},
+      {"shell, whole body, 250",
+       FitKind::kEnclose,
+       250,
+       true,
+       {kShellFull250Nodes, kShellFull250Edges}},
+      {"shell, whole body, 500",
+       FitKind::kEnclose,
+       500,
+       true,
+       {kShellFull500Nodes, kShellFull500Edges}},
   }};
   return kLayouts;
 }

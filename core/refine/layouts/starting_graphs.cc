@@ -21,11 +21,9 @@ bool HasEnds(const body::Body& body, const body::PartSelection& parts) {
 
 std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body& body,
                                                  const body::PartSelection& parts,
-                                                 const capsule::Budget& budget, int sizes,
-                                                 int most_spared) {
+                                                 const capsule::Budget& budget, int most_spared) {
   const bool with_ends = HasEnds(body, parts);
-  // Smaller ones first, those of one size together.
-  std::vector<std::vector<capsule::MirroredSet>> fitting;
+  std::vector<capsule::MirroredSet> fitting;  // those of the largest size that does
   std::vector<capsule::MirroredSet> beyond;
   int last = 0;
   int first_beyond = 0;
@@ -39,17 +37,12 @@ std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body&
       if (excess <= most_spared || fitting.empty()) beyond.push_back(std::move(graph));
       continue;
     }
-    if (named.primitives > last) fitting.emplace_back();
+    if (named.primitives > last) fitting.clear();
     last = named.primitives;
-    fitting.back().push_back(std::move(graph));
+    fitting.push_back(std::move(graph));
   }
-  std::vector<capsule::MirroredSet> starts;
-  const auto count = static_cast<std::size_t>(sizes);
-  for (std::size_t i = fitting.size() - std::min(fitting.size(), count); i < fitting.size(); ++i) {
-    std::move(fitting[i].begin(), fitting[i].end(), std::back_inserter(starts));
-  }
-  std::move(beyond.begin(), beyond.end(), std::back_inserter(starts));
-  return starts;
+  std::move(fitting.begin(), fitting.end(), std::back_inserter(beyond));
+  return beyond;
 }
 
 }  // namespace capfit::refine

@@ -10,13 +10,13 @@
 
 namespace capfit::refine {
 
-// At least one graph: layouts of the `sizes` largest numbers of primitives that fit the budget,
-// and the next ones beyond where no more than `most_spared` primitives of them have to go. Layouts
+// At least one graph: the next layouts beyond the budget, where no more than `most_spared`
+// primitives of them have to go, then those of the largest number of primitives that fits. Layouts
 // with spheres for head, hands and feet where any of these parts is selected and present.
 [[nodiscard]] std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body& body,
                                                                const body::PartSelection& parts,
                                                                const capsule::Budget& budget,
-                                                               int sizes, int most_spared);
+                                                               int most_spared);
 
 }  // namespace capfit::refine
 

@@ -263,6 +263,7 @@ class FitTest(ServerTest):
         self.assertEqual(info.version, importlib.metadata.version("capfit"))
         self.assertIn("obj", info.formats)
         self.assertIn("quality.tight", info.features)
+        self.assertIn("quality.balanced", info.features)
         self.assertGreater(info.limits.max_vertices, 10000)
         engines = {engine.name: engine for engine in info.engines}
         self.assertEqual(engines["nvcloth"].max_spheres, 32)
@@ -352,8 +353,8 @@ class RefusedHereTest(ServerTest):
         self.refused(TypeError, "no option 'xyzzy'$", xyzzy=1)
 
     def test_an_unknown_word_lists_the_known(self):
-        self.refused(ValueError, "quality is 'tigth', must be one of paper, tight; did you mean "
-                     "'tight'", quality="tigth")
+        self.refused(ValueError, "quality is 'tigth', must be one of paper, tight, balanced; "
+                     "did you mean 'tight'", quality="tigth")
         self.refused(ValueError, "parts is 'leg', must be one of torso, arms, legs", parts=["leg"])
         self.refused(ValueError, "unit is 'yard', must be one of metre", unit="yard")
         self.refused(ValueError, "parts names no part", parts=[])

@@ -1,4 +1,4 @@
-// Quality tight, best fit, tolerance and engines, through the whole fit.
+// Qualities, best fit, tolerance and engines, through the whole fit.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <atomic>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/geometry/tapered_capsule.h"
@@ -73,6 +74,30 @@ TEST(TightQuality, BestFitIsTighterStillAndSaysHowFarThingsStickOut) {
   EXPECT_LE(best.metrics.max_gap_m, out + 5e-3);
 }
 
+TEST(BalancedQuality, EnclosesWithLessThanPaperAndHardlyMoreThanTight) {
+  const formats::PolygonSoup soup = Person();
+  for (const int budget : {32, 64, 100}) {
+    const double paper = MustFit(soup, Of(Quality::kPaper, FitMode::kEnclose, budget)).metrics.E_r;
+    const FitResult balanced = MustFit(soup, Of(Quality::kBalanced, FitMode::kEnclose, budget));
+    const double tight = MustFit(soup, Of(Quality::kTight, FitMode::kEnclose, budget)).metrics.E_r;
+    EXPECT_LE(FurthestVertexOut(soup, balanced), 0.0) << budget;
+    EXPECT_LE(balanced.metrics.max_gap_m, 1e-3) << budget;
+    EXPECT_LE(balanced.metrics.n_p, budget);
+    EXPECT_GE(balanced.metrics.n_p, budget - 3);
+    EXPECT_LT(balanced.metrics.E_r, 0.95 * paper) << budget;
+    EXPECT_LT(balanced.metrics.E_r, 1.25 * tight) << budget;
+  }
+}
+
+TEST(BalancedQuality, BestFitIsCloseToThatOfTight) {
+  const formats::PolygonSoup soup = Person();
+  const FitResult balanced = MustFit(soup, Of(Quality::kBalanced, FitMode::kBestFit, 64));
+  const FitResult tight = MustFit(soup, Of(Quality::kTight, FitMode::kBestFit, 64));
+  EXPECT_LE(balanced.metrics.n_p, 64);
+  EXPECT_GE(balanced.metrics.n_p, 62);
+  EXPECT_LT(balanced.metrics.E_r, 1.2 * tight.metrics.E_r);
+}
+
 TEST(PaperQuality, ThePublishedLastStepEnclosesWithMore) {
   const formats::PolygonSoup soup = Person();
   FitOptions options = Of(Quality::kPaper, FitMode::kEnclose, 64);
@@ -113,11 +138,16 @@ TEST(PaperQuality, BestFitGetsBetterWithEveryBudgetAndUsesIt) {
   EXPECT_LT(last, 0.15);
 }
 
-TEST(TightQuality, SameBitsForAnyNumberOfThreads) {
+using QualityAndFit = std::tuple<Quality, FitMode>;
+
+class SearchedQuality : public testing::TestWithParam<QualityAndFit> {};
+
+TEST_P(SearchedQuality, SameBitsForAnyNumberOfThreads) {
   const formats::PolygonSoup soup = Person();
-  for (const FitMode fit : {FitMode::kEnclose, FitMode::kBestFit}) {
-    const FitResult one = MustFit(soup, Of(Quality::kTight, fit, 48), 1);
-    const FitResult seven = MustFit(soup, Of(Quality::kTight, fit, 48), 7);
+  const auto [quality, fit] = GetParam();
+  for (const int budget : {48, 64}) {
+    const FitResult one = MustFit(soup, Of(quality, fit, budget), 1);
+    const FitResult seven = MustFit(soup, Of(quality, fit, budget), 7);
     ASSERT_EQ(one.primitives.spheres.size(), seven.primitives.spheres.size());
     EXPECT_EQ(one.primitives.capsules, seven.primitives.capsules);
     for (std::size_t i = 0; i < one.primitives.spheres.size(); ++i) {
@@ -127,22 +157,19 @@ TEST(TightQuality, SameBitsForAnyNumberOfThreads) {
   }
 }
 
-TEST(TightQuality, OneLimitAloneIsKeptAndUsed) {
+TEST_P(SearchedQuality, OneLimitAloneIsKeptAndUsed) {
   const formats::PolygonSoup soup = Person();
-  for (const FitMode fit : {FitMode::kEnclose, FitMode::kBestFit}) {
-    FitOptions options;
-    options.quality = Quality::kTight;
-    options.fit = fit;
-    options.max_spheres = 24;
-    const FitResult spheres = MustFit(soup, options);
-    EXPECT_LE(spheres.metrics.spheres, 24);
-    EXPECT_GE(spheres.metrics.spheres, 22);
-    options.max_spheres.reset();
-    options.max_capsules = 20;
-    const FitResult capsules = MustFit(soup, options);
-    EXPECT_LE(capsules.metrics.capsules, 20);
-    EXPECT_GE(capsules.metrics.capsules, 18);
-  }
+  FitOptions options;
+  std::tie(options.quality, options.fit) = GetParam();
+  options.max_spheres = 24;
+  const FitResult spheres = MustFit(soup, options);
+  EXPECT_LE(spheres.metrics.spheres, 24);
+  EXPECT_GE(spheres.metrics.spheres, 22);
+  options.max_spheres.reset();
+  options.max_capsules = 20;
+  const FitResult capsules = MustFit(soup, options);
+  EXPECT_LE(capsules.metrics.capsules, 20);
+  EXPECT_GE(capsules.metrics.capsules, 18);
 }
 
 // Says stop as soon as a stage has begun.
@@ -157,18 +184,17 @@ class StopsIn final : public FitObserver {
   std::atomic<bool> is_stopped_ = false;
 };
 
-TEST(TightQuality, CancellationEndsIt) {
-  const formats::PolygonSoup soup = Person();
-  for (const FitMode fit : {FitMode::kEnclose, FitMode::kBestFit}) {
-    StopsIn observer(Stage::kRefine);
-    const absl::StatusOr<FitResult> result =
-        Fit(soup, Of(Quality::kTight, fit, 250), ThreadPool(2), observer);
-    EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled) << result.status();
-  }
+TEST_P(SearchedQuality, CancellationEndsIt) {
+  const auto [quality, fit] = GetParam();
+  StopsIn observer(Stage::kRefine);
+  const absl::StatusOr<FitResult> result =
+      Fit(Person(), Of(quality, fit, 250), ThreadPool(2), observer);
+  EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled) << result.status();
 }
 
-TEST(TightQuality, ASymmetricBodyGetsAnExactlySymmetricSet) {
-  const FitResult result = MustFit(Person(), Of(Quality::kTight, FitMode::kEnclose, 64));
+TEST_P(SearchedQuality, ASymmetricBodyGetsAnExactlySymmetricSet) {
+  const auto [quality, fit] = GetParam();
+  const FitResult result = MustFit(Person(), Of(quality, fit, 64));
   const auto& set = result.primitives;
   const auto to_body = [&](int i) {
     return result.body_from_caller.Apply(set.spheres[static_cast<std::size_t>(i)].center_m);
@@ -180,9 +206,20 @@ TEST(TightQuality, ASymmetricBodyGetsAnExactlySymmetricSet) {
   }
 }
 
+std::string NameOf(const testing::TestParamInfo<QualityAndFit>& of) {
+  const auto [quality, fit] = of.param;
+  return std::string(quality == Quality::kTight ? "Tight" : "Balanced") +
+         (fit == FitMode::kEnclose ? "Enclosing" : "BestFit");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SearchedQuality,
+                         testing::Combine(testing::Values(Quality::kBalanced, Quality::kTight),
+                                          testing::Values(FitMode::kEnclose, FitMode::kBestFit)),
+                         NameOf);
+
 TEST(Tolerance, IsUsedAndKept) {
   const formats::PolygonSoup soup = Person();
-  for (const Quality quality : {Quality::kPaper, Quality::kTight}) {
+  for (const Quality quality : {Quality::kPaper, Quality::kBalanced, Quality::kTight}) {
     FitOptions options = Of(quality, FitMode::kEnclose, 64);
     const FitResult strict = MustFit(soup, options);
     options.tolerance_m = 0.004;

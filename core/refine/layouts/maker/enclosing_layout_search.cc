@@ -11,7 +11,9 @@
 #include "core/base/random.h"
 #include "core/refine/internal.h"
 #include "core/refine/layouts/layout.h"
+#include "core/refine/layouts/maker/hung_layout.h"
 #include "core/refine/layouts/starting_graphs.h"
+#include "core/refine/refine.h"
 
 namespace capfit::refine {
 namespace {
@@ -72,20 +74,52 @@ class EnclosingLayoutSearch {
     double value = std::numeric_limits<double>::max();
   };
 
+  // The stored layout, or what the search of quality tight makes of one of the mannequins, if that
+  // serves all of them better.
   Attempt Start() {
     LayoutTask first = task_;
     if (task_.first_primitives > 0) first.primitives = task_.first_primitives;
-    Attempt start;
+    Graphs stored;
+    for (const Subject& s : subjects_) {
+      stored.push_back(StartingGraphs(FitKind::kEnclose, s.body, s.parts, BudgetOf(first),
+                                      /*most_spared=*/0)
+                           .front());
+    }
+    Attempt best = Begun(std::move(stored));
     for (std::size_t k = 0; k < subjects_.size(); ++k) {
-      const Subject& s = subjects_[k];
-      start.graphs.push_back(StartingGraphs(FitKind::kEnclose, s.body, s.parts, BudgetOf(first),
-                                            /*sizes=*/1, /*most_spared=*/0)
-                                 .front());
+      const HungLayout layout = SearchedOn(k);
+      Graphs hung;
+      for (const Subject& s : subjects_) {
+        hung.push_back(HangLayout(layout.view(), s.body, s.parts, s.body.is_symmetric));
+      }
+      Attempt start = Begun(std::move(hung));
+      std::fprintf(stderr, "searched on mannequin %zu: %d + %d, %.4f\n", k,
+                   start.graphs[0].sphere_count(), start.graphs[0].capsule_count(), start.value);
+      if (start.value < best.value) best = std::move(start);
+    }
+    return best;
+  }
+
+  Attempt Begun(Graphs graphs) {
+    Attempt start{std::move(graphs), {}, 0.0};
+    for (std::size_t k = 0; k < subjects_.size(); ++k) {
       Settle(k, kFirstSteps, start.graphs[k]);
       start.values.push_back(ValueOf(k, start.graphs[k]));
     }
     start.value = MeanOf(start.values);
     return start;
+  }
+
+  // What quality tight finds for one of the mannequins.
+  HungLayout SearchedOn(std::size_t k) {
+    const Subject& s = subjects_[k];
+    RefineOptions options;
+    options.budget = BudgetOf(task_);
+    options.parts = s.parts;
+    NullObserver observer;
+    const capsule::PrimitiveSet set =
+        RefineSet(s.body, tighten::TargetOf(s.body, s.parts), options, alone_, observer);
+    return LayoutOf({&subjects_[k], 1}, {capsule::MirroredSet(set, true)});
   }
 
   static double MeanOf(const std::vector<double>& values) {

@@ -18,7 +18,7 @@ constexpr double kLeastRadius = 0.1;
 double Rounded(double x, double digit) { return std::round(x / digit) * digit; }
 
 // The bone that the node is nearest to on all mannequins, in the bone's radii.
-BoneId NearestBone(const std::vector<Subject>& subjects, const Graphs& graphs, int v) {
+BoneId NearestBone(std::span<const Subject> subjects, const Graphs& graphs, int v) {
   BoneId nearest = BoneId::kBelly;
   double least = std::numeric_limits<double>::max();
   for (int b = 0; b < (graphs[0].IsOnPlane(v) ? kMidBoneCount : kBoneCount); ++b) {
@@ -32,7 +32,7 @@ BoneId NearestBone(const std::vector<Subject>& subjects, const Graphs& graphs, i
   return nearest;
 }
 
-LayoutNode NodeOf(const std::vector<Subject>& subjects, const Graphs& graphs, int v) {
+LayoutNode NodeOf(std::span<const Subject> subjects, const Graphs& graphs, int v) {
   const bool on_plane = graphs[0].IsOnPlane(v);
   const BoneId bone = NearestBone(subjects, graphs, v);
   Eigen::Vector4d mean = Eigen::Vector4d::Zero();
@@ -53,7 +53,7 @@ LayoutNode NodeOf(const std::vector<Subject>& subjects, const Graphs& graphs, in
 
 }  // namespace
 
-HungLayout LayoutOf(const std::vector<Subject>& subjects, const Graphs& graphs) {
+HungLayout LayoutOf(std::span<const Subject> subjects, const Graphs& graphs) {
   const capsule::MirroredSet& first = graphs[0];
   HungLayout layout;
   std::vector<std::uint8_t> row(first.spheres().size(), 0);

@@ -2,6 +2,7 @@
 #ifndef CAPFIT_CORE_REFINE_LAYOUTS_MAKER_HUNG_LAYOUT_H_
 #define CAPFIT_CORE_REFINE_LAYOUTS_MAKER_HUNG_LAYOUT_H_
 
+#include <span>
 #include <vector>
 
 #include "core/refine/layouts/layout.h"
@@ -18,7 +19,7 @@ struct HungLayout {
 
 // Each sphere on the bone that it is nearest to on all mannequins, at its mean place, rounded as in
 // the tables.
-[[nodiscard]] HungLayout LayoutOf(const std::vector<Subject>& subjects, const Graphs& graphs);
+[[nodiscard]] HungLayout LayoutOf(std::span<const Subject> subjects, const Graphs& graphs);
 
 // As it stands in the tables, to stdout.
 void Print(const HungLayout& layout);
