@@ -51,6 +51,7 @@ constexpr int kHungSteps = 8;      // for a layout that is kept
 constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
 // Of an enclosing search: rounds of giving up and spending anew, and how much of the time it takes.
 constexpr int kRounds = 8;
+constexpr int kRoundsOfFew = 12;
 constexpr int kQuickRounds = 1;
 constexpr double kSearched = 0.92;
 constexpr double kFillingShare = 0.75;    // of the budget, that a standard layout must use
@@ -208,11 +209,11 @@ std::vector<capsule::MirroredSet> StandardStarts(const body::Body& body,
 std::vector<capsule::MirroredSet> StartsOf(const body::Body& body, const RefineOptions& options,
                                            int primitives) {
   std::vector<capsule::MirroredSet> standard = StandardStarts(body, options, primitives);
-  // To spare much takes long, but in a larger layout it leaves a better one than growth finds.
-  const bool is_quick = !options.thorough && !standard.empty();
+  // What is spared in a larger layout leaves a better one than growth finds, but takes long and is
+  // no better than a standard layout.
   std::vector<capsule::MirroredSet> starts =
       StartingGraphs(FitKind::kEnclose, body, options.parts, options.budget,
-                     is_quick ? primitives / 2 : capsule::kNoLimit);
+                     standard.empty() ? capsule::kNoLimit : primitives / 2);
   std::move(standard.begin(), standard.end(), std::back_inserter(starts));
   return starts;
 }
@@ -228,9 +229,12 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
     tasks[i].emplace(target, body.is_symmetric, options.tolerance_m,
                      i == 0 ? spacings.usual : spacings.fine);
   });
+  const int rounds = !options.thorough              ? kQuickRounds
+                     : primitives <= kFewPrimitives ? kRoundsOfFew
+                                                    : kRounds;
   capsule::MirroredSet graph =
-      FindEnclosingGraph(*tasks[0], options.budget, StartsOf(body, options, primitives),
-                         options.thorough ? kRounds : kQuickRounds, kSearched, pool, meter);
+      FindEnclosingGraph(*tasks[0], options.budget, StartsOf(body, options, primitives), rounds,
+                         kSearched, pool, meter);
   meter.Expect(1.0, std::int64_t{kFineSteps + kFineTakeInSteps} * graph.primitive_count());
   tasks[1]->FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
   tasks[1]->TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graph);

@@ -366,7 +366,8 @@ constexpr auto kShellFull128Edges = std::to_array<LayoutEdge>({
     {10, 29, false}, {1, 1, true},
 });
 
-// 109 + 141 for enclosing, with head, hands and feet.
+// 101 + 138 for enclosing, with head, hands and feet. Made with more spheres in the hands, which on
+// real fingers met in the air: these are those of the 64.
 constexpr auto kShellFull250Nodes = std::to_array<LayoutNode>({
     {BoneId::kRibs, {1.24, 0.5, -0.1}, 1.3, true},       // 0
     {BoneId::kChest, {0.94, 0.0, -0.3}, 0.8, false},     // 1
@@ -374,80 +375,74 @@ constexpr auto kShellFull250Nodes = std::to_array<LayoutNode>({
     {BoneId::kBelly, {0.21, -0.2, -0.0}, 1.0, true},     // 3
     {BoneId::kThigh, {0.88, -0.0, 0.3}, 0.8, true},      // 4
     {BoneId::kHeel, {0.64, 0.1, -0.4}, 1.3, true},       // 5
-    {BoneId::kHand, {2.80, -0.2, -1.8}, 0.2, true},      // 6
-    {BoneId::kFoot, {0.97, -0.8, 0.6}, 0.7, true},       // 7
-    {BoneId::kShin, {0.44, 0.0, -0.2}, 1.0, true},       // 8
-    {BoneId::kHead, {0.63, 0.5, 1.2}, 0.5, true},        // 9
-    {BoneId::kThigh, {0.37, -0.1, 0.4}, 1.2, true},      // 10
-    {BoneId::kHead, {0.71, 0.0, 0.2}, 1.3, false},       // 11
-    {BoneId::kRibs, {0.10, 0.3, 0.1}, 0.9, true},        // 12
-    {BoneId::kShin, {0.85, 0.0, 0.0}, 0.6, true},        // 13
-    {BoneId::kRibs, {0.98, 0.7, 0.6}, 0.9, true},        // 14
-    {BoneId::kClavicle, {0.32, -0.4, -0.2}, 1.5, true},  // 15
-    {BoneId::kThigh, {0.18, -0.2, -0.0}, 1.2, true},     // 16
-    {BoneId::kHand, {0.59, -0.3, 2.4}, 0.7, true},       // 17
-    {BoneId::kBelly, {0.22, 0.0, 0.2}, 1.1, false},      // 18
-    {BoneId::kForearm, {1.24, 0.0, -0.4}, 0.5, true},    // 19
-    {BoneId::kHead, {0.62, 0.0, -0.5}, 1.1, false},      // 20
-    {BoneId::kHead, {0.40, 0.0, 1.0}, 1.0, false},       // 21
-    {BoneId::kHead, {0.27, 0.0, 0.1}, 0.9, false},       // 22
-    {BoneId::kPelvis, {0.90, 0.7, 0.2}, 1.3, true},      // 23
-    {BoneId::kHead, {0.71, 0.0, 0.6}, 1.3, false},       // 24
-    {BoneId::kHead, {0.59, 0.0, 0.1}, 1.4, false},       // 25
-    {BoneId::kPelvis, {0.65, 0.4, -0.1}, 1.5, true},     // 26
-    {BoneId::kFoot, {0.83, 0.1, 0.2}, 0.7, true},        // 27
-    {BoneId::kHead, {0.51, 0.0, 2.3}, 0.1, false},       // 28
-    {BoneId::kHead, {0.71, 0.0, -0.5}, 1.1, false},      // 29
-    {BoneId::kHand, {0.44, -0.1, 1.3}, 0.9, true},       // 30
-    {BoneId::kThigh, {0.16, -0.4, 0.7}, 0.9, true},      // 31
-    {BoneId::kShin, {1.81, -0.1, -0.2}, 0.6, true},      // 32
-    {BoneId::kRibs, {0.25, 0.6, -0.0}, 0.9, true},       // 33
-    {BoneId::kFoot, {0.13, -0.1, -0.4}, 1.2, true},      // 34
-    {BoneId::kShin, {0.33, -0.0, -0.5}, 0.8, true},      // 35
-    {BoneId::kForearm, {0.42, -0.0, -0.1}, 1.1, true},   // 36
-    {BoneId::kThigh, {0.39, -0.1, 0.1}, 1.2, true},      // 37
-    {BoneId::kBelly, {0.87, 0.7, -0.0}, 0.8, true},      // 38
-    {BoneId::kThigh, {0.94, -0.0, -0.0}, 0.8, true},     // 39
-    {BoneId::kThigh, {0.00, 0.0, 0.2}, 1.1, true},       // 40
-    {BoneId::kFoot, {0.82, -0.9, 0.2}, 0.7, true},       // 41
-    {BoneId::kHead, {0.29, 0.0, 1.7}, 0.4, false},       // 42
-    {BoneId::kThigh, {0.33, -0.1, 0.3}, 1.2, true},      // 43
-    {BoneId::kUpperArm, {0.17, -0.0, 0.0}, 1.3, true},   // 44
-    {BoneId::kClavicle, {0.64, -0.0, -0.2}, 1.1, true},  // 45
-    {BoneId::kFoot, {0.99, 1.1, 0.5}, 0.6, true},        // 46
-    {BoneId::kUpperArm, {0.16, -0.0, -0.1}, 1.3, true},  // 47
-    {BoneId::kBelly, {0.58, 0.4, 0.0}, 1.0, true},       // 48
-    {BoneId::kHead, {0.72, 0.0, -0.1}, 1.3, false},      // 49
-    {BoneId::kForearm, {0.06, 0.0, 0.1}, 0.9, true},     // 50
-    {BoneId::kUpperArm, {0.77, -0.0, -0.2}, 0.8, true},  // 51
-    {BoneId::kHand, {0.79, -0.2, -1.0}, 0.6, true},      // 52
-    {BoneId::kUpperArm, {0.67, -0.0, 0.1}, 0.9, true},   // 53
-    {BoneId::kHand, {0.23, -0.0, 0.6}, 0.9, true},       // 54
-    {BoneId::kHand, {0.10, -0.0, 0.1}, 0.9, true},       // 55
-    {BoneId::kThigh, {-0.06, -0.2, 0.2}, 1.2, true},     // 56
-    {BoneId::kFoot, {0.78, 1.2, 0.0}, 0.7, true},        // 57
-    {BoneId::kPelvis, {0.79, -0.1, -0.3}, 1.1, true},    // 58
-    {BoneId::kHead, {0.36, 0.0, 0.8}, 0.9, false},       // 59
-    {BoneId::kThigh, {0.15, -0.1, 0.3}, 1.2, true},      // 60
+    {BoneId::kFoot, {0.97, -0.8, 0.6}, 0.7, true},       // 6
+    {BoneId::kShin, {0.44, 0.0, -0.2}, 1.0, true},       // 7
+    {BoneId::kHead, {0.63, 0.5, 1.2}, 0.5, true},        // 8
+    {BoneId::kThigh, {0.37, -0.1, 0.4}, 1.2, true},      // 9
+    {BoneId::kHead, {0.71, 0.0, 0.2}, 1.3, false},       // 10
+    {BoneId::kRibs, {0.10, 0.3, 0.1}, 0.9, true},        // 11
+    {BoneId::kShin, {0.85, 0.0, 0.0}, 0.6, true},        // 12
+    {BoneId::kRibs, {0.98, 0.7, 0.6}, 0.9, true},        // 13
+    {BoneId::kClavicle, {0.32, -0.4, -0.2}, 1.5, true},  // 14
+    {BoneId::kThigh, {0.18, -0.2, -0.0}, 1.2, true},     // 15
+    {BoneId::kBelly, {0.22, 0.0, 0.2}, 1.1, false},      // 16
+    {BoneId::kForearm, {1.24, 0.0, -0.4}, 0.5, true},    // 17
+    {BoneId::kHead, {0.62, 0.0, -0.5}, 1.1, false},      // 18
+    {BoneId::kHead, {0.40, 0.0, 1.0}, 1.0, false},       // 19
+    {BoneId::kHead, {0.27, 0.0, 0.1}, 0.9, false},       // 20
+    {BoneId::kPelvis, {0.90, 0.7, 0.2}, 1.3, true},      // 21
+    {BoneId::kHead, {0.71, 0.0, 0.6}, 1.3, false},       // 22
+    {BoneId::kHead, {0.59, 0.0, 0.1}, 1.4, false},       // 23
+    {BoneId::kPelvis, {0.65, 0.4, -0.1}, 1.5, true},     // 24
+    {BoneId::kFoot, {0.83, 0.1, 0.2}, 0.7, true},        // 25
+    {BoneId::kHead, {0.51, 0.0, 2.3}, 0.1, false},       // 26
+    {BoneId::kHead, {0.71, 0.0, -0.5}, 1.1, false},      // 27
+    {BoneId::kThigh, {0.16, -0.4, 0.7}, 0.9, true},      // 28
+    {BoneId::kShin, {1.81, -0.1, -0.2}, 0.6, true},      // 29
+    {BoneId::kRibs, {0.25, 0.6, -0.0}, 0.9, true},       // 30
+    {BoneId::kFoot, {0.13, -0.1, -0.4}, 1.2, true},      // 31
+    {BoneId::kShin, {0.33, -0.0, -0.5}, 0.8, true},      // 32
+    {BoneId::kForearm, {0.42, -0.0, -0.1}, 1.1, true},   // 33
+    {BoneId::kThigh, {0.39, -0.1, 0.1}, 1.2, true},      // 34
+    {BoneId::kBelly, {0.87, 0.7, -0.0}, 0.8, true},      // 35
+    {BoneId::kThigh, {0.94, -0.0, -0.0}, 0.8, true},     // 36
+    {BoneId::kThigh, {0.00, 0.0, 0.2}, 1.1, true},       // 37
+    {BoneId::kFoot, {0.82, -0.9, 0.2}, 0.7, true},       // 38
+    {BoneId::kHead, {0.29, 0.0, 1.7}, 0.4, false},       // 39
+    {BoneId::kThigh, {0.33, -0.1, 0.3}, 1.2, true},      // 40
+    {BoneId::kUpperArm, {0.17, -0.0, 0.0}, 1.3, true},   // 41
+    {BoneId::kClavicle, {0.64, -0.0, -0.2}, 1.1, true},  // 42
+    {BoneId::kFoot, {0.99, 1.1, 0.5}, 0.6, true},        // 43
+    {BoneId::kUpperArm, {0.16, -0.0, -0.1}, 1.3, true},  // 44
+    {BoneId::kBelly, {0.58, 0.4, 0.0}, 1.0, true},       // 45
+    {BoneId::kHead, {0.72, 0.0, -0.1}, 1.3, false},      // 46
+    {BoneId::kForearm, {0.06, 0.0, 0.1}, 0.9, true},     // 47
+    {BoneId::kUpperArm, {0.77, -0.0, -0.2}, 0.8, true},  // 48
+    {BoneId::kUpperArm, {0.67, -0.0, 0.1}, 0.9, true},   // 49
+    {BoneId::kThigh, {-0.06, -0.2, 0.2}, 1.2, true},     // 50
+    {BoneId::kFoot, {0.78, 1.2, 0.0}, 0.7, true},        // 51
+    {BoneId::kPelvis, {0.79, -0.1, -0.3}, 1.1, true},    // 52
+    {BoneId::kHead, {0.36, 0.0, 0.8}, 0.9, false},       // 53
+    {BoneId::kThigh, {0.15, -0.1, 0.3}, 1.2, true},      // 54
+    {BoneId::kHand, {0.15, -0.1, -0.2}, 1.2, true},      // 55
+    {BoneId::kHand, {0.71, -0.4, 0.6}, 2.3, true},       // 56
 });
-constexpr auto kShellFull250Edges = std::to_array<LayoutEdge>({
-    {1, 9, false},   {1, 2, false},   {0, 12, false},  {5, 13, false},  {3, 12, false},
-    {0, 14, false},  {0, 15, false},  {0, 12, true},   {6, 17, false},  {20, 22, false},
-    {12, 23, false}, {12, 18, false}, {21, 24, false}, {22, 25, false}, {5, 27, false},
-    {12, 12, true},  {21, 28, false}, {6, 30, false},  {15, 15, true},  {10, 31, false},
-    {3, 12, true},   {0, 33, false},  {13, 34, false}, {8, 35, false},  {18, 33, false},
-    {24, 28, false}, {0, 15, true},   {35, 39, false}, {37, 39, false}, {23, 40, false},
-    {32, 41, false}, {33, 38, false}, {0, 2, true},    {1, 15, false},  {21, 42, false},
-    {2, 44, false},  {15, 45, false}, {7, 46, false},  {0, 45, false},  {1, 45, false},
-    {0, 38, true},   {26, 48, true},  {11, 49, false}, {29, 49, false}, {16, 37, false},
-    {39, 43, false}, {4, 10, false},  {10, 39, false}, {23, 38, false}, {47, 50, false},
-    {26, 48, false}, {47, 51, false}, {19, 52, false}, {44, 53, false}, {0, 0, true},
-    {52, 54, false}, {36, 55, false}, {3, 56, true},   {4, 8, false},   {32, 57, false},
-    {46, 57, false}, {16, 58, false}, {26, 58, false}, {18, 31, false}, {36, 50, false},
-    {2, 47, false},  {21, 59, false}, {25, 59, false}, {10, 56, false}, {43, 60, false},
-    {56, 60, false}, {36, 51, false}, {8, 13, false},  {37, 40, false}, {7, 57, false},
-    {27, 34, false}, {9, 21, false},
-});
+constexpr auto kShellFull250Edges = std::to_array<LayoutEdge>(
+    {{1, 8, false},   {1, 2, false},   {0, 11, false},  {5, 12, false},  {3, 11, false},
+     {0, 13, false},  {0, 14, false},  {0, 11, true},   {18, 20, false}, {11, 21, false},
+     {11, 16, false}, {19, 22, false}, {20, 23, false}, {5, 25, false},  {19, 26, false},
+     {9, 28, false},  {3, 11, true},   {0, 30, false},  {12, 31, false}, {7, 32, false},
+     {16, 30, false}, {22, 26, false}, {0, 14, true},   {32, 36, false}, {34, 36, false},
+     {21, 37, false}, {29, 38, false}, {30, 35, false}, {0, 2, true},    {1, 14, false},
+     {19, 39, false}, {2, 41, false},  {14, 42, false}, {6, 43, false},  {0, 42, false},
+     {1, 42, false},  {0, 35, true},   {24, 45, true},  {10, 46, false}, {27, 46, false},
+     {15, 34, false}, {36, 40, false}, {4, 9, false},   {9, 36, false},  {21, 35, false},
+     {44, 47, false}, {24, 45, false}, {44, 48, false}, {17, 55, false}, {41, 49, false},
+     {33, 55, false}, {3, 50, true},   {4, 7, false},   {29, 51, false}, {43, 51, false},
+     {15, 52, false}, {24, 52, false}, {16, 28, false}, {33, 47, false}, {2, 44, false},
+     {19, 53, false}, {23, 53, false}, {9, 50, false},  {40, 54, false}, {50, 54, false},
+     {33, 48, false}, {7, 12, false},  {34, 37, false}, {6, 51, false},  {25, 31, false},
+     {8, 19, false},  {55, 56, false}});
 
 // 58 + 69 for enclosing, without head, hands and feet.
 constexpr auto kShell128Nodes = std::to_array<LayoutNode>({
@@ -572,7 +567,7 @@ constexpr auto kShell250Edges = std::to_array<LayoutEdge>({
     {9, 52, false},
 });
 
-// 208 + 292 for enclosing, with head, hands and feet.
+// 196 + 286 for enclosing, with head, hands and feet; hands as above.
 constexpr auto kShellFull500Nodes = std::to_array<LayoutNode>({
     {BoneId::kRibs, {0.91, 0.0, -0.1}, 0.9, false},      // 0
     {BoneId::kRibs, {1.09, 0.4, -0.1}, 1.2, true},       // 1
@@ -582,147 +577,139 @@ constexpr auto kShellFull500Nodes = std::to_array<LayoutNode>({
     {BoneId::kPelvis, {0.66, 0.2, -0.3}, 1.3, true},     // 5
     {BoneId::kShin, {-0.03, -0.0, -0.0}, 1.0, true},     // 6
     {BoneId::kHeel, {0.60, 0.1, -0.3}, 1.3, true},       // 7
-    {BoneId::kHand, {2.19, -0.3, 0.2}, 0.2, true},       // 8
-    {BoneId::kFoot, {0.93, 1.3, 0.3}, 0.8, true},        // 9
-    {BoneId::kShin, {0.37, 0.0, -0.1}, 0.9, true},       // 10
-    {BoneId::kHead, {0.73, 0.1, 0.9}, 0.9, true},        // 11
-    {BoneId::kThigh, {0.46, -0.1, 0.1}, 1.1, true},      // 12
-    {BoneId::kHead, {0.71, 0.0, 0.5}, 1.3, false},       // 13
-    {BoneId::kBelly, {0.98, 0.4, 0.1}, 0.9, true},       // 14
-    {BoneId::kUpperArm, {0.94, -0.0, -0.1}, 0.8, true},  // 15
-    {BoneId::kShin, {0.79, 0.0, -0.2}, 0.5, true},       // 16
-    {BoneId::kRibs, {0.97, 0.7, 0.7}, 0.8, true},        // 17
-    {BoneId::kClavicle, {0.35, -0.5, -0.1}, 1.5, true},  // 18
-    {BoneId::kBelly, {0.37, 0.0, 0.0}, 1.2, false},      // 19
-    {BoneId::kHand, {0.43, -0.1, 1.5}, 0.5, true},       // 20
-    {BoneId::kPelvis, {0.51, -0.5, 0.8}, 0.8, true},     // 21
-    {BoneId::kHand, {0.54, -0.1, -0.8}, 0.8, true},      // 22
-    {BoneId::kShin, {1.54, 0.0, 0.3}, 0.6, true},        // 23
-    {BoneId::kHead, {0.70, 0.0, -0.4}, 1.2, false},      // 24
-    {BoneId::kHead, {0.56, 0.0, 0.4}, 1.3, false},       // 25
-    {BoneId::kThigh, {0.59, -0.1, -0.1}, 0.6, true},     // 26
-    {BoneId::kBelly, {0.17, 0.6, 0.2}, 0.7, true},       // 27
-    {BoneId::kHead, {0.38, 0.0, 0.1}, 1.1, false},       // 28
-    {BoneId::kHead, {0.49, 0.0, -0.2}, 1.0, false},      // 29
-    {BoneId::kHead, {0.40, 0.0, 1.1}, 1.0, false},       // 30
-    {BoneId::kHead, {0.71, 0.0, -0.1}, 1.3, false},      // 31
-    {BoneId::kFoot, {0.11, -0.0, -0.2}, 1.2, true},      // 32
-    {BoneId::kHead, {0.51, 0.0, 2.3}, 0.1, false},       // 33
-    {BoneId::kForearm, {0.38, -0.0, -0.2}, 1.0, true},   // 34
-    {BoneId::kBelly, {0.30, 0.6, -0.0}, 1.2, true},      // 35
-    {BoneId::kThigh, {0.31, -0.1, 0.3}, 1.2, true},      // 36
-    {BoneId::kHead, {0.48, 0.0, -0.1}, 1.1, false},      // 37
-    {BoneId::kHand, {0.23, -0.0, 0.7}, 0.8, true},       // 38
-    {BoneId::kHand, {0.46, -0.1, 0.4}, 0.8, true},       // 39
-    {BoneId::kThigh, {0.26, 0.1, -0.1}, 0.8, true},      // 40
-    {BoneId::kThigh, {0.37, -0.1, 0.3}, 1.2, true},      // 41
-    {BoneId::kHead, {0.34, 0.0, 0.8}, 1.0, false},       // 42
-    {BoneId::kChest, {1.64, 0.0, 1.7}, 0.3, false},      // 43
-    {BoneId::kThigh, {0.98, 0.0, 0.3}, 0.7, true},       // 44
-    {BoneId::kShin, {0.18, -0.0, -0.1}, 0.9, true},      // 45
-    {BoneId::kFoot, {0.65, -0.8, -0.2}, 0.9, true},      // 46
-    {BoneId::kThigh, {0.75, -0.0, -0.1}, 0.8, true},     // 47
-    {BoneId::kUpperArm, {0.42, -0.0, -0.2}, 1.0, true},  // 48
-    {BoneId::kRibs, {0.98, 0.0, -0.7}, 0.5, false},      // 49
-    {BoneId::kBelly, {0.15, 0.0, 0.6}, 0.7, false},      // 50
-    {BoneId::kClavicle, {0.43, -0.2, -0.1}, 0.7, true},  // 51
-    {BoneId::kThigh, {0.27, 0.1, 0.1}, 1.0, true},       // 52
-    {BoneId::kShin, {0.59, -0.1, -0.1}, 0.3, true},      // 53
-    {BoneId::kThigh, {0.53, 0.1, 0.4}, 0.6, true},       // 54
-    {BoneId::kFoot, {0.78, -0.9, 0.2}, 0.8, true},       // 55
-    {BoneId::kClavicle, {0.93, 0.2, -0.1}, 0.8, true},   // 56
-    {BoneId::kChest, {0.28, 0.0, -0.1}, 1.3, false},     // 57
-    {BoneId::kFoot, {0.99, -0.8, 0.5}, 0.6, true},       // 58
-    {BoneId::kBelly, {0.98, 0.6, -0.0}, 0.8, true},      // 59
-    {BoneId::kFoot, {0.71, 1.0, -0.1}, 1.1, true},       // 60
-    {BoneId::kHand, {0.70, -0.2, -1.4}, 0.4, true},      // 61
-    {BoneId::kFoot, {1.03, -0.1, 0.6}, 0.7, true},       // 62
-    {BoneId::kUpperArm, {0.62, -0.0, 0.1}, 0.9, true},   // 63
-    {BoneId::kRibs, {0.92, 0.5, -0.0}, 1.0, true},       // 64
-    {BoneId::kFoot, {0.51, 0.1, -0.4}, 1.2, true},       // 65
-    {BoneId::kShin, {0.37, 0.0, -0.1}, 0.9, true},       // 66
-    {BoneId::kShin, {0.20, -0.0, -0.4}, 0.8, true},      // 67
-    {BoneId::kBelly, {0.43, 0.4, 0.1}, 1.1, true},       // 68
-    {BoneId::kHead, {0.57, 0.9, -0.0}, 0.5, true},       // 69
-    {BoneId::kHand, {0.62, -0.5, 2.6}, 0.4, true},       // 70
-    {BoneId::kUpperArm, {0.19, -0.0, 0.1}, 1.2, true},   // 71
-    {BoneId::kForearm, {0.43, 0.0, 0.1}, 1.0, true},     // 72
-    {BoneId::kShin, {0.83, 0.0, 0.1}, 0.5, true},        // 73
-    {BoneId::kShin, {0.31, -0.0, -0.5}, 0.7, true},      // 74
-    {BoneId::kClavicle, {0.64, 0.1, -0.2}, 1.0, true},   // 75
-    {BoneId::kPelvis, {0.91, 0.6, 0.3}, 1.2, true},      // 76
-    {BoneId::kHand, {0.34, -0.1, 1.4}, 0.4, true},       // 77
-    {BoneId::kFoot, {0.56, 0.9, -0.7}, 0.8, true},       // 78
-    {BoneId::kFoot, {0.44, 0.9, -1.1}, 0.6, true},       // 79
-    {BoneId::kShin, {0.54, 0.0, -0.4}, 0.7, true},       // 80
-    {BoneId::kShin, {0.38, 0.0, -0.5}, 0.7, true},       // 81
-    {BoneId::kUpperArm, {0.23, -0.0, -0.2}, 1.2, true},  // 82
-    {BoneId::kThigh, {0.84, -0.0, 0.0}, 0.8, true},      // 83
-    {BoneId::kClavicle, {0.35, -0.8, 0.0}, 1.5, true},   // 84
-    {BoneId::kRibs, {1.15, 0.7, 0.3}, 1.0, true},        // 85
-    {BoneId::kChest, {0.66, 0.3, -0.3}, 1.1, true},      // 86
-    {BoneId::kHead, {0.60, 0.0, -0.4}, 1.1, false},      // 87
-    {BoneId::kChest, {1.05, 0.5, -0.0}, 0.5, true},      // 88
-    {BoneId::kBelly, {0.11, 0.0, -0.4}, 0.7, false},     // 89
-    {BoneId::kShin, {0.62, 0.0, -0.0}, 0.7, true},       // 90
-    {BoneId::kRibs, {0.45, 0.3, -0.0}, 1.0, true},       // 91
-    {BoneId::kRibs, {0.37, 0.1, -0.1}, 0.9, true},       // 92
-    {BoneId::kUpperArm, {0.09, -0.3, 0.1}, 1.2, true},   // 93
-    {BoneId::kRibs, {1.09, 1.0, 0.3}, 0.5, true},        // 94
-    {BoneId::kForearm, {1.21, 0.0, 0.2}, 0.5, true},     // 95
-    {BoneId::kForearm, {-0.01, 0.0, 0.1}, 1.0, true},    // 96
-    {BoneId::kThigh, {0.23, -0.1, -0.0}, 1.2, true},     // 97
-    {BoneId::kUpperArm, {0.12, -0.1, -0.1}, 1.3, true},  // 98
-    {BoneId::kHeel, {0.62, 0.1, -0.7}, 1.4, true},       // 99
-    {BoneId::kShin, {0.87, 0.0, 0.2}, 0.5, true},        // 100
-    {BoneId::kHead, {0.71, 0.0, 0.2}, 1.3, false},       // 101
-    {BoneId::kPelvis, {0.69, -0.3, 0.4}, 1.0, true},     // 102
-    {BoneId::kRibs, {0.72, 0.1, -0.2}, 0.9, true},       // 103
-    {BoneId::kClavicle, {0.47, 0.1, -0.3}, 1.1, true},   // 104
-    {BoneId::kThigh, {-0.02, -0.1, 0.2}, 1.2, true},     // 105
-    {BoneId::kBelly, {0.95, 0.0, 0.3}, 0.6, false},      // 106
-    {BoneId::kRibs, {0.40, 0.6, -0.1}, 1.0, true},       // 107
-    {BoneId::kClavicle, {0.43, -0.6, 0.1}, 1.1, true},   // 108
-    {BoneId::kThigh, {0.14, -0.2, 0.3}, 0.9, true},      // 109
-    {BoneId::kThigh, {1.04, -0.0, 0.0}, 0.8, true},      // 110
-    {BoneId::kThigh, {0.13, -0.3, 0.0}, 1.1, true},      // 111
-    {BoneId::kShin, {0.95, 0.0, -0.1}, 0.5, true},       // 112
-    {BoneId::kUpperArm, {0.49, -0.0, -0.0}, 1.1, true},  // 113
-    {BoneId::kChest, {0.20, 0.0, -0.1}, 1.5, false},     // 114
+    {BoneId::kFoot, {0.93, 1.3, 0.3}, 0.8, true},        // 8
+    {BoneId::kShin, {0.37, 0.0, -0.1}, 0.9, true},       // 9
+    {BoneId::kHead, {0.73, 0.1, 0.9}, 0.9, true},        // 10
+    {BoneId::kThigh, {0.46, -0.1, 0.1}, 1.1, true},      // 11
+    {BoneId::kHead, {0.71, 0.0, 0.5}, 1.3, false},       // 12
+    {BoneId::kBelly, {0.98, 0.4, 0.1}, 0.9, true},       // 13
+    {BoneId::kUpperArm, {0.94, -0.0, -0.1}, 0.8, true},  // 14
+    {BoneId::kShin, {0.79, 0.0, -0.2}, 0.5, true},       // 15
+    {BoneId::kRibs, {0.97, 0.7, 0.7}, 0.8, true},        // 16
+    {BoneId::kClavicle, {0.35, -0.5, -0.1}, 1.5, true},  // 17
+    {BoneId::kBelly, {0.37, 0.0, 0.0}, 1.2, false},      // 18
+    {BoneId::kPelvis, {0.51, -0.5, 0.8}, 0.8, true},     // 19
+    {BoneId::kShin, {1.54, 0.0, 0.3}, 0.6, true},        // 20
+    {BoneId::kHead, {0.70, 0.0, -0.4}, 1.2, false},      // 21
+    {BoneId::kHead, {0.56, 0.0, 0.4}, 1.3, false},       // 22
+    {BoneId::kThigh, {0.59, -0.1, -0.1}, 0.6, true},     // 23
+    {BoneId::kBelly, {0.17, 0.6, 0.2}, 0.7, true},       // 24
+    {BoneId::kHead, {0.38, 0.0, 0.1}, 1.1, false},       // 25
+    {BoneId::kHead, {0.49, 0.0, -0.2}, 1.0, false},      // 26
+    {BoneId::kHead, {0.40, 0.0, 1.1}, 1.0, false},       // 27
+    {BoneId::kHead, {0.71, 0.0, -0.1}, 1.3, false},      // 28
+    {BoneId::kFoot, {0.11, -0.0, -0.2}, 1.2, true},      // 29
+    {BoneId::kHead, {0.51, 0.0, 2.3}, 0.1, false},       // 30
+    {BoneId::kForearm, {0.38, -0.0, -0.2}, 1.0, true},   // 31
+    {BoneId::kBelly, {0.30, 0.6, -0.0}, 1.2, true},      // 32
+    {BoneId::kThigh, {0.31, -0.1, 0.3}, 1.2, true},      // 33
+    {BoneId::kHead, {0.48, 0.0, -0.1}, 1.1, false},      // 34
+    {BoneId::kThigh, {0.26, 0.1, -0.1}, 0.8, true},      // 35
+    {BoneId::kThigh, {0.37, -0.1, 0.3}, 1.2, true},      // 36
+    {BoneId::kHead, {0.34, 0.0, 0.8}, 1.0, false},       // 37
+    {BoneId::kChest, {1.64, 0.0, 1.7}, 0.3, false},      // 38
+    {BoneId::kThigh, {0.98, 0.0, 0.3}, 0.7, true},       // 39
+    {BoneId::kShin, {0.18, -0.0, -0.1}, 0.9, true},      // 40
+    {BoneId::kFoot, {0.65, -0.8, -0.2}, 0.9, true},      // 41
+    {BoneId::kThigh, {0.75, -0.0, -0.1}, 0.8, true},     // 42
+    {BoneId::kUpperArm, {0.42, -0.0, -0.2}, 1.0, true},  // 43
+    {BoneId::kRibs, {0.98, 0.0, -0.7}, 0.5, false},      // 44
+    {BoneId::kBelly, {0.15, 0.0, 0.6}, 0.7, false},      // 45
+    {BoneId::kClavicle, {0.43, -0.2, -0.1}, 0.7, true},  // 46
+    {BoneId::kThigh, {0.27, 0.1, 0.1}, 1.0, true},       // 47
+    {BoneId::kShin, {0.59, -0.1, -0.1}, 0.3, true},      // 48
+    {BoneId::kThigh, {0.53, 0.1, 0.4}, 0.6, true},       // 49
+    {BoneId::kFoot, {0.78, -0.9, 0.2}, 0.8, true},       // 50
+    {BoneId::kClavicle, {0.93, 0.2, -0.1}, 0.8, true},   // 51
+    {BoneId::kChest, {0.28, 0.0, -0.1}, 1.3, false},     // 52
+    {BoneId::kFoot, {0.99, -0.8, 0.5}, 0.6, true},       // 53
+    {BoneId::kBelly, {0.98, 0.6, -0.0}, 0.8, true},      // 54
+    {BoneId::kFoot, {0.71, 1.0, -0.1}, 1.1, true},       // 55
+    {BoneId::kFoot, {1.03, -0.1, 0.6}, 0.7, true},       // 56
+    {BoneId::kUpperArm, {0.62, -0.0, 0.1}, 0.9, true},   // 57
+    {BoneId::kRibs, {0.92, 0.5, -0.0}, 1.0, true},       // 58
+    {BoneId::kFoot, {0.51, 0.1, -0.4}, 1.2, true},       // 59
+    {BoneId::kShin, {0.37, 0.0, -0.1}, 0.9, true},       // 60
+    {BoneId::kShin, {0.20, -0.0, -0.4}, 0.8, true},      // 61
+    {BoneId::kBelly, {0.43, 0.4, 0.1}, 1.1, true},       // 62
+    {BoneId::kHead, {0.57, 0.9, -0.0}, 0.5, true},       // 63
+    {BoneId::kUpperArm, {0.19, -0.0, 0.1}, 1.2, true},   // 64
+    {BoneId::kForearm, {0.43, 0.0, 0.1}, 1.0, true},     // 65
+    {BoneId::kShin, {0.83, 0.0, 0.1}, 0.5, true},        // 66
+    {BoneId::kShin, {0.31, -0.0, -0.5}, 0.7, true},      // 67
+    {BoneId::kClavicle, {0.64, 0.1, -0.2}, 1.0, true},   // 68
+    {BoneId::kPelvis, {0.91, 0.6, 0.3}, 1.2, true},      // 69
+    {BoneId::kFoot, {0.56, 0.9, -0.7}, 0.8, true},       // 70
+    {BoneId::kFoot, {0.44, 0.9, -1.1}, 0.6, true},       // 71
+    {BoneId::kShin, {0.54, 0.0, -0.4}, 0.7, true},       // 72
+    {BoneId::kShin, {0.38, 0.0, -0.5}, 0.7, true},       // 73
+    {BoneId::kUpperArm, {0.23, -0.0, -0.2}, 1.2, true},  // 74
+    {BoneId::kThigh, {0.84, -0.0, 0.0}, 0.8, true},      // 75
+    {BoneId::kClavicle, {0.35, -0.8, 0.0}, 1.5, true},   // 76
+    {BoneId::kRibs, {1.15, 0.7, 0.3}, 1.0, true},        // 77
+    {BoneId::kChest, {0.66, 0.3, -0.3}, 1.1, true},      // 78
+    {BoneId::kHead, {0.60, 0.0, -0.4}, 1.1, false},      // 79
+    {BoneId::kChest, {1.05, 0.5, -0.0}, 0.5, true},      // 80
+    {BoneId::kBelly, {0.11, 0.0, -0.4}, 0.7, false},     // 81
+    {BoneId::kShin, {0.62, 0.0, -0.0}, 0.7, true},       // 82
+    {BoneId::kRibs, {0.45, 0.3, -0.0}, 1.0, true},       // 83
+    {BoneId::kRibs, {0.37, 0.1, -0.1}, 0.9, true},       // 84
+    {BoneId::kUpperArm, {0.09, -0.3, 0.1}, 1.2, true},   // 85
+    {BoneId::kRibs, {1.09, 1.0, 0.3}, 0.5, true},        // 86
+    {BoneId::kForearm, {1.21, 0.0, 0.2}, 0.5, true},     // 87
+    {BoneId::kForearm, {-0.01, 0.0, 0.1}, 1.0, true},    // 88
+    {BoneId::kThigh, {0.23, -0.1, -0.0}, 1.2, true},     // 89
+    {BoneId::kUpperArm, {0.12, -0.1, -0.1}, 1.3, true},  // 90
+    {BoneId::kHeel, {0.62, 0.1, -0.7}, 1.4, true},       // 91
+    {BoneId::kShin, {0.87, 0.0, 0.2}, 0.5, true},        // 92
+    {BoneId::kHead, {0.71, 0.0, 0.2}, 1.3, false},       // 93
+    {BoneId::kPelvis, {0.69, -0.3, 0.4}, 1.0, true},     // 94
+    {BoneId::kRibs, {0.72, 0.1, -0.2}, 0.9, true},       // 95
+    {BoneId::kClavicle, {0.47, 0.1, -0.3}, 1.1, true},   // 96
+    {BoneId::kThigh, {-0.02, -0.1, 0.2}, 1.2, true},     // 97
+    {BoneId::kBelly, {0.95, 0.0, 0.3}, 0.6, false},      // 98
+    {BoneId::kRibs, {0.40, 0.6, -0.1}, 1.0, true},       // 99
+    {BoneId::kClavicle, {0.43, -0.6, 0.1}, 1.1, true},   // 100
+    {BoneId::kThigh, {0.14, -0.2, 0.3}, 0.9, true},      // 101
+    {BoneId::kThigh, {1.04, -0.0, 0.0}, 0.8, true},      // 102
+    {BoneId::kThigh, {0.13, -0.3, 0.0}, 1.1, true},      // 103
+    {BoneId::kShin, {0.95, 0.0, -0.1}, 0.5, true},       // 104
+    {BoneId::kUpperArm, {0.49, -0.0, -0.0}, 1.1, true},  // 105
+    {BoneId::kChest, {0.20, 0.0, -0.1}, 1.5, false},     // 106
+    {BoneId::kHand, {0.15, -0.1, -0.2}, 1.2, true},      // 107
+    {BoneId::kHand, {0.71, -0.4, 0.6}, 2.3, true},       // 108
 });
-constexpr auto kShellFull500Edges = std::to_array<LayoutEdge>({
-    {2, 11, false},   {2, 3, false},    {1, 18, false},   {5, 19, false},   {14, 19, false},
-    {8, 20, false},   {4, 22, false},   {8, 22, false},   {5, 27, false},   {1, 14, true},
-    {13, 29, false},  {0, 2, false},    {11, 30, false},  {25, 31, false},  {30, 33, false},
-    {4, 34, false},   {5, 35, false},   {14, 35, false},  {12, 36, false},  {21, 36, false},
-    {25, 37, false},  {22, 38, false},  {8, 39, false},   {15, 34, false},  {36, 40, false},
-    {26, 41, false},  {25, 42, false},  {28, 42, false},  {12, 27, false},  {13, 33, false},
-    {30, 43, false},  {19, 21, false},  {26, 44, false},  {15, 48, false},  {44, 45, false},
-    {6, 12, false},   {17, 49, false},  {4, 38, false},   {21, 50, false},  {2, 51, false},
-    {27, 52, false},  {41, 52, false},  {9, 55, false},   {46, 55, false},  {3, 56, false},
-    {1, 57, false},   {13, 30, false},  {55, 58, false},  {1, 59, false},   {46, 60, false},
-    {8, 61, false},   {9, 62, false},   {3, 51, false},   {15, 63, false},  {32, 65, false},
-    {53, 66, false},  {5, 68, false},   {14, 68, true},   {40, 59, false},  {25, 69, false},
-    {20, 70, false},  {63, 71, false},  {4, 72, false},   {15, 72, false},  {16, 73, false},
-    {10, 74, false},  {67, 74, false},  {3, 75, false},   {18, 75, false},  {27, 76, false},
-    {1, 75, false},   {59, 76, false},  {6, 41, false},   {14, 27, false},  {39, 77, false},
-    {32, 78, false},  {65, 79, false},  {66, 80, false},  {10, 81, false},  {48, 82, false},
-    {3, 84, false},   {1, 85, false},   {17, 85, false},  {2, 86, false},   {18, 86, true},
-    {24, 87, false},  {37, 87, false},  {59, 85, true},   {21, 68, false},  {45, 47, false},
-    {2, 88, false},   {19, 89, false},  {17, 64, false},  {41, 44, false},  {16, 80, false},
-    {66, 90, false},  {73, 90, false},  {76, 92, false},  {56, 93, false},  {71, 93, false},
-    {5, 27, true},    {80, 81, false},  {85, 91, false},  {35, 40, false},  {52, 68, false},
-    {17, 94, false},  {72, 95, false},  {63, 96, false},  {12, 97, false},  {56, 98, false},
-    {82, 98, false},  {7, 99, false},   {32, 99, false},  {16, 100, false}, {23, 100, false},
-    {13, 101, false}, {31, 101, false}, {67, 83, false},  {50, 91, false},  {3, 18, false},
-    {46, 99, false},  {56, 75, false},  {41, 102, false}, {1, 103, false},  {14, 103, false},
-    {86, 104, false}, {93, 104, false}, {36, 105, false}, {72, 96, false},  {10, 67, false},
-    {79, 99, false},  {59, 105, false}, {56, 63, false},  {85, 104, false}, {12, 52, false},
-    {27, 40, false},  {3, 91, false},   {1, 106, false},  {14, 107, false}, {84, 107, false},
-    {18, 108, true},  {93, 108, false}, {26, 109, false}, {76, 109, false}, {10, 110, false},
-    {54, 110, false}, {5, 111, false},  {97, 111, false}, {7, 112, false},  {16, 112, false},
-    {15, 113, false}, {71, 113, false}, {18, 114, false}, {30, 31, false},
-});
+constexpr auto kShellFull500Edges = std::to_array<LayoutEdge>(
+    {{2, 10, false},   {2, 3, false},    {1, 17, false},   {5, 18, false},   {13, 18, false},
+     {4, 107, false},  {5, 24, false},   {1, 13, true},    {12, 26, false},  {0, 2, false},
+     {10, 27, false},  {22, 28, false},  {27, 30, false},  {4, 31, false},   {5, 32, false},
+     {13, 32, false},  {11, 33, false},  {19, 33, false},  {22, 34, false},  {14, 31, false},
+     {33, 35, false},  {23, 36, false},  {22, 37, false},  {25, 37, false},  {11, 24, false},
+     {12, 30, false},  {27, 38, false},  {18, 19, false},  {23, 39, false},  {14, 43, false},
+     {39, 40, false},  {6, 11, false},   {16, 44, false},  {19, 45, false},  {2, 46, false},
+     {24, 47, false},  {36, 47, false},  {8, 50, false},   {41, 50, false},  {3, 51, false},
+     {1, 52, false},   {12, 27, false},  {50, 53, false},  {1, 54, false},   {41, 55, false},
+     {8, 56, false},   {3, 46, false},   {14, 57, false},  {29, 59, false},  {48, 60, false},
+     {5, 62, false},   {13, 62, true},   {35, 54, false},  {22, 63, false},  {57, 64, false},
+     {4, 65, false},   {14, 65, false},  {15, 66, false},  {9, 67, false},   {61, 67, false},
+     {3, 68, false},   {17, 68, false},  {24, 69, false},  {1, 68, false},   {54, 69, false},
+     {6, 36, false},   {13, 24, false},  {29, 70, false},  {59, 71, false},  {60, 72, false},
+     {9, 73, false},   {43, 74, false},  {3, 76, false},   {1, 77, false},   {16, 77, false},
+     {2, 78, false},   {17, 78, true},   {21, 79, false},  {34, 79, false},  {54, 77, true},
+     {19, 62, false},  {40, 42, false},  {2, 80, false},   {18, 81, false},  {16, 58, false},
+     {36, 39, false},  {15, 72, false},  {60, 82, false},  {66, 82, false},  {69, 84, false},
+     {51, 85, false},  {64, 85, false},  {5, 24, true},    {72, 73, false},  {77, 83, false},
+     {32, 35, false},  {47, 62, false},  {16, 86, false},  {65, 87, false},  {57, 88, false},
+     {11, 89, false},  {51, 90, false},  {74, 90, false},  {7, 91, false},   {29, 91, false},
+     {15, 92, false},  {20, 92, false},  {12, 93, false},  {28, 93, false},  {61, 75, false},
+     {45, 83, false},  {3, 17, false},   {41, 91, false},  {51, 68, false},  {36, 94, false},
+     {1, 95, false},   {13, 95, false},  {78, 96, false},  {85, 96, false},  {33, 97, false},
+     {65, 88, false},  {9, 61, false},   {71, 91, false},  {54, 97, false},  {51, 57, false},
+     {77, 96, false},  {11, 47, false},  {24, 35, false},  {3, 83, false},   {1, 98, false},
+     {13, 99, false},  {76, 99, false},  {17, 100, true},  {85, 100, false}, {23, 101, false},
+     {69, 101, false}, {9, 102, false},  {49, 102, false}, {5, 103, false},  {89, 103, false},
+     {7, 104, false},  {15, 104, false}, {14, 105, false}, {64, 105, false}, {17, 106, false},
+     {27, 28, false},  {107, 108, false}});
 
 // 200 + 300 for enclosing, without head, hands and feet.
 constexpr auto kShell500Nodes = std::to_array<LayoutNode>({
