@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 
 namespace capfit::client {
@@ -10,6 +11,9 @@ namespace {
 constexpr std::chrono::milliseconds kFirstPause{200};
 constexpr std::chrono::milliseconds kLongestPause{10'000};
 constexpr char kPushbackTrailer[] = "grpc-retry-pushback-ms";
+// How gRPC tells of HTTP/2's ENHANCE_YOUR_CALM. A server whose memory others fill ends streams with
+// it before capfit has a say, whosever they are; it passes.
+constexpr char kCalm[] = "RST_STREAM with error code 11";
 
 }  // namespace
 
@@ -32,7 +36,9 @@ std::optional<std::chrono::milliseconds> PauseAfter(const absl::Status& status, 
     // Below 0: the server asks not to be asked again.
     return pushback->count() < 0 ? std::nullopt : pushback;
   }
-  if (absl::IsResourceExhausted(status)) return std::nullopt;
+  if (absl::IsResourceExhausted(status) && !absl::StrContains(status.message(), kCalm)) {
+    return std::nullopt;
+  }
   return std::min(kLongestPause, kFirstPause * (1 << std::min(attempt - 1, 10)));
 }
 

@@ -21,7 +21,8 @@ inline constexpr int kMaxAttempts = 4;
 
 // How long to wait after the given attempt (counted from 1) ended with `status`: what the server
 // asked for, else twice as long each time. Nothing where another attempt is of no use: for all
-// codes but UNAVAILABLE, and RESOURCE_EXHAUSTED with a pause.
+// codes but UNAVAILABLE, and RESOURCE_EXHAUSTED with a pause or from gRPC itself, which ends calls
+// while others fill the server's memory.
 [[nodiscard]] std::optional<std::chrono::milliseconds> PauseAfter(
     const absl::Status& status, int attempt, int max_attempts, const grpc::ClientContext& context);
 

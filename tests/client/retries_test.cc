@@ -22,6 +22,14 @@ TEST(PauseAfter, GrowsForServersThatAreGoneUpToTenSeconds) {
   EXPECT_EQ(PauseAfter(gone, 99, 100, context)->count(), 10'000);
 }
 
+TEST(PauseAfter, GrowsWhereOthersFillTheServersMemory) {
+  const grpc::ClientContext context;
+  const absl::Status ended = absl::ResourceExhaustedError("Received RST_STREAM with error code 11");
+  EXPECT_EQ(PauseAfter(ended, 1, 4, context)->count(), 200);
+  EXPECT_EQ(PauseAfter(ended, 2, 4, context)->count(), 400);
+  EXPECT_FALSE(PauseAfter(ended, 4, 4, context)) << "the last attempt";
+}
+
 TEST(PauseAfter, IsNothingWhereAnotherAttemptIsOfNoUse) {
   const grpc::ClientContext context;
   EXPECT_FALSE(PauseAfter(absl::UnavailableError("gone"), 4, 4, context)) << "the last attempt";
