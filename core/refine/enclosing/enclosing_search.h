@@ -21,8 +21,8 @@ namespace capfit::refine {
 //
 // `starts` must not be empty. Brings the stage from its beginning to `until`. The graph fits the
 // budget unless cancelled. What is tried runs in parallel; same bits for any pool. A round takes
-// about 20 ms on two cores at 64 primitives, 40 ms at 128, 100 ms at 250; the starts as long as two
-// to four of these.
+// some 10 ms on two cores at 64 primitives, 40 ms at 128, 100 ms at 250; the starts as long as a
+// few of these, and longer where much of a larger one is spared.
 [[nodiscard]] capsule::MirroredSet FindEnclosingGraph(
     const EnclosingTask& task, const capsule::Budget& budget,
     const std::vector<capsule::MirroredSet>& starts, int rounds, double until,

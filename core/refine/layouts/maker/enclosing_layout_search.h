@@ -8,8 +8,9 @@
 
 namespace capfit::refine {
 
-// Starts from a stored layout and exchanges primitives at random for the task's CPU time: what is
-// least missed goes most often, capsules are cut where they are loose, near spheres are tied. A
+// Starts from a stored layout, or from what quality tight finds for one of the mannequins where
+// that serves all of them better, and exchanges primitives at random for the task's CPU time: what
+// is least missed goes most often, capsules are cut where they are loose, near spheres are tied. A
 // change stays where the mean volume over the mannequins falls, or, at first, hardly rises. A few
 // minutes: what a longer search finds suits the mannequins ever better and people ever less. Says
 // on stderr how it goes.
