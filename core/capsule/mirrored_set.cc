@@ -26,9 +26,10 @@ void MirroredSet::FindImages() {
   capsule_images_ = or_itself(found.capsules, set_.capsules.size());
 }
 
-bool MirroredSet::HasCapsule(int a, int b) const {
+int MirroredSet::IndexOfCapsule(int a, int b) const {
   const CapsuleEnds ends{std::min(a, b), std::max(a, b)};
-  return std::find(set_.capsules.begin(), set_.capsules.end(), ends) != set_.capsules.end();
+  const auto found = std::find(set_.capsules.begin(), set_.capsules.end(), ends);
+  return found == set_.capsules.end() ? -1 : static_cast<int>(found - set_.capsules.begin());
 }
 
 std::vector<int> MirroredSet::NeighboursOf(int v) const {

@@ -42,7 +42,9 @@ class MirroredSet {
   [[nodiscard]] bool IsOnPlane(int v) const {
     return is_mirrored_ && set_.origins[At(v)].mirror == v;
   }
-  [[nodiscard]] bool HasCapsule(int a, int b) const;
+  // Of the capsule between two spheres, either way round; -1: there is none.
+  [[nodiscard]] int IndexOfCapsule(int a, int b) const;
+  [[nodiscard]] bool HasCapsule(int a, int b) const { return IndexOfCapsule(a, b) >= 0; }
   [[nodiscard]] std::vector<int> NeighboursOf(int v) const;  // by capsules, in their order
 
   // Adds a sphere and, off the plane of a mirrored set, its image right after it; on the plane x is

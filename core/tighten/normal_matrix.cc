@@ -1,75 +1,136 @@
 #include "core/tighten/normal_matrix.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cstddef>
 
 namespace capfit::tighten {
 namespace {
 
-// Below, dense factors are quicker.
-constexpr Eigen::Index kLeastSparse = 160;
+std::size_t At(int i) { return static_cast<std::size_t>(i); }
+
+void Insert(std::vector<int>& sorted, int value) {
+  const auto place = std::lower_bound(sorted.begin(), sorted.end(), value);
+  if (place == sorted.end() || *place != value) sorted.insert(place, value);
+}
+
+void Remove(std::vector<int>& sorted, int value) {
+  sorted.erase(std::lower_bound(sorted.begin(), sorted.end(), value));
+}
 
 }  // namespace
 
 NormalMatrix::NormalMatrix(Eigen::Index variables, std::span<const std::pair<int, int>> pairs)
-    : variables_(variables), is_sparse_(variables >= kLeastSparse) {
-  if (!is_sparse_) {
-    values_.setZero(variables * variables);
-    return;
+    : groups_(static_cast<int>(variables / 4)) {
+  Ties ties(At(groups_));
+  for (const auto& [a, b] : pairs) {
+    Insert(ties[At(a / 4)], b / 4);
+    Insert(ties[At(b / 4)], a / 4);
   }
-  pattern_ = PatternOf(pairs);
-  values_.setZero(pattern_.nonZeros());
-  sparse_.analyzePattern(pattern_);
+  PlaceBlocks(Eliminate(std::move(ties)));
 }
 
-NormalMatrix::Sparse NormalMatrix::PatternOf(std::span<const std::pair<int, int>> pairs) const {
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&entries](int row, int column) {
-    for (int j = 0; j < 4; ++j) {
-      for (int i = 0; i < 4; ++i) entries.emplace_back(row + i, column + j, 1.0);
+// Each time the group that is tied to the fewest; those are tied to each other from then on.
+NormalMatrix::Ties NormalMatrix::Eliminate(Ties ties) {
+  column_of_group_.assign(At(groups_), -1);
+  for (int column = 0; column < groups_; ++column) {
+    int next = -1;
+    for (int g = 0; g < groups_; ++g) {
+      if (column_of_group_[At(g)] >= 0) continue;
+      if (next < 0 || ties[At(g)].size() < ties[At(next)].size()) next = g;
     }
-  };
-  for (int first = 0; first < variables_; first += 4) add(first, first);
-  for (const auto& [a, b] : pairs) add(std::max(a, b), std::min(a, b));
-  Sparse pattern(variables_, variables_);
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  return pattern;
+    column_of_group_[At(next)] = column;
+    for (const int a : ties[At(next)]) {
+      Remove(ties[At(a)], next);
+      for (const int b : ties[At(next)]) {
+        if (a != b) Insert(ties[At(a)], b);
+      }
+    }
+  }
+  return ties;
 }
 
-NormalMatrix::Slot NormalMatrix::SlotOf(Eigen::Index row, Eigen::Index column) const {
-  Slot slot{};
-  for (Eigen::Index j = 0; j < 4; ++j) {
-    auto& begin = slot[static_cast<std::size_t>(j)];
-    if (!is_sparse_) {
-      begin = (column + j) * variables_ + row;
-      continue;
-    }
-    const int* const first = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column + j];
-    const int* const last = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[column + j + 1];
-    begin = std::lower_bound(first, last, static_cast<int>(row)) - pattern_.innerIndexPtr();
+void NormalMatrix::PlaceBlocks(const Ties& later) {
+  std::vector<std::vector<int>> rows(At(groups_));
+  for (int g = 0; g < groups_; ++g) {
+    std::vector<int>& own = rows[At(column_of_group_[At(g)])];
+    for (const int tied : later[At(g)]) own.push_back(column_of_group_[At(tied)]);
+    std::sort(own.begin(), own.end());
   }
-  return slot;
+  for (const std::vector<int>& own : rows) {
+    begin_.push_back(static_cast<std::uint32_t>(rows_.size()));
+    rows_.insert(rows_.end(), own.begin(), own.end());
+  }
+  begin_.push_back(static_cast<std::uint32_t>(rows_.size()));
+  for (const std::vector<int>& own : rows) {
+    for (std::size_t a = 0; a < own.size(); ++a) {
+      for (std::size_t b = 0; b <= a; ++b) targets_.push_back(BlockAt(own[a], own[b]));
+    }
+  }
+  blocks_.resize(At(groups_) + rows_.size());
+  inverses_.resize(At(groups_));
+}
+
+std::uint32_t NormalMatrix::BlockAt(int row, int column) const {
+  if (row == column) return static_cast<std::uint32_t>(row);
+  const auto first = rows_.begin() + begin_[At(column)];
+  const auto last = rows_.begin() + begin_[At(column) + 1];
+  const auto place = std::lower_bound(first, last, row);
+  return static_cast<std::uint32_t>(groups_ + (place - rows_.begin()));
+}
+
+NormalMatrix::Place NormalMatrix::PlaceOf(int row, int column) const {
+  const int r = column_of_group_[At(row / 4)];
+  const int c = column_of_group_[At(column / 4)];
+  return {BlockAt(std::max(r, c), std::min(r, c)), r < c};
 }
 
 void NormalMatrix::Reset(const Eigen::VectorXd& diagonal) {
-  values_.setZero();
-  for (Eigen::Index first = 0; first < variables_; first += 4) {
-    const Slot slot = SlotOf(first, first);
-    for (Eigen::Index i = 0; i < 4; ++i) At(slot, i, i) = diagonal[first + i];
+  std::fill(blocks_.begin(), blocks_.end(), Eigen::Matrix4d::Zero());
+  for (int g = 0; g < groups_; ++g) {
+    blocks_[At(column_of_group_[At(g)])].diagonal() = diagonal.segment<4>(4 * g);
   }
 }
 
 void NormalMatrix::Factorise() {
-  if (!is_sparse_) {
-    dense_.compute(Eigen::Map<const Eigen::MatrixXd>(values_.data(), variables_, variables_));
-    return;
+  auto target = targets_.begin();
+  for (std::size_t column = 0; column < inverses_.size(); ++column) {
+    const Eigen::LLT<Eigen::Matrix4d> factor(blocks_[column]);
+    inverses_[column] = factor.matrixL().solve(Eigen::Matrix4d::Identity());
+    const std::size_t first = inverses_.size() + begin_[column];
+    const std::size_t last = inverses_.size() + begin_[column + 1];
+    for (std::size_t a = first; a < last; ++a) {
+      blocks_[a] = (blocks_[a] * inverses_[column].transpose()).eval();
+      for (std::size_t b = first; b <= a; ++b) {
+        blocks_[*target++].noalias() -= blocks_[a] * blocks_[b].transpose();
+      }
+    }
   }
-  std::copy(values_.begin(), values_.end(), pattern_.valuePtr());
-  sparse_.factorize(pattern_);
 }
 
 Eigen::VectorXd NormalMatrix::Solve(const Eigen::VectorXd& right_side) const {
-  return is_sparse_ ? Eigen::VectorXd(sparse_.solve(right_side))
-                    : Eigen::VectorXd(dense_.solve(right_side));
+  Eigen::VectorXd by_column(right_side.size());
+  for (int g = 0; g < groups_; ++g) {
+    by_column.segment<4>(4 * column_of_group_[At(g)]) = right_side.segment<4>(4 * g);
+  }
+  const auto part = [&by_column](int column) { return by_column.segment<4>(4 * column); };
+  for (int column = 0; column < groups_; ++column) {
+    part(column) = (inverses_[At(column)] * part(column)).eval();
+    for (std::size_t k = begin_[At(column)]; k < begin_[At(column) + 1]; ++k) {
+      part(rows_[k]).noalias() -= blocks_[inverses_.size() + k] * part(column);
+    }
+  }
+  for (int column = groups_ - 1; column >= 0; --column) {
+    for (std::size_t k = begin_[At(column)]; k < begin_[At(column) + 1]; ++k) {
+      part(column).noalias() -= blocks_[inverses_.size() + k].transpose() * part(rows_[k]);
+    }
+    part(column) = (inverses_[At(column)].transpose() * part(column)).eval();
+  }
+  Eigen::VectorXd result(right_side.size());
+  for (int g = 0; g < groups_; ++g) {
+    result.segment<4>(4 * g) = by_column.segment<4>(4 * column_of_group_[At(g)]);
+  }
+  return result;
 }
 
 }  // namespace capfit::tighten

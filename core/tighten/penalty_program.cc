@@ -28,7 +28,7 @@ struct RowGroup {
   int first_a = 0;
   int first_b = -1;
   // Its blocks of the normal matrix; the last where there is a second.
-  NormalMatrix::Slot a, b, across;
+  NormalMatrix::Place a, b, across;
 };
 
 // The rows with their coefficients apart, group by group. Groups are filled up to whole lanes with
@@ -120,11 +120,10 @@ class InteriorPoint {
         rows_(program),
         matrix_(variables_, TiedGroups()) {
     for (RowGroup& group : rows_.groups) {
-      group.a = matrix_.SlotOf(group.first_a, group.first_a);
+      group.a = matrix_.PlaceOf(group.first_a, group.first_a);
       if (group.first_b < 0) continue;
-      group.b = matrix_.SlotOf(group.first_b, group.first_b);
-      group.across = matrix_.SlotOf(std::max(group.first_a, group.first_b),
-                                    std::min(group.first_a, group.first_b));
+      group.b = matrix_.PlaceOf(group.first_b, group.first_b);
+      group.across = matrix_.PlaceOf(group.first_b, group.first_a);
     }
     width_ = (program_.upper - program_.lower).maxCoeff();
     Start();
@@ -224,15 +223,15 @@ class InteriorPoint {
       AddBlock(group, 0, 0, group.a);
       if (group.first_b < 0) continue;
       AddBlock(group, 4, 4, group.b);
-      const bool is_b_below = group.first_b > group.first_a;
-      AddBlock(group, is_b_below ? 4 : 0, is_b_below ? 0 : 4, group.across);
+      AddBlock(group, 4, 0, group.across);
     }
     matrix_.Factorise();
   }
 
   // Weighted products of four columns of coefficients with four others, summed over a group.
   void AddBlock(const RowGroup& group, Eigen::Index left, Eigen::Index right,
-                const NormalMatrix::Slot& slot) {
+                const NormalMatrix::Place& place) {
+    Eigen::Matrix4d block;
     for (Eigen::Index i = 0; i < 4; ++i) {
       std::array<Lane, 4> sums;
       sums.fill(Lane::Zero());
@@ -242,10 +241,9 @@ class InteriorPoint {
           sums[static_cast<std::size_t>(j)] += weighted * Coefficient(k, right + j);
         }
       }
-      for (Eigen::Index j = 0; j < 4; ++j) {
-        matrix_.At(slot, i, j) += sums[static_cast<std::size_t>(j)].sum();
-      }
+      for (Eigen::Index j = 0; j < 4; ++j) block(i, j) = sums[static_cast<std::size_t>(j)].sum();
     }
+    matrix_.Add(place, block);
   }
 
   // Straight for zero complementarity.

@@ -1,6 +1,7 @@
 #include "core/refine/enclosing/enclosing_moves.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "core/capsule/cut_capsules.h"
@@ -47,6 +48,35 @@ std::vector<Removal> RemovalsOf(const capsule::MirroredSet& graph, const GraphWo
     return a.loss_per_primitive < b.loss_per_primitive;
   });
   return removals;
+}
+
+SparedGraph::SparedGraph(const capsule::MirroredSet& graph)
+    : before_(graph),
+      graph_(graph),
+      index_(graph.spheres().size()),
+      is_touched_(graph.spheres().size(), 0) {
+  std::iota(index_.begin(), index_.end(), 0);
+}
+
+void SparedGraph::Remove(const Edit& edit) {
+  const bool is_capsule = edit.kind == EditKind::kUnlink;
+  std::vector<int> touched = is_capsule ? std::vector<int>{before_.ends(edit.first)[0],
+                                                           before_.ends(edit.first)[1]}
+                                        : before_.NeighboursOf(edit.first);
+  if (!is_capsule) touched.push_back(edit.first);
+  if (std::any_of(touched.begin(), touched.end(), [&](int v) { return is_touched_[U(v)] != 0; })) {
+    return;
+  }
+  const int now = is_capsule
+                      ? graph_.IndexOfCapsule(index_[U(touched[0])], index_[U(touched[1])])
+                      : index_[U(edit.first)];
+  EditedGraph edited = Apply(graph_, EditOf(edit.kind, now));
+  if (!edited.possible) return;
+  graph_ = std::move(edited.graph);
+  for (int& index : index_) {
+    if (index >= 0) index = edited.new_index[U(index)];
+  }
+  for (const int v : touched) is_touched_[U(v)] = is_touched_[U(before_.ImageOf(v))] = 1;
 }
 
 void CutLoosest(const capsule::Budget& budget, int target, const std::vector<double>& gaps,

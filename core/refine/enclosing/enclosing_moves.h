@@ -21,6 +21,23 @@ struct Removal {
 [[nodiscard]] std::vector<Removal> RemovalsOf(const capsule::MirroredSet& graph,
                                               const GraphWorth& worth);
 
+// A graph that several removals are taken from which were all found in it.
+class SparedGraph {
+ public:
+  explicit SparedGraph(const capsule::MirroredSet& graph);
+
+  // Nothing happens where a sphere that the removal touches was touched by one before, or where it
+  // is not possible.
+  void Remove(const Edit& edit);
+  [[nodiscard]] const capsule::MirroredSet& graph() const { return graph_; }
+
+ private:
+  const capsule::MirroredSet& before_;
+  capsule::MirroredSet graph_;
+  std::vector<int> index_;       // in `graph_`, by sphere of the graph before; -1: gone
+  std::vector<char> is_touched_;  // by sphere of the graph before
+};
+
 // Ties between near spheres, and leaves at the points that stick out most, which win at once in a
 // loosened graph (see EnclosingTask::Loosen); what wins most for a primitive first.
 [[nodiscard]] std::vector<Edit> RankedAdditions(const EnclosingTask& task,

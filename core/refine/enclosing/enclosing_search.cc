@@ -147,32 +147,51 @@ class Search {
       const int excess = budget_.Excess(graph.count());
       const int target =
           excess - std::max(1, static_cast<int>(kSparedShare * static_cast<double>(excess)));
-      do {
-        const bool only_spheres = graph.primitive_count() <= budget_.max_primitives &&
-                                  graph.capsule_count() <= budget_.max_capsules;
-        if (!SpareOne(only_spheres, graph)) return;
-      } while (budget_.Excess(graph.count()) > target);
+      // Capsules may stay as they are where there are only too many spheres.
+      const bool only_spheres = graph.primitive_count() <= budget_.max_primitives &&
+                                graph.capsule_count() <= budget_.max_capsules;
+      if (!GiveUp([&](const auto& g) { return budget_.Excess(g.count()) - target; },
+                  only_spheres ? Spared::kSpheres : Spared::kAny, graph)) {
+        return;
+      }
       task_.FindShape(kSparingSteps, 1.0, /*seed=*/3, alone_, meter_, graph);
       RemoveSwallowed(graph);
     }
   }
 
-  // `only_spheres`: capsules may stay as they are.
-  bool SpareOne(bool only_spheres, capsule::MirroredSet& graph) const {
-    std::optional<capsule::MirroredSet> last_resort;
-    for (const Removal& removal : RemovalsOf(graph, task_.Weigh(graph))) {
-      EditedGraph edited = Apply(graph, removal.edit);
-      if (!edited.possible) continue;
-      if (only_spheres && removal.edit.kind == EditKind::kUnlink) {
-        if (!last_resort) last_resort = std::move(edited.graph);
-        continue;
-      }
-      graph = std::move(edited.graph);
-      return true;
+  enum class Spared { kAny, kSpheres };
+
+  // Gives up what is least missed until nothing is too much; false where nothing may go any more.
+  // Half of what is too much goes by what each was missed at first, the rest after another look.
+  template <typename TooMuch>
+  bool GiveUp(const TooMuch& too_much, Spared spared, capsule::MirroredSet& graph) const {
+    while (too_much(graph) > 0) {
+      const int before = graph.primitive_count();
+      GiveUpDownTo(too_much(graph) / 2, too_much, spared, graph);
+      if (graph.primitive_count() == before) return false;
     }
-    if (!last_resort) return false;
-    graph = *std::move(last_resort);
     return true;
+  }
+
+  // Nothing beside what has just gone: it is missed more now.
+  template <typename TooMuch>
+  void GiveUpDownTo(int left, const TooMuch& too_much, Spared spared,
+                    capsule::MirroredSet& graph) const {
+    std::vector<Removal> removals = RemovalsOf(graph, task_.Weigh(graph));
+    if (spared == Spared::kSpheres) {  // capsules alone as a last resort
+      std::stable_partition(removals.begin(), removals.end(), [](const Removal& removal) {
+        return removal.edit.kind == EditKind::kDissolve;
+      });
+    }
+    SparedGraph rest(graph);
+    for (const Removal& removal : removals) {
+      if (too_much(rest.graph()) <= left) break;
+      const bool last_resort =
+          spared == Spared::kSpheres && removal.edit.kind == EditKind::kUnlink;
+      if (last_resort && rest.graph().primitive_count() < graph.primitive_count()) break;
+      rest.Remove(removal.edit);
+    }
+    graph = rest.graph();
   }
 
   // Spends up to a number of primitives, the first `ties` of them on ties and leaves, the rest on
@@ -211,8 +230,7 @@ class Search {
     capsule::MirroredSet graph = from;
     const auto given_up = static_cast<int>(renewal.given_up * from.primitive_count());
     const int kept = from.primitive_count() - given_up;
-    while (graph.primitive_count() > kept && SpareOne(/*only_spheres=*/false, graph)) {
-    }
+    GiveUp([kept](const auto& g) { return g.primitive_count() - kept; }, Spared::kAny, graph);
     Extend(primitives_, static_cast<int>(renewal.tie_share * given_up), seed, graph);
     if (!budget_.Allows(graph.count())) return {};
     return Settled(std::move(graph), seed);

@@ -79,8 +79,8 @@ void Dissolve(const Edit& edit, EditedGraph& result) {
   if (neighbours.size() == 2) graph.AddCapsule(neighbours[0], neighbours[1]);
   std::vector<char> removed(graph.spheres().size(), 0);
   removed[U(edit.first)] = 1;
-  const std::vector<int> index = graph.RemoveSpheres(removed);
-  for (const int n : neighbours) result.touched.push_back(index[U(n)]);
+  result.new_index = graph.RemoveSpheres(removed);
+  for (const int n : neighbours) result.touched.push_back(result.new_index[U(n)]);
   result.touched_before = neighbours;
   result.touched_before.push_back(edit.first);
   result.possible = true;
@@ -104,6 +104,8 @@ bool HasImage(const capsule::MirroredSet& graph, const Edit& addition) {
 EditedGraph Apply(const capsule::MirroredSet& graph, const Edit& edit) {
   EditedGraph result;
   result.graph = graph;
+  result.new_index.resize(graph.spheres().size());
+  std::iota(result.new_index.begin(), result.new_index.end(), 0);
   switch (edit.kind) {
     case EditKind::kSplit:
       Split(edit, result);

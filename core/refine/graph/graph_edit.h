@@ -43,6 +43,7 @@ struct EditedGraph {
   capsule::MirroredSet graph;
   std::vector<int> touched;         // nodes of `graph` whose surroundings changed
   std::vector<int> touched_before;  // the same in the graph before
+  std::vector<int> new_index;       // by node of the graph before; -1: gone
   bool possible = false;
 };
 
