@@ -66,19 +66,28 @@ struct DistanceKernel {
 // its centre at a + foot * u, lowest <= foot <= highest, and the radius radius + foot *
 // radius_slope.
 struct FloatKernel {
-  // Free of branches, so that loops over it vectorise.
+  struct Place {
+    float distance_m;
+    float foot_m;  // of the slant's normal, along the axis from (ax, ay, az); beyond the ends too
+  };
+
   [[nodiscard]] float SignedDistance(float x, float y, float z) const {
+    return Locate(x, y, z).distance_m;
+  }
+
+  // Free of branches, so that loops over it vectorise.
+  [[nodiscard]] Place Locate(float x, float y, float z) const {
     const float dx = x - ax;
     const float dy = y - ay;
     const float dz = z - az;
     const float axial = dx * ux + dy * uy + dz * uz;
     const float rest = dx * dx + dy * dy + dz * dz - axial * axial;
     const float squared = rest > 0.0f ? rest : 0.0f;
-    float foot = axial - std::sqrt(squared) * foot_slope;
-    foot = foot > lowest ? foot : lowest;
+    const float slant_foot = axial - std::sqrt(squared) * foot_slope;
+    float foot = slant_foot > lowest ? slant_foot : lowest;
     foot = foot < highest ? foot : highest;
     const float off = axial - foot;
-    return std::sqrt(squared + off * off) - (radius + radius_slope * foot);
+    return {std::sqrt(squared + off * off) - (radius + radius_slope * foot), slant_foot};
   }
 
   float ax = 0, ay = 0, az = 0;  // a point of the axis

@@ -47,21 +47,39 @@ struct Turner {
   double cosine, sine, c, s;
 };
 
-// Samples of the surface, their coordinates apart for the loops over them.
+// Samples of the surface as seen from a place of their own, their coordinates apart.
 struct Samples {
-  static constexpr int kMost = 64;
+  static constexpr int kLane = 8;
+  static constexpr int kMost = 8 * kLane;
   int count = 0;
-  std::array<double, kMost> x, y, z, nx, ny, nz, area;
+  std::array<float, kMost> x, y, z, nx, ny, nz, area;
 
   [[nodiscard]] bool IsFull() const { return count == kMost; }
-  void Add(const Eigen::Vector3d& normal, const Eigen::Vector3d& center, double radius,
-           double own_area) {
+  void Add(const Eigen::Vector3f& normal, const Eigen::Vector3f& center, float radius,
+           float own_area) {
     const auto i = static_cast<std::size_t>(count++);
     nx[i] = normal.x(), ny[i] = normal.y(), nz[i] = normal.z();
     x[i] = center.x() + radius * normal.x();
     y[i] = center.y() + radius * normal.y();
     z[i] = center.z() + radius * normal.z();
     area[i] = own_area;
+  }
+
+  // Up to whole lanes with samples that count for nothing, so that all that follows is done in
+  // vector registers.
+  void FillUp() {
+    while (count % kLane != 0) {
+      const auto last = static_cast<std::size_t>(count - 1);
+      Add({nx[last], ny[last], nz[last]}, {x[last], y[last], z[last]}, 0.0f, 0.0f);
+    }
+  }
+
+  // Multiplies each area with what `seen` gives for the sample's index.
+  template <typename Seen>
+  void Hide(const Seen& seen) {
+    for (std::size_t first = 0; first < static_cast<std::size_t>(count); first += kLane) {
+      for (std::size_t i = first; i < first + kLane; ++i) area[i] *= seen(i);
+    }
   }
 };
 
@@ -76,7 +94,7 @@ class Sampler {
         kernels_(shapes_.begin(), shapes_.end()),
         spacing_(spacing_m),
         fade_(kFade * spacing_m),
-        half_over_fade_(0.5 / fade_),
+        half_over_fade_(static_cast<float>(0.5 / fade_)),
         seed_(seed) {
     if (set.spheres.empty()) return;
     for (const Sphere& sphere : set.spheres) origin_ += sphere.center_m;
@@ -93,15 +111,16 @@ class Sampler {
     const TaperedCapsule& capsule = shapes_[index];
     if (capsule.IsSphere()) return share;
     Random random(seed_ ^ (index * 0x9E3779B9u));
+    const Eigen::Vector3d middle = 0.5 * (capsule.a().center_m + capsule.b().center_m);
     const std::vector<Neighbour> others = NeighboursOf(
-        0.5 * (capsule.a().center_m + capsule.b().center_m),
-        0.5 * capsule.length_m() + std::max(capsule.a().radius_m, capsule.b().radius_m), index);
+        middle, 0.5 * capsule.length_m() + std::max(capsule.a().radius_m, capsule.b().radius_m),
+        index);
     const double slant_length = capsule.length_m() * capsule.cos_half_angle();
     const int rings = CountFor(slant_length, spacing_, kMinRings);
     Hiding hiding;
     for (int ring = 0; ring < rings; ++ring) {
       const double t = (ring + random.NextUnit()) / rings;
-      Ring(capsule, t, slant_length / rings, random.NextUnit(), others, hiding, share);
+      Ring(capsule, middle, t, slant_length / rings, random.NextUnit(), others, hiding, share);
     }
     return share;
   }
@@ -116,16 +135,19 @@ class Sampler {
     Random random(seed_ ^ (~index * 0x9E3779B9u));
     Turner turner(2.0 * std::numbers::pi * random.NextUnit(),
                   2.0 * std::numbers::pi / std::numbers::phi);
+    const auto radius = static_cast<float>(sphere.radius_m);
+    const auto each = static_cast<float>(area / count);
     Samples samples;
     for (int i = 0; i < count; ++i, turner.Next()) {
       const double z = 1.0 - 2.0 * (i + 0.5) / count;
       const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
-      samples.Add({r * turner.cosine, r * turner.sine, z}, sphere.center_m, sphere.radius_m,
-                  area / count);
+      const Eigen::Vector3d normal(r * turner.cosine, r * turner.sine, z);
+      samples.Add(normal.cast<float>(), Eigen::Vector3f::Zero(), radius, each);
       if (!samples.IsFull() && i + 1 < count) continue;
-      for (const Cut& cut : around.cuts) Hide(cut, sphere.radius_m, samples);
-      HideBehind(around.others, samples);
-      Collect(samples, 0.0, share);
+      samples.FillUp();
+      for (const Cut& cut : around.cuts) Hide(cut, radius, samples);
+      for (const FloatKernel& other : around.others) HideBehind(other, samples);
+      Collect(samples, sphere.center_m, 0.0, share);
     }
     return share;
   }
@@ -170,14 +192,14 @@ class Sampler {
   // A solid that may hide part of a capsule. Where the two share an end sphere both run on smoothly
   // into it, each in turn at distance 0 from the other: there only what lies past the joint hides.
   struct Neighbour {
-    std::size_t solid;
-    double joint_m = 0.0;  // where the solid leaves the shared sphere, along its axis
-    double way = 0.0;      // 1 or -1: to where on that axis; 0: no shared sphere
+    FloatKernel kernel;     // as seen from the capsule's middle
+    float joint_m = 0.0f;  // where the solid leaves the shared sphere, along the kernel's axis
+    float way = 0.0f;      // 1 or -1: to where on that axis; 0: no shared sphere
   };
 
   // What may hide parts of a ring; kept from ring to ring for its memory.
   struct Hiding {
-    std::vector<const DistanceKernel*> near;
+    std::vector<const FloatKernel*> near;
     std::vector<const Neighbour*> joined;
   };
 
@@ -188,12 +210,12 @@ class Sampler {
   // A capsule hides the part of its end sphere beyond the circle where they touch: there both run
   // on smoothly, so that their distance tells nothing.
   struct Cut {
-    Eigen::Vector3d axis;  // into the capsule
-    double sine;           // of the normals on the circle
+    Eigen::Vector3f axis;  // into the capsule
+    float sine;            // of the normals on the circle
   };
   struct Surroundings {
     std::vector<Cut> cuts;
-    std::vector<const DistanceKernel*> others;
+    std::vector<FloatKernel> others;  // as seen from the sphere's centre
   };
 
   Surroundings SurroundingsOf(std::size_t sphere_index) const {
@@ -206,65 +228,67 @@ class Sampler {
       if (is_first || solids_[k][1] == self) {
         const double way = is_first ? 1.0 : -1.0;
         if (!shape.IsSphere()) {
-          around.cuts.push_back({way * shape.axis(), way * shape.sin_half_angle()});
+          around.cuts.push_back({(way * shape.axis()).cast<float>(),
+                                 static_cast<float>(way * shape.sin_half_angle())});
           continue;
         }
         // Swallowed by this sphere: nothing else is there.
         if (std::max(shape.a().radius_m, shape.b().radius_m) <= sphere.radius_m) continue;
       }
       if (DistanceOf(k, sphere.center_m) < sphere.radius_m + fade_) {
-        around.others.push_back(&kernels_[k]);
+        around.others.push_back(KernelAround(kernels_[k], sphere.center_m));
       }
     }
     return around;
   }
 
   // Share of a sample that is seen at a distance from a solid.
-  double Seen(double distance_m) const {
-    double u = 0.5 + half_over_fade_ * distance_m;
-    u = u > 0.0 ? u : 0.0;
-    u = u < 1.0 ? u : 1.0;
-    return u * u * (3.0 - 2.0 * u);
+  float Seen(float distance_m) const {
+    float u = 0.5f + half_over_fade_ * distance_m;
+    u = u > 0.0f ? u : 0.0f;
+    u = u < 1.0f ? u : 1.0f;
+    return u * u * (3.0f - 2.0f * u);
   }
 
   // Solids other than `self` that reach into a ball.
   std::vector<Neighbour> NeighboursOf(const Eigen::Vector3d& center, double reach,
                                       std::size_t self) const {
     const capsule::CapsuleEnds& own = solids_[self];
+    const auto is_shared = [&own](int end) { return end == own[0] || end == own[1]; };
     std::vector<Neighbour> near;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       if (k == self || DistanceOf(k, center) >= reach + fade_) continue;
-      const auto is_shared = [&own](int end) { return end == own[0] || end == own[1]; };
       const bool shares_a = is_shared(solids_[k][0]);
       const bool shares_b = is_shared(solids_[k][1]);
       const TaperedCapsule& shape = shapes_[k];
+      Neighbour neighbour{KernelAround(kernels_[k], center)};
       if (shape.IsSphere()) {
         // Nothing of a capsule lies within its own end sphere.
         if (shape.a().radius_m >= shape.b().radius_m ? shares_a : shares_b) continue;
-        near.push_back({k});
-      } else if (shares_a == shares_b) {
-        near.push_back({k});
-      } else {
-        near.push_back({k, shares_a ? 0.0 : shape.length_m(), shares_a ? 1.0 : -1.0});
+      } else if (shares_a != shares_b) {
+        neighbour.joint_m = shares_a ? neighbour.kernel.lowest : neighbour.kernel.highest;
+        neighbour.way = shares_a ? 1.0f : -1.0f;
       }
+      near.push_back(neighbour);
     }
     return near;
   }
 
-  void Ring(const TaperedCapsule& capsule, double t, double width, double turn,
-            const std::vector<Neighbour>& others, Hiding& hiding, Share& share) const {
-    const Eigen::Vector3d center = (1 - t) * capsule.a().center_m + t * capsule.b().center_m;
+  void Ring(const TaperedCapsule& capsule, const Eigen::Vector3d& middle, double t, double width,
+            double turn, const std::vector<Neighbour>& others, Hiding& hiding, Share& share) const {
+    const Eigen::Vector3f center =
+        ((1 - t) * capsule.a().center_m + t * capsule.b().center_m - middle).cast<float>();
     const double radius = (1 - t) * capsule.a().radius_m + t * capsule.b().radius_m;
-    std::vector<const DistanceKernel*>& near = hiding.near;
+    std::vector<const FloatKernel*>& near = hiding.near;
     std::vector<const Neighbour*>& joined = hiding.joined;
     near.clear();
     joined.clear();
     for (const Neighbour& other : others) {
-      const double distance = DistanceOf(other.solid, center);
+      const float distance = other.kernel.SignedDistance(center.x(), center.y(), center.z());
       if (distance < -radius - fade_) return;  // hides the ring
       if (distance >= radius + fade_) continue;
-      if (other.way == 0.0) {
-        near.push_back(&kernels_[other.solid]);
+      if (other.way == 0.0f) {
+        near.push_back(&other.kernel);
       } else {
         joined.push_back(&other);
       }
@@ -277,54 +301,56 @@ class Sampler {
     Turner turner(2.0 * std::numbers::pi * turn / count, 2.0 * std::numbers::pi / count);
     Samples samples;
     for (int i = 0; i < count; ++i, turner.Next()) {
-      samples.Add(along + turner.cosine * first + turner.sine * second, center, radius,
-                  girth * width / count);
+      const Eigen::Vector3d normal = along + turner.cosine * first + turner.sine * second;
+      samples.Add(normal.cast<float>(), center, static_cast<float>(radius),
+                  static_cast<float>(girth * width / count));
       if (!samples.IsFull() && i + 1 < count) continue;
-      HideBehind(near, samples);
-      HideBehindJoined(joined, samples);
-      Collect(samples, t, share);
+      samples.FillUp();
+      for (const FloatKernel* other : near) HideBehind(*other, samples);
+      for (const Neighbour* other : joined) HideBehindJoined(*other, samples);
+      Collect(samples, middle, t, share);
     }
   }
 
-  void Hide(const Cut& cut, double radius, Samples& samples) const {
-    for (int i = 0; i < samples.count; ++i) {
-      const double along = samples.nx[i] * cut.axis.x() + samples.ny[i] * cut.axis.y() +
-                           samples.nz[i] * cut.axis.z();
-      samples.area[i] *= Seen(radius * (cut.sine - along));
-    }
+  void Hide(const Cut& cut, float radius, Samples& samples) const {
+    samples.Hide([&](std::size_t i) {
+      const float along = samples.nx[i] * cut.axis.x() + samples.ny[i] * cut.axis.y() +
+                          samples.nz[i] * cut.axis.z();
+      return Seen(radius * (cut.sine - along));
+    });
   }
 
-  void HideBehind(const std::vector<const DistanceKernel*>& others, Samples& samples) const {
-    for (const DistanceKernel* other : others) {
-      for (int i = 0; i < samples.count; ++i) {
-        samples.area[i] *= Seen(other->SignedDistance(samples.x[i], samples.y[i], samples.z[i]));
-      }
-    }
+  void HideBehind(const FloatKernel& other, Samples& samples) const {
+    samples.Hide([&](std::size_t i) {
+      return Seen(other.SignedDistance(samples.x[i], samples.y[i], samples.z[i]));
+    });
   }
 
-  void HideBehindJoined(const std::vector<const Neighbour*>& others, Samples& samples) const {
-    for (const Neighbour* other : others) {
-      const DistanceKernel& kernel = kernels_[other->solid];
-      for (int i = 0; i < samples.count; ++i) {
-        const auto [distance, foot] = kernel.Locate(samples.x[i], samples.y[i], samples.z[i]);
-        const double past_joint = Seen(other->way * (foot - other->joint_m) - fade_);
-        samples.area[i] *= 1.0 - past_joint * (1.0 - Seen(distance));
-      }
-    }
+  void HideBehindJoined(const Neighbour& other, Samples& samples) const {
+    const auto fade = static_cast<float>(fade_);
+    samples.Hide([&](std::size_t i) {
+      const auto [distance, foot] =
+          other.kernel.Locate(samples.x[i], samples.y[i], samples.z[i]);
+      const float past_joint = Seen(other.way * (foot - other.joint_m) - fade);
+      return 1.0f - past_joint * (1.0f - Seen(distance));
+    });
   }
 
-  // Adds what is still seen of the samples, and starts them anew.
-  void Collect(Samples& samples, double t, Share& share) const {
-    Eigen::Vector4d speed = Eigen::Vector4d::Zero();
-    for (int i = 0; i < samples.count; ++i) {
-      const Eigen::Vector3d normal(samples.nx[i], samples.ny[i], samples.nz[i]);
-      const Eigen::Vector3d point(samples.x[i], samples.y[i], samples.z[i]);
+  // Adds what is still seen of the samples, and starts them anew. `from`: where they are seen from.
+  void Collect(Samples& samples, const Eigen::Vector3d& from, double t, Share& share) const {
+    const Eigen::Array3d offset = from - origin_;
+    Eigen::Array4d speed = Eigen::Array4d::Zero();
+    Eigen::Array3d flux = Eigen::Array3d::Zero();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(samples.count); ++i) {
+      const Eigen::Array3d normal(samples.nx[i], samples.ny[i], samples.nz[i]);
+      const Eigen::Array3d point(samples.x[i], samples.y[i], samples.z[i]);
       const double area = samples.area[i];
-      speed += area * Eigen::Vector4d(normal.x(), normal.y(), normal.z(), 1.0);
-      share.volume += area * (normal.array() * flow_ * (point - origin_).array()).sum();
+      speed += area * Eigen::Array4d(normal.x(), normal.y(), normal.z(), 1.0);
+      flux += area * normal * (point + offset);
     }
-    share.a += (1 - t) * speed;
-    share.b += t * speed;
+    share.volume += (flux * flow_).sum();
+    share.a += (1 - t) * speed.matrix();
+    share.b += t * speed.matrix();
     share.area += speed.w();
     samples.count = 0;
   }
@@ -336,7 +362,7 @@ class Sampler {
   std::vector<DistanceKernel> kernels_;  // of the same solids
   double spacing_;
   double fade_;
-  double half_over_fade_;
+  float half_over_fade_;
   std::uint64_t seed_;
   // The volume is the flux of flow_ * (point - origin_) through the surface, whose divergence is 1.
   // It flows along the axis in which the set is thinnest, mostly: what the samples of one solid

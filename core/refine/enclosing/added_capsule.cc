@@ -1,8 +1,10 @@
 #include "core/refine/enclosing/added_capsule.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
+#include <limits>
 #include <numbers>
 
 namespace capfit::refine {
@@ -13,6 +15,38 @@ using Vec3 = Eigen::Vector3d;
 
 // Along and around a tie, where its volume is sampled.
 constexpr int kAlong = 8, kAround = 8, kAcross = 4;
+
+// Points within a tie, from `origin_m`, their coordinates apart.
+struct TieSamples {
+  static constexpr std::size_t kCount = std::size_t{kAlong} * kAround * kAcross;
+
+  TieSamples(const TaperedCapsule& tie, const Vec3& origin_m) {
+    const Vec3 side = tie.axis().unitOrthogonal();
+    const Vec3 up = tie.axis().cross(side);
+    std::size_t next = 0;
+    for (int i = 0; i < kAlong; ++i) {
+      const double t = (i + 0.5) / kAlong;
+      const Vec3 center = (1 - t) * tie.a().center_m + t * tie.b().center_m - origin_m;
+      const double radius = (1 - t) * tie.a().radius_m + t * tie.b().radius_m;
+      const double area_m2 = std::numbers::pi * radius * radius;
+      for (int j = 0; j < kAround; ++j) {
+        const double angle = 2.0 * std::numbers::pi * (j + 0.5 * (i % 2)) / kAround;
+        const Vec3 out = std::cos(angle) * side + std::sin(angle) * up;
+        for (int m = 0; m < kAcross; ++m, ++next) {
+          // Equal areas across.
+          const Vec3 p = center + radius * std::sqrt((m + 0.5) / kAcross) * out;
+          x[next] = static_cast<float>(p.x());
+          y[next] = static_cast<float>(p.y());
+          z[next] = static_cast<float>(p.z());
+          volume_m3[next] = area_m2 * tie.length_m() / kCount;
+        }
+      }
+    }
+  }
+
+  std::array<float, kCount> x, y, z;
+  std::array<double, kCount> volume_m3;  // that each stands for
+};
 
 }  // namespace
 
@@ -62,35 +96,26 @@ double OutsidePoints::TakenInBy(const tighten::DistanceKernel& kernel, double im
   return sum;
 }
 
-// How much of the capsule between its end spheres is in no other shape.
 double VolumeOutside(const TaperedCapsule& tie, const std::vector<TaperedCapsule>& shapes) {
-  std::vector<std::size_t> near;
   const Vec3 middle = 0.5 * (tie.a().center_m + tie.b().center_m);
   const double reach = 0.5 * tie.length_m() + std::max(tie.a().radius_m, tie.b().radius_m);
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
-    if (shapes[k].SignedDistance(middle) < reach) near.push_back(k);
-  }
-  const Vec3 side = tie.axis().unitOrthogonal();
-  const Vec3 up = tie.axis().cross(side);
-  double sum = 0.0;
-  for (int i = 0; i < kAlong; ++i) {
-    const double t = (i + 0.5) / kAlong;
-    const Vec3 center = tie.a().center_m + t * (tie.b().center_m - tie.a().center_m);
-    const double radius = tie.a().radius_m + t * (tie.b().radius_m - tie.a().radius_m);
-    for (int j = 0; j < kAround; ++j) {
-      const double angle = 2.0 * std::numbers::pi * (j + 0.5 * (i % 2)) / kAround;
-      const Vec3 out = std::cos(angle) * side + std::sin(angle) * up;
-      for (int m = 0; m < kAcross; ++m) {
-        // Equal areas across.
-        const Vec3 p = center + radius * std::sqrt((m + 0.5) / kAcross) * out;
-        const bool is_inside = std::any_of(near.begin(), near.end(), [&](std::size_t k) {
-          return shapes[k].SignedDistance(p) <= 0.0;
-        });
-        if (!is_inside) sum += std::numbers::pi * radius * radius;
-      }
+  const TieSamples samples(tie, middle);
+  std::array<float, TieSamples::kCount> nearest;
+  nearest.fill(std::numeric_limits<float>::max());
+  for (const TaperedCapsule& shape : shapes) {
+    if (shape.SignedDistance(middle) >= reach) continue;
+    const tighten::FloatKernel kernel =
+        tighten::KernelAround(tighten::DistanceKernel(shape), middle);
+    for (std::size_t i = 0; i < TieSamples::kCount; ++i) {
+      nearest[i] = std::min(nearest[i],
+                            kernel.SignedDistance(samples.x[i], samples.y[i], samples.z[i]));
     }
   }
-  return sum * tie.length_m() / (kAlong * kAround * kAcross);
+  double volume = 0.0;
+  for (std::size_t i = 0; i < TieSamples::kCount; ++i) {
+    if (nearest[i] > 0.0f) volume += samples.volume_m3[i];
+  }
+  return volume;
 }
 
 }  // namespace capfit::refine
