@@ -9,98 +9,16 @@
 #include <vector>
 
 #include "core/tighten/normal_matrix.h"
+#include "core/tighten/row_table.h"
 
 namespace capfit::tighten {
 namespace {
 
-using Lane = Eigen::Array4d;
-using Lanes = std::array<Lane, 8>;
-
 constexpr int kMaxIterations = 40;
 // Steps stop short of the boundary by this share.
 constexpr double kStepBack = 0.99;
-constexpr Eigen::Index kLane = 4;
-
-// Rows that touch the same variables, [begin, end) in the solver's order, a whole number of lanes.
-struct RowGroup {
-  Eigen::Index begin = 0;
-  Eigen::Index end = 0;
-  int first_a = 0;
-  int first_b = -1;
-  // Its blocks of the normal matrix; the last where there is a second.
-  NormalMatrix::Place a, b, across;
-};
-
-// The rows with their coefficients apart, group by group. Groups are filled up to whole lanes with
-// rows that never bind.
-struct RowTable {
-  explicit RowTable(const PenaltyProgram& program) {
-    const std::vector<PenaltyRow>& rows = program.rows;
-    const std::vector<std::size_t> order = OrderOf(rows, program.gradient.size() / 4);
-    const auto most = static_cast<Eigen::Index>(rows.size() + kLane * CountGroups(rows, order));
-    coefficients.setZero(most, 8);
-    value = Eigen::ArrayXd::Constant(most, -(program.upper - program.lower).maxCoeff());
-    penalty = Eigen::ArrayXd::Ones(most);
-    for (const std::size_t i : order) Append(rows[i]);
-    CloseGroup();
-    count = next_;
-  }
-
-  std::vector<RowGroup> groups;
-  Eigen::ArrayXXd coefficients;  // a column for each of the eight
-  Eigen::ArrayXd value, penalty;
-  Eigen::Index count = 0;  // of rows in use
-
- private:
-  // Indices of the rows, those of one group together, in the order in which they come: a counting
-  // sort, as groups are few.
-  static std::vector<std::size_t> OrderOf(const std::vector<PenaltyRow>& rows,
-                                          Eigen::Index variable_groups) {
-    const auto width = static_cast<std::size_t>(variable_groups) + 1;
-    const auto key = [width](const PenaltyRow& row) {
-      const int b = row.first[1] < 0 ? 0 : row.first[1] / 4 + 1;
-      return static_cast<std::size_t>(row.first[0] / 4) * width + static_cast<std::size_t>(b);
-    };
-    std::vector<std::uint32_t> begin(width * width + 1, 0);
-    for (const PenaltyRow& row : rows) ++begin[key(row) + 1];
-    for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
-    std::vector<std::size_t> order(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) order[begin[key(rows[i])]++] = i;
-    return order;
-  }
-
-  static std::size_t CountGroups(const std::vector<PenaltyRow>& rows,
-                                 const std::vector<std::size_t>& order) {
-    std::size_t groups = 1;
-    for (std::size_t i = 1; i < order.size(); ++i) {
-      groups += rows[order[i]].first != rows[order[i - 1]].first ? 1 : 0;
-    }
-    return groups;
-  }
-
-  void Append(const PenaltyRow& row) {
-    if (groups.empty() || groups.back().first_a != row.first[0] ||
-        groups.back().first_b != row.first[1]) {
-      CloseGroup();
-      groups.push_back({next_, next_, row.first[0], row.first[1], {}, {}, {}});
-    }
-    for (Eigen::Index c = 0; c < 8; ++c) {
-      coefficients(next_, c) = row.coefficients[static_cast<std::size_t>(c)];
-    }
-    value[next_] = row.value;
-    penalty[next_] = row.penalty;
-    ++next_;
-  }
-
-  void CloseGroup() {
-    if (groups.empty()) return;
-    // The rows that fill up cost as much as their neighbours, so that they converge like these.
-    while (next_ % kLane != 0) penalty[next_] = penalty[next_ - 1], ++next_;
-    groups.back().end = next_;
-  }
-
-  Eigen::Index next_ = 0;
-};
+// Programmes that may be left so far from solved are reckoned in floats, twice as many at a time.
+constexpr double kFloatGap = 0.01;
 
 // The longest step in [0, 1] for the largest of -change / value.
 double StepFor(double worst) { return worst > 1.0 ? 1.0 / worst : 1.0; }
@@ -111,7 +29,9 @@ double WorstRatio(const Eigen::ArrayXd& value, const Eigen::ArrayXd& change) {
 
 // Written with slacks s >= 0 and t = s - value - coefficients . d >= 0; multipliers `row` of t and
 // penalty - row of s; `low` and `high` of the bounds. All loops over rows go lane by lane, once
-// over the arrays for everything that a stage of the iteration needs.
+// over the arrays for everything that a stage of the iteration needs. Rows are in `Real`, what
+// belongs to variables is in doubles.
+template <typename Real>
 class InteriorPoint {
  public:
   explicit InteriorPoint(const PenaltyProgram& program)
@@ -135,6 +55,11 @@ class InteriorPoint {
   }
 
  private:
+  static constexpr Eigen::Index kLane = RowTable<Real>::kLane;
+  using Array = typename RowTable<Real>::Array;
+  using Lane = Eigen::Array<Real, kLane, 1>;
+  using Lanes = std::array<Lane, 8>;
+
   std::vector<std::pair<int, int>> TiedGroups() const {
     std::vector<std::pair<int, int>> pairs;
     for (const RowGroup& group : rows_.groups) {
@@ -158,13 +83,13 @@ class InteriorPoint {
     d_ = Eigen::VectorXd::Zero(variables_);
     // First complementarity: a tenth of what the gradient can win.
     const double mu = 0.1 * std::max(1e-12, program_.gradient.cwiseAbs().maxCoeff()) * width_;
-    s_ = rows_.value.max(0.0) + 0.25 * width_;
+    s_ = rows_.value.max(Real{0}) + static_cast<Real>(0.25 * width_);
     t_ = s_ - rows_.value;
-    row_ = (mu / t_).min(0.5 * rows_.penalty);
+    row_ = (static_cast<Real>(mu) / t_).min(Real{0.5} * rows_.penalty);
     low_ = mu / (-program_.lower.array());
     high_ = mu / program_.upper.array();
-    start_excess_ = (rows_.penalty * rows_.value.max(0.0)).head(rows_.count).sum();
-    for (Eigen::ArrayXd* array :
+    start_excess_ = (rows_.penalty * rows_.value.max(Real{0})).head(rows_.count).sum();
+    for (Array* array :
          {&weight_, &inverse_row_, &inverse_slack_, &s_target_, &shift_, &dt_, &ds_, &drow_}) {
       array->setZero(rows_.value.size());
     }
@@ -187,9 +112,10 @@ class InteriorPoint {
     return Complementarity() <= allowed && residual_.cwiseAbs().sum() * width_ <= allowed;
   }
 
-  Lane At(const Eigen::ArrayXd& array, Eigen::Index k) const { return array.segment<kLane>(k); }
+  static auto At(Array& array, Eigen::Index k) { return array.template segment<kLane>(k); }
+  static Lane At(const Array& array, Eigen::Index k) { return array.template segment<kLane>(k); }
   Lane Coefficient(Eigen::Index k, Eigen::Index c) const {
-    return rows_.coefficients.col(c).segment<kLane>(k);
+    return rows_.coefficients.col(c).template segment<kLane>(k);
   }
 
   void AddWeighted(Eigen::Index k, const Lane& weight, Lanes& sums) const {
@@ -216,9 +142,9 @@ class InteriorPoint {
       for (Eigen::Index k = group.begin; k < group.end; k += kLane) {
         const Lane inverse_row = At(row_, k).inverse();
         const Lane inverse_slack = (At(rows_.penalty, k) - At(row_, k)).inverse();
-        inverse_row_.segment<kLane>(k) = inverse_row;
-        inverse_slack_.segment<kLane>(k) = inverse_slack;
-        weight_.segment<kLane>(k) = (At(t_, k) * inverse_row + At(s_, k) * inverse_slack).inverse();
+        At(inverse_row_, k) = inverse_row;
+        At(inverse_slack_, k) = inverse_slack;
+        At(weight_, k) = (At(t_, k) * inverse_row + At(s_, k) * inverse_slack).inverse();
       }
       AddBlock(group, 0, 0, group.a);
       if (group.first_b < 0) continue;
@@ -253,9 +179,9 @@ class InteriorPoint {
       Lanes lanes = NoLanes();
       for (Eigen::Index k = group.begin; k < group.end; k += kLane) {
         const Lane slack = At(rows_.penalty, k) - At(row_, k);
-        s_target_.segment<kLane>(k) = -At(s_, k) * slack;
+        At(s_target_, k) = -At(s_, k) * slack;
         const Lane shift = At(weight_, k) * (At(s_, k) - At(t_, k));
-        shift_.segment<kLane>(k) = shift;
+        At(shift_, k) = shift;
         AddWeighted(k, shift, lanes);
       }
       Scatter(group, lanes, sums);
@@ -265,17 +191,18 @@ class InteriorPoint {
 
   // For the complementarity `mu` everywhere, with what the predictor's step would leave over.
   Step Correct(double mu, const Step& affine) {
+    const auto row_mu = static_cast<Real>(mu);
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(variables_);
     for (const RowGroup& group : rows_.groups) {
       Lanes lanes = NoLanes();
       for (Eigen::Index k = group.begin; k < group.end; k += kLane) {
         const Lane slack = At(rows_.penalty, k) - At(row_, k);
-        const Lane t_target = mu - At(t_, k) * At(row_, k) - At(dt_, k) * At(drow_, k);
-        const Lane s_target = mu - At(s_, k) * slack + At(ds_, k) * At(drow_, k);
-        s_target_.segment<kLane>(k) = s_target;
+        const Lane t_target = row_mu - At(t_, k) * At(row_, k) - At(dt_, k) * At(drow_, k);
+        const Lane s_target = row_mu - At(s_, k) * slack + At(ds_, k) * At(drow_, k);
+        At(s_target_, k) = s_target;
         const Lane shift =
             At(weight_, k) * (t_target * At(inverse_row_, k) - s_target * At(inverse_slack_, k));
-        shift_.segment<kLane>(k) = shift;
+        At(shift_, k) = shift;
         AddWeighted(k, shift, lanes);
       }
       Scatter(group, lanes, sums);
@@ -311,10 +238,11 @@ class InteriorPoint {
     Lane by_dual = Lane::Zero();
     Lane by_both = Lane::Zero();
     for (const RowGroup& group : rows_.groups) {
-      std::array<double, 8> d{};
+      std::array<Real, 8> d{};
       for (int c = 0; c < 4; ++c) {
-        d[static_cast<std::size_t>(c)] = step.d[group.first_a + c];
-        if (group.first_b >= 0) d[static_cast<std::size_t>(4 + c)] = step.d[group.first_b + c];
+        const auto at = static_cast<std::size_t>(c);
+        d[at] = static_cast<Real>(step.d[group.first_a + c]);
+        if (group.first_b >= 0) d[at + 4] = static_cast<Real>(step.d[group.first_b + c]);
       }
       for (Eigen::Index k = group.begin; k < group.end; k += kLane) {
         Lane product = Lane::Zero();
@@ -328,9 +256,9 @@ class InteriorPoint {
         const Lane drow = At(weight_, k) * product + At(shift_, k);
         const Lane ds = (At(s_target_, k) + s * drow) * inverse_slack;
         const Lane dt = ds - product;
-        drow_.segment<kLane>(k) = drow;
-        ds_.segment<kLane>(k) = ds;
-        dt_.segment<kLane>(k) = dt;
+        At(drow_, k) = drow;
+        At(ds_, k) = ds;
+        At(dt_, k) = dt;
         primal = primal.max(-dt / t).max(-ds / s);
         dual = dual.max(-drow * At(inverse_row_, k)).max(drow * inverse_slack);
         by_primal += dt * row + ds * (At(rows_.penalty, k) - row);
@@ -338,8 +266,8 @@ class InteriorPoint {
         by_both += drow * (dt - ds);
       }
     }
-    worst_primal = std::max(worst_primal, primal.maxCoeff());
-    worst_dual = std::max(worst_dual, dual.maxCoeff());
+    worst_primal = std::max(worst_primal, double{primal.maxCoeff()});
+    worst_dual = std::max(worst_dual, double{dual.maxCoeff()});
     step.by_primal = by_primal.sum();
     step.by_dual = by_dual.sum();
     step.by_both = by_both.sum();
@@ -370,18 +298,20 @@ class InteriorPoint {
     high_ += step.dual * step.high;
     residual_ = program_.gradient + program_.hessian.cwiseProduct(d_);
     residual_.array() += high_ - low_;
+    const auto primal = static_cast<Real>(step.primal);
+    const auto dual = static_cast<Real>(step.dual);
     Lane complementarity = Lane::Zero();
     Lane excess = Lane::Zero();
     for (const RowGroup& group : rows_.groups) {
       Lanes lanes = NoLanes();
       for (Eigen::Index k = group.begin; k < group.end; k += kLane) {
-        const Lane t = At(t_, k) + step.primal * At(dt_, k);
-        const Lane s = At(s_, k) + step.primal * At(ds_, k);
-        const Lane row = At(row_, k) + step.dual * At(drow_, k);
+        const Lane t = At(t_, k) + primal * At(dt_, k);
+        const Lane s = At(s_, k) + primal * At(ds_, k);
+        const Lane row = At(row_, k) + dual * At(drow_, k);
         const Lane penalty = At(rows_.penalty, k);
-        t_.segment<kLane>(k) = t;
-        s_.segment<kLane>(k) = s;
-        row_.segment<kLane>(k) = row;
+        At(t_, k) = t;
+        At(s_, k) = s;
+        At(row_, k) = row;
         complementarity += t * row + s * (penalty - row);
         excess += penalty * s;
         AddWeighted(k, row, lanes);
@@ -394,12 +324,13 @@ class InteriorPoint {
 
   const PenaltyProgram& program_;
   Eigen::Index variables_;
-  RowTable rows_;
+  RowTable<Real> rows_;
   NormalMatrix matrix_;
   double width_ = 0.0;
   Eigen::VectorXd d_, residual_;
-  Eigen::ArrayXd t_, s_, row_, low_, high_;
-  Eigen::ArrayXd weight_, inverse_row_, inverse_slack_, s_target_, shift_, dt_, ds_, drow_;
+  Eigen::ArrayXd low_, high_;
+  Array t_, s_, row_;
+  Array weight_, inverse_row_, inverse_slack_, s_target_, shift_, dt_, ds_, drow_;
   double start_excess_ = 0.0;
   double row_complementarity_ = 0.0;
   double excess_ = 0.0;  // what the rows' slacks cost
@@ -408,7 +339,8 @@ class InteriorPoint {
 }  // namespace
 
 Eigen::VectorXd Solve(const PenaltyProgram& program, double relative_gap) {
-  return InteriorPoint(program).Run(relative_gap);
+  return relative_gap >= kFloatGap ? InteriorPoint<float>(program).Run(relative_gap)
+                                   : InteriorPoint<double>(program).Run(relative_gap);
 }
 
 }  // namespace capfit::tighten

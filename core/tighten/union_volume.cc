@@ -192,7 +192,7 @@ class Sampler {
   // A solid that may hide part of a capsule. Where the two share an end sphere both run on smoothly
   // into it, each in turn at distance 0 from the other: there only what lies past the joint hides.
   struct Neighbour {
-    FloatKernel kernel;     // as seen from the capsule's middle
+    FloatKernel kernel;    // as seen from the capsule's middle
     float joint_m = 0.0f;  // where the solid leaves the shared sphere, along the kernel's axis
     float way = 0.0f;      // 1 or -1: to where on that axis; 0: no shared sphere
   };
@@ -329,8 +329,7 @@ class Sampler {
   void HideBehindJoined(const Neighbour& other, Samples& samples) const {
     const auto fade = static_cast<float>(fade_);
     samples.Hide([&](std::size_t i) {
-      const auto [distance, foot] =
-          other.kernel.Locate(samples.x[i], samples.y[i], samples.z[i]);
+      const auto [distance, foot] = other.kernel.Locate(samples.x[i], samples.y[i], samples.z[i]);
       const float past_joint = Seen(other.way * (foot - other.joint_m) - fade);
       return 1.0f - past_joint * (1.0f - Seen(distance));
     });

@@ -107,8 +107,8 @@ double VolumeOutside(const TaperedCapsule& tie, const std::vector<TaperedCapsule
     const tighten::FloatKernel kernel =
         tighten::KernelAround(tighten::DistanceKernel(shape), middle);
     for (std::size_t i = 0; i < TieSamples::kCount; ++i) {
-      nearest[i] = std::min(nearest[i],
-                            kernel.SignedDistance(samples.x[i], samples.y[i], samples.z[i]));
+      nearest[i] =
+          std::min(nearest[i], kernel.SignedDistance(samples.x[i], samples.y[i], samples.z[i]));
     }
   }
   double volume = 0.0;

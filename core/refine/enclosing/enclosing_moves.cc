@@ -60,16 +60,15 @@ SparedGraph::SparedGraph(const capsule::MirroredSet& graph)
 
 void SparedGraph::Remove(const Edit& edit) {
   const bool is_capsule = edit.kind == EditKind::kUnlink;
-  std::vector<int> touched = is_capsule ? std::vector<int>{before_.ends(edit.first)[0],
-                                                           before_.ends(edit.first)[1]}
-                                        : before_.NeighboursOf(edit.first);
+  std::vector<int> touched =
+      is_capsule ? std::vector<int>{before_.ends(edit.first)[0], before_.ends(edit.first)[1]}
+                 : before_.NeighboursOf(edit.first);
   if (!is_capsule) touched.push_back(edit.first);
   if (std::any_of(touched.begin(), touched.end(), [&](int v) { return is_touched_[U(v)] != 0; })) {
     return;
   }
-  const int now = is_capsule
-                      ? graph_.IndexOfCapsule(index_[U(touched[0])], index_[U(touched[1])])
-                      : index_[U(edit.first)];
+  const int now = is_capsule ? graph_.IndexOfCapsule(index_[U(touched[0])], index_[U(touched[1])])
+                             : index_[U(edit.first)];
   EditedGraph edited = Apply(graph_, EditOf(edit.kind, now));
   if (!edited.possible) return;
   graph_ = std::move(edited.graph);

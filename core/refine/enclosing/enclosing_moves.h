@@ -34,7 +34,7 @@ class SparedGraph {
  private:
   const capsule::MirroredSet& before_;
   capsule::MirroredSet graph_;
-  std::vector<int> index_;       // in `graph_`, by sphere of the graph before; -1: gone
+  std::vector<int> index_;        // in `graph_`, by sphere of the graph before; -1: gone
   std::vector<char> is_touched_;  // by sphere of the graph before
 };
 

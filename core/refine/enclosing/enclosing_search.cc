@@ -186,8 +186,7 @@ class Search {
     SparedGraph rest(graph);
     for (const Removal& removal : removals) {
       if (too_much(rest.graph()) <= left) break;
-      const bool last_resort =
-          spared == Spared::kSpheres && removal.edit.kind == EditKind::kUnlink;
+      const bool last_resort = spared == Spared::kSpheres && removal.edit.kind == EditKind::kUnlink;
       if (last_resort && rest.graph().primitive_count() < graph.primitive_count()) break;
       rest.Remove(removal.edit);
     }

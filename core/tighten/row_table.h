@@ -1,0 +1,84 @@
+// The rows of a penalty programme as its solver goes through them.
+#ifndef CAPFIT_CORE_TIGHTEN_ROW_TABLE_H_
+#define CAPFIT_CORE_TIGHTEN_ROW_TABLE_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/tighten/normal_matrix.h"
+#include "core/tighten/penalty_program.h"
+
+namespace capfit::tighten {
+
+// The programme's rows, those of one group of variables together, in the order in which they come.
+// O(rows + groups of variables^2).
+[[nodiscard]] std::vector<std::size_t> RowsByGroup(const PenaltyProgram& program);
+
+// Rows that touch the same variables, [begin, end) in the solver's order, a whole number of lanes.
+struct RowGroup {
+  Eigen::Index begin = 0;
+  Eigen::Index end = 0;
+  int first_a = 0;
+  int first_b = -1;
+  // Its blocks of the normal matrix; the last where there is a second.
+  NormalMatrix::Place a, b, across;
+};
+
+// The rows with their coefficients apart, group by group, in doubles or floats. Groups are filled
+// up to whole lanes, one vector register each, with rows that never bind.
+template <typename Real>
+struct RowTable {
+  using Array = Eigen::Array<Real, Eigen::Dynamic, 1>;
+  static constexpr Eigen::Index kLane = 32 / sizeof(Real);
+
+  explicit RowTable(const PenaltyProgram& program) {
+    const std::vector<PenaltyRow>& rows = program.rows;
+    const std::vector<std::size_t> order = RowsByGroup(program);
+    std::size_t most_groups = 1;
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      most_groups += rows[order[i]].first != rows[order[i - 1]].first ? 1 : 0;
+    }
+    const auto most = static_cast<Eigen::Index>(rows.size() + kLane * most_groups);
+    coefficients.setZero(most, 8);
+    value = Array::Constant(most, -static_cast<Real>((program.upper - program.lower).maxCoeff()));
+    penalty = Array::Ones(most);
+    for (const std::size_t i : order) Append(rows[i]);
+    CloseGroup();
+    count = next_;
+  }
+
+  std::vector<RowGroup> groups;
+  Eigen::Array<Real, Eigen::Dynamic, 8> coefficients;
+  Array value, penalty;
+  Eigen::Index count = 0;  // of rows in use
+
+ private:
+  void Append(const PenaltyRow& row) {
+    if (groups.empty() || groups.back().first_a != row.first[0] ||
+        groups.back().first_b != row.first[1]) {
+      CloseGroup();
+      groups.push_back({next_, next_, row.first[0], row.first[1], {}, {}, {}});
+    }
+    for (Eigen::Index c = 0; c < 8; ++c) {
+      coefficients(next_, c) = static_cast<Real>(row.coefficients[static_cast<std::size_t>(c)]);
+    }
+    value[next_] = static_cast<Real>(row.value);
+    penalty[next_] = static_cast<Real>(row.penalty);
+    ++next_;
+  }
+
+  void CloseGroup() {
+    if (groups.empty()) return;
+    // The rows that fill up cost as much as their neighbours, so that they converge like these.
+    while (next_ % kLane != 0) penalty[next_] = penalty[next_ - 1], ++next_;
+    groups.back().end = next_;
+  }
+
+  Eigen::Index next_ = 0;
+};
+
+}  // namespace capfit::tighten
+
+#endif  // CAPFIT_CORE_TIGHTEN_ROW_TABLE_H_
