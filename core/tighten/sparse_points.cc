@@ -32,10 +32,19 @@ class NodeSums {
     const Eigen::Array3d at = point.array() / spacing_ - low_;
     const Eigen::Array3d cell = at.floor();
     const Eigen::Array3d part = at - cell;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Array3d step(corner & 1, corner >> 1 & 1, corner >> 2);
-      const double share = weight * (step * part + (1.0 - step) * (1.0 - part)).prod();
-      if (share > 0.0) SumAt((cell + step).cast<std::int64_t>()) += Sum(point, share);
+    const Eigen::Array3d rest = 1.0 - part;
+    const Eigen::Array<std::int64_t, 3, 1> first = cell.cast<std::int64_t>();
+    const std::int64_t node = (first.z() * counts_.y() + first.y()) * counts_.x() + first.x();
+    const Eigen::Vector4d sum(point.x(), point.y(), point.z(), 1.0);
+    for (const bool z : {false, true}) {
+      for (const bool y : {false, true}) {
+        const std::int64_t row = node + ((z ? counts_.y() : 0) + (y ? 1 : 0)) * counts_.x();
+        for (const bool x : {false, true}) {
+          const double share = weight * ((x ? part.x() : rest.x()) * (y ? part.y() : rest.y()) *
+                                         (z ? part.z() : rest.z()));
+          if (share > 0.0) SumAt(static_cast<std::size_t>(row + (x ? 1 : 0))) += share * sum;
+        }
+      }
     }
   }
 
@@ -49,13 +58,8 @@ class NodeSums {
   }
 
  private:
-  static Eigen::Vector4d Sum(const Eigen::Vector3d& point, double share) {
-    return {share * point.x(), share * point.y(), share * point.z(), share};
-  }
-
-  Eigen::Vector4d& SumAt(const Eigen::Array<std::int64_t, 3, 1>& node) {
-    std::int32_t& slot = slots_[static_cast<std::size_t>(
-        (node.z() * counts_.y() + node.y()) * counts_.x() + node.x())];
+  Eigen::Vector4d& SumAt(std::size_t node) {
+    std::int32_t& slot = slots_[node];
     if (slot < 0) {
       slot = static_cast<std::int32_t>(sums_.size());
       sums_.push_back(Eigen::Vector4d::Zero());

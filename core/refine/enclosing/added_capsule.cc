@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace capfit::refine {
 namespace {
@@ -15,6 +16,14 @@ using Vec3 = Eigen::Vector3d;
 
 // Along and around a tie, where its volume is sampled.
 constexpr int kAlong = 8, kAround = 8, kAcross = 4;
+
+TaperedCapsule ImageOf(const TaperedCapsule& capsule) {
+  const auto image = [](geometry::Sphere sphere) {
+    sphere.center_m.x() = -sphere.center_m.x();
+    return sphere;
+  };
+  return {image(capsule.a()), image(capsule.b())};
+}
 
 // Points within a tie, from `origin_m`, their coordinates apart.
 struct TieSamples {
@@ -52,15 +61,15 @@ struct TieSamples {
 
 OutsidePoints::OutsidePoints(const tighten::PointGrid& grid, const std::vector<double>& distances_m,
                              const std::vector<double>& areas_m2, double allowed_m)
-    : allowed_m_(allowed_m) {
+    : allowed_m_(static_cast<float>(allowed_m)) {
   for (const tighten::PointGrid::Block& block : grid.blocks()) {
     Run run{x_.size(), 0, block.center, block.reach, 0.0};
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
       if (distances_m[i] <= allowed_m) continue;
-      const Vec3& p = grid.point(i);
+      const Eigen::Vector3f p = (grid.point(i) - block.center).cast<float>();
       x_.push_back(p.x()), y_.push_back(p.y()), z_.push_back(p.z());
-      area_.push_back(areas_m2[grid.order()[i]]);
-      out_.push_back(distances_m[i] - allowed_m);
+      area_.push_back(static_cast<float>(areas_m2[grid.order()[i]]));
+      out_.push_back(static_cast<float>(distances_m[i] - allowed_m));
       run.furthest_m = std::max(run.furthest_m, distances_m[i]);
     }
     run.end = x_.size();
@@ -69,29 +78,36 @@ OutsidePoints::OutsidePoints(const tighten::PointGrid& grid, const std::vector<d
 }
 
 double OutsidePoints::TakenInBy(const TaperedCapsule& capsule, bool with_image) const {
-  const tighten::DistanceKernel kernel(capsule);
-  const double image = with_image ? -1.0 : 1.0;
+  const tighten::DistanceKernel own(capsule);
+  const std::optional<tighten::DistanceKernel> image =
+      with_image ? std::optional(tighten::DistanceKernel(ImageOf(capsule))) : std::nullopt;
+  std::array<float, tighten::PointGrid::kMaxBlock> distances_m;
   double sum = 0.0;
   for (const Run& run : runs_) {
-    const Vec3& c = run.center;
-    const double here = kernel.SignedDistance(c.x(), c.y(), c.z());
-    const double there = kernel.SignedDistance(image * c.x(), c.y(), c.z());
-    if (std::min(here, there) - run.reach >= run.furthest_m) continue;  // nearer to others
-    sum += TakenInBy(kernel, image, run);
+    distances_m.fill(std::numeric_limits<float>::max());
+    bool is_near = false;
+    for (const tighten::DistanceKernel* solid : {&own, image ? &*image : nullptr}) {
+      if (solid == nullptr) continue;
+      const Vec3& c = run.center;
+      const double at_center = solid->SignedDistance(c.x(), c.y(), c.z());
+      if (at_center - run.reach >= run.furthest_m) continue;  // nearer to others
+      is_near = true;
+      const tighten::FloatKernel kernel = tighten::KernelAround(*solid, run.center);
+      for (std::size_t i = run.begin; i < run.end; ++i) {
+        float& least = distances_m[i - run.begin];
+        least = std::min(least, kernel.SignedDistance(x_[i], y_[i], z_[i]));
+      }
+    }
+    if (is_near) sum += TakenIn(run, distances_m.data());
   }
   return sum;
 }
 
-double OutsidePoints::TakenInBy(const tighten::DistanceKernel& kernel, double image,
-                                const Run& run) const {
+double OutsidePoints::TakenIn(const Run& run, const float* distances_m) const {
   double sum = 0.0;
   for (std::size_t i = run.begin; i < run.end; ++i) {
-    const double here = kernel.SignedDistance(x_[i], y_[i], z_[i]);
-    const double there = kernel.SignedDistance(image * x_[i], y_[i], z_[i]);
-    double still_out = (here < there ? here : there) - allowed_m_;
-    still_out = still_out > 0.0 ? still_out : 0.0;
-    const double won = out_[i] - still_out;
-    sum += won > 0.0 ? area_[i] * won : 0.0;
+    const float still_out = std::max(0.0f, distances_m[i - run.begin] - allowed_m_);
+    sum += double{area_[i] * std::max(0.0f, out_[i] - still_out)};
   }
   return sum;
 }

@@ -28,11 +28,11 @@ class OutsidePoints {
     double reach;
     double furthest_m;  // that one of them is from the set
   };
-  [[nodiscard]] double TakenInBy(const tighten::DistanceKernel& kernel, double image,
-                                 const Run& run) const;
+  [[nodiscard]] double TakenIn(const Run& run, const float* distances_m) const;
 
-  double allowed_m_;
-  std::vector<double> x_, y_, z_, area_, out_;
+  float allowed_m_;
+  std::vector<float> x_, y_, z_;  // from the centre of the block
+  std::vector<float> area_, out_;
   std::vector<Run> runs_;
 };
 
