@@ -180,6 +180,7 @@ capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& op
 
 // Between the points of the enclosing search.
 struct Spacings {
+  double rough;  // for its starts, much of which is given up again
   double usual;
   double fine;  // for the last steps
 };
@@ -187,7 +188,7 @@ struct Spacings {
 Spacings SpacingsFor(int primitives) {
   const double share = 1.0 / std::sqrt(static_cast<double>(primitives));
   const double usual = std::clamp(kSpacing * share, kLeastSpacing, kMostSpacing);
-  return {usual, std::clamp(kFineSpacing * share, kLeastSpacing, usual)};
+  return {kMostSpacing, usual, std::clamp(kFineSpacing * share, kLeastSpacing, usual)};
 }
 
 // Standard layouts that fill the budget. They were chosen for how well they serve many bodies, and
@@ -224,20 +225,21 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
   const int primitives = options.budget.UsualPrimitives();
   const Spacings spacings = SpacingsFor(primitives);
   // Each thins the points out on one thread, for some milliseconds on large meshes.
-  std::array<std::optional<EnclosingTask>, 2> tasks;
-  pool.ForEach(tasks.size(), [&](std::size_t i) {
-    tasks[i].emplace(target, body.is_symmetric, options.tolerance_m,
-                     i == 0 ? spacings.usual : spacings.fine);
+  std::optional<EnclosingTask> usual, fine, rough;
+  const std::array task_of = {std::pair(&usual, spacings.usual), std::pair(&fine, spacings.fine),
+                              std::pair(&rough, spacings.rough)};
+  pool.ForEach(spacings.rough > spacings.usual ? 3 : 2, [&](std::size_t i) {
+    task_of[i].first->emplace(target, body.is_symmetric, options.tolerance_m, task_of[i].second);
   });
   const int rounds = !options.thorough              ? kQuickRounds
                      : primitives <= kFewPrimitives ? kRoundsOfFew
                                                     : kRounds;
   capsule::MirroredSet graph =
-      FindEnclosingGraph(*tasks[0], options.budget, StartsOf(body, options, primitives), rounds,
-                         kSearched, pool, meter);
+      FindEnclosingGraph(rough ? *rough : *usual, *usual, options.budget,
+                         StartsOf(body, options, primitives), rounds, kSearched, pool, meter);
   meter.Expect(1.0, std::int64_t{kFineSteps + kFineTakeInSteps} * graph.primitive_count());
-  tasks[1]->FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
-  tasks[1]->TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graph);
+  fine->FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
+  fine->TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graph);
   return graph;
 }
 

@@ -28,8 +28,9 @@ constexpr double kTieShare = 0.5;  // of what growth spends, into ties and leave
 // A round of growth or sparing goes so far.
 constexpr double kGrowthShare = 0.2;
 constexpr int kLeastGrowth = 4;
-constexpr double kSparedShare = 0.34;
-constexpr int kUsedUp = 3;  // a graph this near to the budget is not grown
+constexpr double kSparedShare = 0.34;  // of what is too much, or if that is more
+constexpr double kLeastSpared = 0.06;  // of the graph
+constexpr int kUsedUp = 3;             // a graph this near to the budget is not grown
 constexpr double kLeastImprovement = 1e-4;
 constexpr std::size_t kTies = 8;
 // Much is given up and spent anew at once: two ways in each round, by turns.
@@ -52,9 +53,10 @@ constexpr std::uint64_t kFirstSeed = 10;
 
 class Search {
  public:
-  Search(const EnclosingTask& task, const capsule::Budget& budget, double until,
-         const ThreadPool& pool, WorkMeter& meter)
-      : task_(task),
+  Search(const EnclosingTask& rough, const EnclosingTask& task, const capsule::Budget& budget,
+         double until, const ThreadPool& pool, WorkMeter& meter)
+      : rough_(rough),
+        task_(task),
         budget_(budget),
         primitives_(budget.MostPrimitives()),
         until_(until),
@@ -79,8 +81,8 @@ class Search {
 
   Attempt Settled(capsule::MirroredSet graph, std::uint64_t seed) const {
     capsule::MirroredSet settled = graph;
-    task_.TakeIn(kTakeInSteps, seed, alone_, meter_, settled);
-    return {std::move(graph), task_.Value(settled, alone_)};
+    task_.TakeIn(kTakeInSteps, seed, pool_, meter_, settled);
+    return {std::move(graph), task_.Value(settled, pool_)};
   }
 
   Attempt BestStart(const std::vector<capsule::MirroredSet>& starts) {
@@ -92,7 +94,7 @@ class Search {
     meter_.Expect(until_ * kStarted, work);
     pool_.ForEach(starts.size(), [&](std::size_t i) {
       capsule::MirroredSet graph = starts[i];
-      task_.FindShape(kStartSteps, 1.0, /*seed=*/1, alone_, meter_, graph);
+      rough_.FindShape(kStartSteps, 1.0, /*seed=*/1, pool_, meter_, graph);
       RemoveSwallowed(graph);
       Spare(graph);
       attempts[i] = Settled(std::move(graph), /*seed=*/2);
@@ -145,16 +147,18 @@ class Search {
   void Spare(capsule::MirroredSet& graph) const {
     while (!budget_.Allows(graph.count()) && !meter_.IsCancelled()) {
       const int excess = budget_.Excess(graph.count());
-      const int target =
-          excess - std::max(1, static_cast<int>(kSparedShare * static_cast<double>(excess)));
+      const int spared =
+          static_cast<int>(std::max(kSparedShare * excess, kLeastSpared * graph.primitive_count()));
+      const int target = std::max(0, excess - std::max(1, spared));
       // Capsules may stay as they are where there are only too many spheres.
       const bool only_spheres = graph.primitive_count() <= budget_.max_primitives &&
                                 graph.capsule_count() <= budget_.max_capsules;
-      if (!GiveUp([&](const auto& g) { return budget_.Excess(g.count()) - target; },
-                  only_spheres ? Spared::kSpheres : Spared::kAny, graph)) {
+      if (!GiveUp(
+              rough_, [&](const auto& g) { return budget_.Excess(g.count()) - target; },
+              only_spheres ? Spared::kSpheres : Spared::kAny, graph)) {
         return;
       }
-      task_.FindShape(kSparingSteps, 1.0, /*seed=*/3, alone_, meter_, graph);
+      rough_.FindShape(kSparingSteps, 1.0, /*seed=*/3, pool_, meter_, graph);
       RemoveSwallowed(graph);
     }
   }
@@ -164,10 +168,11 @@ class Search {
   // Gives up what is least missed until nothing is too much; false where nothing may go any more.
   // Half of what is too much goes by what each was missed at first, the rest after another look.
   template <typename TooMuch>
-  bool GiveUp(const TooMuch& too_much, Spared spared, capsule::MirroredSet& graph) const {
+  bool GiveUp(const EnclosingTask& task, const TooMuch& too_much, Spared spared,
+              capsule::MirroredSet& graph) const {
     while (too_much(graph) > 0) {
       const int before = graph.primitive_count();
-      GiveUpDownTo(too_much(graph) / 2, too_much, spared, graph);
+      GiveUpDownTo(too_much(graph) / 2, task, too_much, spared, graph);
       if (graph.primitive_count() == before) return false;
     }
     return true;
@@ -175,9 +180,9 @@ class Search {
 
   // Nothing beside what has just gone: it is missed more now.
   template <typename TooMuch>
-  void GiveUpDownTo(int left, const TooMuch& too_much, Spared spared,
+  void GiveUpDownTo(int left, const EnclosingTask& task, const TooMuch& too_much, Spared spared,
                     capsule::MirroredSet& graph) const {
-    std::vector<Removal> removals = RemovalsOf(graph, task_.Weigh(graph));
+    std::vector<Removal> removals = RemovalsOf(graph, task.Weigh(graph));
     if (spared == Spared::kSpheres) {  // capsules alone as a last resort
       std::stable_partition(removals.begin(), removals.end(), [](const Removal& removal) {
         return removal.edit.kind == EditKind::kDissolve;
@@ -198,16 +203,16 @@ class Search {
   void Extend(int target, int ties, std::uint64_t seed, capsule::MirroredSet& graph) const {
     TieBest(std::min(target, graph.primitive_count() + ties), seed, graph);
     CutLoosest(budget_, target, task_.Weigh(graph).edge_gap, graph);
-    task_.FindShape(kGrowthSteps, 1.0, seed, alone_, meter_, graph);
+    task_.FindShape(kGrowthSteps, 1.0, seed, pool_, meter_, graph);
     RemoveSwallowed(graph);
   }
 
   // Adds the best ties and leaves, no more than one to a sphere, until there are `target`
   // primitives.
   void TieBest(int target, std::uint64_t seed, capsule::MirroredSet& graph) const {
-    task_.Loosen(kLooseSteps, seed, alone_, meter_, graph);
+    task_.Loosen(kLooseSteps, seed, pool_, meter_, graph);
     std::vector<char> is_tied(graph.spheres().size(), 0);
-    for (const Edit& tie : RankedAdditions(task_, graph, alone_)) {
+    for (const Edit& tie : RankedAdditions(task_, graph, pool_)) {
       const bool is_leaf = tie.kind == EditKind::kLeaf;
       if (is_tied[U(tie.first)] || (!is_leaf && is_tied[U(tie.second)])) continue;
       EditedGraph edited = Apply(graph, tie);
@@ -229,7 +234,8 @@ class Search {
     capsule::MirroredSet graph = from;
     const auto given_up = static_cast<int>(renewal.given_up * from.primitive_count());
     const int kept = from.primitive_count() - given_up;
-    GiveUp([kept](const auto& g) { return g.primitive_count() - kept; }, Spared::kAny, graph);
+    GiveUp(
+        task_, [kept](const auto& g) { return g.primitive_count() - kept; }, Spared::kAny, graph);
     Extend(primitives_, static_cast<int>(renewal.tie_share * given_up), seed, graph);
     if (!budget_.Allows(graph.count())) return {};
     return Settled(std::move(graph), seed);
@@ -267,7 +273,7 @@ class Search {
     if (!edited.possible) return {};
     RemoveSwallowed(edited.graph);
     CutLoosest(budget_, primitives_, task_.Weigh(edited.graph).edge_gap, edited.graph);
-    task_.FindShape(kTrialSteps, 1.0, seed, alone_, meter_, edited.graph);
+    task_.FindShape(kTrialSteps, 1.0, seed, pool_, meter_, edited.graph);
     RemoveSwallowed(edited.graph);
     if (!budget_.Allows(edited.graph.count())) return {};
     return Settled(std::move(edited.graph), seed);
@@ -289,12 +295,12 @@ class Search {
     }
   }
 
+  const EnclosingTask& rough_;  // to begin with
   const EnclosingTask& task_;
   const capsule::Budget& budget_;
   int primitives_;  // at most
   double until_;    // what the meter shows at the end
   const ThreadPool& pool_;
-  const ThreadPool alone_{1};  // inside what runs in parallel already
   WorkMeter& meter_;
   std::uint64_t seed_ = kFirstSeed;
   std::size_t renewals_ = 0;
@@ -302,10 +308,11 @@ class Search {
 
 }  // namespace
 
-capsule::MirroredSet FindEnclosingGraph(const EnclosingTask& task, const capsule::Budget& budget,
+capsule::MirroredSet FindEnclosingGraph(const EnclosingTask& rough, const EnclosingTask& task,
+                                        const capsule::Budget& budget,
                                         const std::vector<capsule::MirroredSet>& starts, int rounds,
                                         double until, const ThreadPool& pool, WorkMeter& meter) {
-  return Search(task, budget, until, pool, meter).Run(starts, rounds);
+  return Search(rough, task, budget, until, pool, meter).Run(starts, rounds);
 }
 
 }  // namespace capfit::refine

@@ -19,12 +19,13 @@ namespace capfit::refine {
 // spent anew in the same way, and the result kept if it is better. What is left of the budget then,
 // too little for a cut, is tried on ties and leaves.
 //
-// `starts` must not be empty. Brings the stage from its beginning to `until`. The graph fits the
-// budget unless cancelled. What is tried runs in parallel; same bits for any pool. A round takes
-// some 10 ms on two cores at 64 primitives, 40 ms at 128, 100 ms at 250; the starts as long as a
-// few of these, and longer where much of a larger one is spared.
+// `rough` may have fewer points than `task`: starts are settled and spared by it, up to twice as
+// large as the budget as they may be. `starts` must not be empty. Brings the stage from its
+// beginning to `until`. The graph fits the budget unless cancelled. What is tried runs in parallel;
+// same bits for any pool. A round takes some 6 ms on two cores at 64 primitives, 20 ms at 128, 60
+// ms at 250; the starts as long as a few of these, where much of a larger one is spared.
 [[nodiscard]] capsule::MirroredSet FindEnclosingGraph(
-    const EnclosingTask& task, const capsule::Budget& budget,
+    const EnclosingTask& rough, const EnclosingTask& task, const capsule::Budget& budget,
     const std::vector<capsule::MirroredSet>& starts, int rounds, double until,
     const ThreadPool& pool, WorkMeter& meter);
 

@@ -17,7 +17,8 @@ capsule::MirroredSet Find(const capsule::Budget& budget,
   const ThreadPool pool(threads);
   NullObserver observer;
   WorkMeter meter(observer);
-  return FindEnclosingGraph(TubeTask(), budget, starts, rounds, /*until=*/1.0, pool, meter);
+  return FindEnclosingGraph(TubeTask(), TubeTask(), budget, starts, rounds, /*until=*/1.0, pool,
+                            meter);
 }
 
 double TakenIn(capsule::MirroredSet graph) {
