@@ -52,17 +52,17 @@ struct Samples {
   static constexpr int kLane = 8;
   static constexpr int kMost = 8 * kLane;
   int count = 0;
-  std::array<float, kMost> x, y, z, nx, ny, nz, area;
+  std::array<float, kMost> x, y, z, nx, ny, nz;
+  std::array<float, kMost> seen;  // share that nothing hides
 
   [[nodiscard]] bool IsFull() const { return count == kMost; }
-  void Add(const Eigen::Vector3f& normal, const Eigen::Vector3f& center, float radius,
-           float own_area) {
+  void Add(const Eigen::Vector3f& normal, const Eigen::Vector3f& center, float radius) {
     const auto i = static_cast<std::size_t>(count++);
     nx[i] = normal.x(), ny[i] = normal.y(), nz[i] = normal.z();
     x[i] = center.x() + radius * normal.x();
     y[i] = center.y() + radius * normal.y();
     z[i] = center.z() + radius * normal.z();
-    area[i] = own_area;
+    seen[i] = 1.0f;
   }
 
   // Up to whole lanes with samples that count for nothing, so that all that follows is done in
@@ -70,15 +70,16 @@ struct Samples {
   void FillUp() {
     while (count % kLane != 0) {
       const auto last = static_cast<std::size_t>(count - 1);
-      Add({nx[last], ny[last], nz[last]}, {x[last], y[last], z[last]}, 0.0f, 0.0f);
+      Add({nx[last], ny[last], nz[last]}, {x[last], y[last], z[last]}, 0.0f);
+      seen[last + 1] = 0.0f;
     }
   }
 
-  // Multiplies each area with what `seen` gives for the sample's index.
-  template <typename Seen>
-  void Hide(const Seen& seen) {
+  // Multiplies what is seen of each sample with what `share_of` gives for its index.
+  template <typename ShareOf>
+  void Hide(const ShareOf& share_of) {
     for (std::size_t first = 0; first < static_cast<std::size_t>(count); first += kLane) {
-      for (std::size_t i = first; i < first + kLane; ++i) area[i] *= seen(i);
+      for (std::size_t i = first; i < first + kLane; ++i) seen[i] *= share_of(i);
     }
   }
 };
@@ -136,18 +137,17 @@ class Sampler {
     Turner turner(2.0 * std::numbers::pi * random.NextUnit(),
                   2.0 * std::numbers::pi / std::numbers::phi);
     const auto radius = static_cast<float>(sphere.radius_m);
-    const auto each = static_cast<float>(area / count);
     Samples samples;
     for (int i = 0; i < count; ++i, turner.Next()) {
       const double z = 1.0 - 2.0 * (i + 0.5) / count;
       const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
       const Eigen::Vector3d normal(r * turner.cosine, r * turner.sine, z);
-      samples.Add(normal.cast<float>(), Eigen::Vector3f::Zero(), radius, each);
+      samples.Add(normal.cast<float>(), Eigen::Vector3f::Zero(), radius);
       if (!samples.IsFull() && i + 1 < count) continue;
       samples.FillUp();
       for (const Cut& cut : around.cuts) Hide(cut, radius, samples);
       for (const FloatKernel& other : around.others) HideBehind(other, samples);
-      Collect(samples, sphere.center_m, 0.0, share);
+      Collect(samples, sphere.center_m, area / count, 0.0, share);
     }
     return share;
   }
@@ -302,13 +302,12 @@ class Sampler {
     Samples samples;
     for (int i = 0; i < count; ++i, turner.Next()) {
       const Eigen::Vector3d normal = along + turner.cosine * first + turner.sine * second;
-      samples.Add(normal.cast<float>(), center, static_cast<float>(radius),
-                  static_cast<float>(girth * width / count));
+      samples.Add(normal.cast<float>(), center, static_cast<float>(radius));
       if (!samples.IsFull() && i + 1 < count) continue;
       samples.FillUp();
       for (const FloatKernel* other : near) HideBehind(*other, samples);
       for (const Neighbour* other : joined) HideBehindJoined(*other, samples);
-      Collect(samples, middle, t, share);
+      Collect(samples, middle, girth * width / count, t, share);
     }
   }
 
@@ -335,18 +334,22 @@ class Sampler {
     });
   }
 
-  // Adds what is still seen of the samples, and starts them anew. `from`: where they are seen from.
-  void Collect(Samples& samples, const Eigen::Vector3d& from, double t, Share& share) const {
+  // Adds what is still seen of the samples, each of that area, and starts them anew. `from`: where
+  // they are seen from.
+  void Collect(Samples& samples, const Eigen::Vector3d& from, double area, double t,
+               Share& share) const {
     const Eigen::Array3d offset = from - origin_;
     Eigen::Array4d speed = Eigen::Array4d::Zero();
     Eigen::Array3d flux = Eigen::Array3d::Zero();
     for (std::size_t i = 0; i < static_cast<std::size_t>(samples.count); ++i) {
       const Eigen::Array3d normal(samples.nx[i], samples.ny[i], samples.nz[i]);
       const Eigen::Array3d point(samples.x[i], samples.y[i], samples.z[i]);
-      const double area = samples.area[i];
-      speed += area * Eigen::Array4d(normal.x(), normal.y(), normal.z(), 1.0);
-      flux += area * normal * (point + offset);
+      const double seen = samples.seen[i];
+      speed += seen * Eigen::Array4d(normal.x(), normal.y(), normal.z(), 1.0);
+      flux += seen * normal * (point + offset);
     }
+    speed *= area;
+    flux *= area;
     share.volume += (flux * flow_).sum();
     share.a += (1 - t) * speed.matrix();
     share.b += t * speed.matrix();
