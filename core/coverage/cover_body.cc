@@ -28,10 +28,6 @@ constexpr double kSparseSpacing = 0.024;
 // half a per cent at 128, no body's by more than 3 %.
 constexpr double kRowSpacing = 0.015;
 
-// Steps are solved to this share of what they win: near enough that vertices which differ by
-// rounding end alike.
-constexpr double kStepGap = 1e-4;
-
 // The set finds its shape with points left out at a price, which rises; then they must all come in.
 // Starting with a low price matters most (a fifth of E_r): where everything must be inside from the
 // start, each sphere is caught in the circle it came with.
@@ -39,14 +35,12 @@ constexpr tighten::TightenPhase kLoosePhase{.steps = 12,
                                             .first_trust = 0.012,
                                             .last_trust = 0.006,
                                             .first_penalty = 1.3,
-                                            .last_penalty = 8.0,
-                                            .relative_gap = kStepGap};
+                                            .last_penalty = 8.0};
 constexpr tighten::TightenPhase kTightPhase{.steps = 3,
                                             .first_trust = 0.004,
                                             .last_trust = 0.001,
                                             .first_penalty = 0.4,
                                             .last_penalty = 0.4,
-                                            .relative_gap = kStepGap,
                                             .row_spacing = kRowSpacing};
 // Once more, with what was found to stick out between vertices.
 constexpr tighten::TightenPhase kLastPhase{.steps = 2,
@@ -54,7 +48,6 @@ constexpr tighten::TightenPhase kLastPhase{.steps = 2,
                                            .last_trust = 0.0005,
                                            .first_penalty = 0.4,
                                            .last_penalty = 0.4,
-                                           .relative_gap = kStepGap,
                                            .row_spacing = kRowSpacing};
 // A set that tightening leaves so much larger than it came is compared with the paper's growing
 // alone; on sound layouts tightening has won by far wherever the two were compared.

@@ -32,17 +32,8 @@ struct DistanceKernel {
     dr = capsule.b().radius_m - capsule.a().radius_m;
   }
 
-  struct Place {
-    double distance_m;  // signed, exact to 1e-7 m
-    double foot_m;      // of the slant's normal, along the axis from a; beyond the ends as well
-  };
-
+  // Exact to 1e-7 m. Free of branches, so that a loop over it vectorises.
   [[nodiscard]] double SignedDistance(double x, double y, double z) const {
-    return Locate(x, y, z).distance_m;
-  }
-
-  // Free of branches, so that a loop over it vectorises.
-  [[nodiscard]] Place Locate(double x, double y, double z) const {
     const double dx = x - ax;
     const double dy = y - ay;
     const double dz = z - az;
@@ -50,12 +41,11 @@ struct DistanceKernel {
     const double rest = dx * dx + dy * dy + dz * dz - axial * axial;
     const double squared = rest > 0.0 ? rest : 0.0;
     const double radial = std::sqrt(squared);
-    const double foot = axial - radial * slope;
-    double t = foot * inverse_length;
+    double t = (axial - radial * slope) * inverse_length;
     t = t > 0.0 ? t : 0.0;
     t = t < 1.0 ? t : 1.0;
     const double off = axial - t * length;
-    return {std::sqrt(squared + off * off) - (ra + t * dr), foot};
+    return std::sqrt(squared + off * off) - (ra + t * dr);
   }
 
   double ax = 0, ay = 0, az = 0, ux = 1, uy = 0, uz = 0;

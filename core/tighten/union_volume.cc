@@ -113,15 +113,15 @@ class Sampler {
     if (capsule.IsSphere()) return share;
     Random random(seed_ ^ (index * 0x9E3779B9u));
     const Eigen::Vector3d middle = 0.5 * (capsule.a().center_m + capsule.b().center_m);
-    const std::vector<Neighbour> others = NeighboursOf(
-        middle, 0.5 * capsule.length_m() + std::max(capsule.a().radius_m, capsule.b().radius_m),
-        index);
+    const double reach =
+        0.5 * capsule.length_m() + std::max(capsule.a().radius_m, capsule.b().radius_m);
+    const Slanted slanted = {capsule, middle, NeighboursOf(middle, reach, index)};
     const double slant_length = capsule.length_m() * capsule.cos_half_angle();
     const int rings = CountFor(slant_length, spacing_, kMinRings);
     Hiding hiding;
     for (int ring = 0; ring < rings; ++ring) {
       const double t = (ring + random.NextUnit()) / rings;
-      Ring(capsule, middle, t, slant_length / rings, random.NextUnit(), others, hiding, share);
+      Ring(slanted, {t, slant_length / rings, random.NextUnit()}, hiding, share);
     }
     return share;
   }
@@ -195,6 +195,20 @@ class Sampler {
     FloatKernel kernel;    // as seen from the capsule's middle
     float joint_m = 0.0f;  // where the solid leaves the shared sphere, along the kernel's axis
     float way = 0.0f;      // 1 or -1: to where on that axis; 0: no shared sphere
+  };
+
+  // A capsule with what is around it.
+  struct Slanted {
+    const TaperedCapsule& capsule;
+    Eigen::Vector3d middle;
+    std::vector<Neighbour> others;
+  };
+
+  // Samples around a capsule at an axis parameter.
+  struct RingPlace {
+    double t;
+    double width;  // of the slant that they stand for
+    double turn;   // of the first one, in steps
   };
 
   // What may hide parts of a ring; kept from ring to ring for its memory.
@@ -274,16 +288,17 @@ class Sampler {
     return near;
   }
 
-  void Ring(const TaperedCapsule& capsule, const Eigen::Vector3d& middle, double t, double width,
-            double turn, const std::vector<Neighbour>& others, Hiding& hiding, Share& share) const {
-    const Eigen::Vector3f center =
-        ((1 - t) * capsule.a().center_m + t * capsule.b().center_m - middle).cast<float>();
+  void Ring(const Slanted& slanted, const RingPlace& place, Hiding& hiding, Share& share) const {
+    const TaperedCapsule& capsule = slanted.capsule;
+    const double t = place.t;
+    const Eigen::Vector3d axis_point = (1 - t) * capsule.a().center_m + t * capsule.b().center_m;
+    const Eigen::Vector3f center = (axis_point - slanted.middle).cast<float>();
     const double radius = (1 - t) * capsule.a().radius_m + t * capsule.b().radius_m;
     std::vector<const FloatKernel*>& near = hiding.near;
     std::vector<const Neighbour*>& joined = hiding.joined;
     near.clear();
     joined.clear();
-    for (const Neighbour& other : others) {
+    for (const Neighbour& other : slanted.others) {
       const float distance = other.kernel.SignedDistance(center.x(), center.y(), center.z());
       if (distance < -radius - fade_) return;  // hides the ring
       if (distance >= radius + fade_) continue;
@@ -298,7 +313,7 @@ class Sampler {
     const Eigen::Vector3d first = capsule.cos_half_angle() * capsule.axis().unitOrthogonal();
     const Eigen::Vector3d second = capsule.axis().cross(first);
     const Eigen::Vector3d along = capsule.sin_half_angle() * capsule.axis();
-    Turner turner(2.0 * std::numbers::pi * turn / count, 2.0 * std::numbers::pi / count);
+    Turner turner(2.0 * std::numbers::pi * place.turn / count, 2.0 * std::numbers::pi / count);
     Samples samples;
     for (int i = 0; i < count; ++i, turner.Next()) {
       const Eigen::Vector3d normal = along + turner.cosine * first + turner.sine * second;
@@ -307,7 +322,7 @@ class Sampler {
       samples.FillUp();
       for (const FloatKernel* other : near) HideBehind(*other, samples);
       for (const Neighbour* other : joined) HideBehindJoined(*other, samples);
-      Collect(samples, middle, girth * width / count, t, share);
+      Collect(samples, slanted.middle, girth * place.width / count, t, share);
     }
   }
 

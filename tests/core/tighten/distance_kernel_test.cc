@@ -42,9 +42,9 @@ TEST(DistanceKernelTest, InFloatsAroundAPointToAMicrometre) {
 
 TEST(DistanceKernelTest, TheFootLiesBehindThePointAlongTheSlant) {
   // Half opening angle with sine 0.6: a point straight over the axis foots 0.75 of its height back.
-  const DistanceKernel kernel =
-      DistanceKernel(geometry::TaperedCapsule({{0, 0, 0}, 0.8}, {{1, 0, 0}, 0.2}));
-  EXPECT_NEAR(kernel.Locate(3.0, 2.0, 0.0).foot_m, 3.0 - 0.75 * 2.0, 1e-12);
+  const DistanceKernel solid(geometry::TaperedCapsule({{0, 0, 0}, 0.8}, {{1, 0, 0}, 0.2}));
+  const FloatKernel kernel = KernelAround(solid, {0, 0, 0});
+  EXPECT_NEAR(kernel.Locate(3.0f, 2.0f, 0.0f).foot_m, 3.0 - 0.75 * 2.0, 1e-6);
 }
 
 }  // namespace

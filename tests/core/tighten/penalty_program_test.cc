@@ -56,22 +56,27 @@ TEST(PenaltyProgramTest, ARowHoldsWhenItsPenaltyIsWorthIt) {
   }
 }
 
+PenaltyProgram RandomProgram(Random& random) {
+  const int groups = 2 + static_cast<int>(random.NextBelow(6));
+  PenaltyProgram program = Free(4 * groups, random.NextIn(0.01, 1.0));
+  for (double& g : program.gradient) g = random.NextIn(-1, 1);
+  for (int k = 0; k < 40; ++k) {
+    PenaltyRow row;
+    row.first[0] = 4 * static_cast<int>(random.NextBelow(static_cast<std::uint64_t>(groups)));
+    row.first[1] = 4 * static_cast<int>(random.NextBelow(static_cast<std::uint64_t>(groups)));
+    if (row.first[0] == row.first[1]) row.first[1] = -1;
+    for (double& c : row.coefficients) c = random.NextIn(-1, 1);
+    row.value = random.NextIn(-1.0, 0.5);
+    row.penalty = random.NextIn(0.05, 3.0);
+    program.rows.push_back(row);
+  }
+  return program;
+}
+
 TEST(PenaltyProgramTest, NothingNearOrFarIsBetter) {
   Random random(61);
   for (int round = 0; round < 30; ++round) {
-    const int groups = 2 + static_cast<int>(random.NextBelow(6));
-    PenaltyProgram program = Free(4 * groups, random.NextIn(0.01, 1.0));
-    for (double& g : program.gradient) g = random.NextIn(-1, 1);
-    for (int k = 0; k < 40; ++k) {
-      PenaltyRow row;
-      row.first[0] = 4 * static_cast<int>(random.NextBelow(static_cast<std::uint64_t>(groups)));
-      row.first[1] = 4 * static_cast<int>(random.NextBelow(static_cast<std::uint64_t>(groups)));
-      if (row.first[0] == row.first[1]) row.first[1] = -1;
-      for (double& c : row.coefficients) c = random.NextIn(-1, 1);
-      row.value = random.NextIn(-1.0, 0.5);
-      row.penalty = random.NextIn(0.05, 3.0);
-      program.rows.push_back(row);
-    }
+    const PenaltyProgram program = RandomProgram(random);
     const Eigen::VectorXd d = Solve(program, 1e-6);
     EXPECT_TRUE((d.array() > program.lower.array()).all());
     EXPECT_TRUE((d.array() < program.upper.array()).all());
@@ -81,6 +86,22 @@ TEST(PenaltyProgramTest, NothingNearOrFarIsBetter) {
       Eigen::VectorXd other = d;
       for (double& x : other) x = std::clamp(x + reach * random.NextIn(-1, 1), -1.0, 1.0);
       EXPECT_GE(Objective(program, other), value - 1e-4);
+    }
+  }
+}
+
+// In floats where so much may be left, else in doubles.
+TEST(PenaltyProgramTest, LeavesNoMoreThanTheGapOfWhatItWins) {
+  Random random(62);
+  for (int round = 0; round < 100; ++round) {
+    const PenaltyProgram program = RandomProgram(random);
+    const double at_first = Objective(program, Eigen::VectorXd::Zero(program.gradient.size()));
+    const double least = Objective(program, Solve(program, 1e-9));
+    for (const double gap : {0.1, 0.03, 0.01, 1e-3, 1e-5}) {
+      const Eigen::VectorXd d = Solve(program, gap);
+      EXPECT_TRUE((d.array() > program.lower.array()).all());
+      EXPECT_TRUE((d.array() < program.upper.array()).all());
+      EXPECT_LE(Objective(program, d) - least, 2.0 * gap * (at_first - least) + 1e-7);
     }
   }
 }

@@ -74,6 +74,33 @@ TEST(EnclosingMovesTest, WhatOthersCoverIsLeastMissed) {
   EXPECT_GT(removals.back().loss_per_primitive, 1e-4);
 }
 
+TEST(EnclosingMovesTest, NothingGoesBesideWhatHasJustGone) {
+  capsule::MirroredSet graph = Beads(6);
+  for (int v = 0; v + 1 < 6; ++v) graph.AddCapsule(v, v + 1);
+  SparedGraph rest(graph);
+  rest.Remove(EditOf(EditKind::kDissolve, 1));
+  EXPECT_EQ(rest.graph().sphere_count(), 5);
+  rest.Remove(EditOf(EditKind::kDissolve, 2));
+  rest.Remove(EditOf(EditKind::kUnlink, graph.IndexOfCapsule(2, 3)));
+  EXPECT_EQ(rest.graph().sphere_count(), 5);
+  EXPECT_EQ(rest.graph().capsule_count(), 4);
+  // Named by what they were in the graph before.
+  rest.Remove(EditOf(EditKind::kUnlink, graph.IndexOfCapsule(4, 5)));
+  EXPECT_EQ(rest.graph().capsules(), (std::vector<capsule::CapsuleEnds>{{1, 2}, {2, 3}, {0, 1}}));
+  EXPECT_EQ(rest.graph().sphere(3).center_m, graph.sphere(4).center_m);
+}
+
+TEST(EnclosingMovesTest, WhatGoesTakesItsImageAlong) {
+  const capsule::MirroredSet graph = LeggedGraph(true);
+  for (const Removal& removal : RemovalsOf(graph, TubeTask().Weigh(graph))) {
+    SparedGraph rest(graph);
+    for (const Removal& other : {removal, RemovalsOf(graph, TubeTask().Weigh(graph)).back()}) {
+      rest.Remove(other.edit);
+      EXPECT_TRUE(capsule::IsExactlyMirrored(rest.graph()));
+    }
+  }
+}
+
 TEST(EnclosingMovesTest, CuttingChangesNoShapeAndKeepsToTheBudget) {
   capsule::MirroredSet graph = LeggedGraph(true);
   const capsule::MirroredSet before = graph;
