@@ -51,7 +51,6 @@ constexpr int kHungSteps = 8;      // for a layout that is kept
 constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
 // Of an enclosing search: rounds of giving up and spending anew, and how much of the time it takes.
 constexpr int kRounds = 8;
-constexpr int kRoundsOfFew = 12;
 constexpr int kQuickRounds = 1;
 constexpr double kSearched = 0.92;
 constexpr double kFillingShare = 0.75;    // of the budget, that a standard layout must use
@@ -231,9 +230,7 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
   pool.ForEach(spacings.rough > spacings.usual ? 3 : 2, [&](std::size_t i) {
     task_of[i].first->emplace(target, body.is_symmetric, options.tolerance_m, task_of[i].second);
   });
-  const int rounds = !options.thorough              ? kQuickRounds
-                     : primitives <= kFewPrimitives ? kRoundsOfFew
-                                                    : kRounds;
+  const int rounds = options.thorough ? kRounds : kQuickRounds;
   capsule::MirroredSet graph =
       FindEnclosingGraph(rough ? *rough : *usual, *usual, options.budget,
                          StartsOf(body, options, primitives), rounds, kSearched, pool, meter);

@@ -22,7 +22,7 @@ struct RefineOptions {
   capsule::Budget budget;    // at least 3 spheres' worth
   double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, 0.1]
   body::PartSelection parts;
-  // False: one of the eight to twelve rounds that improve what the layouts lead to, and no
+  // False: one of the eight rounds that improve what the layouts lead to, and no
   // exchanges in a best fit: less than half the time, and some hundredths more E_r.
   bool thorough = true;
   std::uint64_t seed = 0;  // of the best fit's samples
