@@ -29,8 +29,8 @@ struct PenaltyProgram {
 
 // Solves to `relative_gap` of the decrease won. Primal-dual interior point with predictor and
 // corrector (Mehrotra 1992); the rows' slacks are eliminated, so that each iteration costs 36
-// products a row and one Cholesky factorisation by blocks. Ten to twenty iterations, about 20 ns a row
-// each; from a gap of a hundredth on rows are reckoned in floats, which takes half as long. The
+// products a row and one Cholesky factorisation by blocks. Ten to twenty iterations, about 20 ns a
+// row each; from a gap of a hundredth on rows are reckoned in floats, which takes half as long. The
 // bounds hold strictly. Deterministic.
 [[nodiscard]] Eigen::VectorXd Solve(const PenaltyProgram& program, double relative_gap);
 
