@@ -21,15 +21,17 @@ struct Layout {
 };
 
 // From the smallest that still has a capsule in each chain to more than the paper's twenty.
-constexpr std::array<Layout, 9> kLadder = {{{2, 2, 2},
-                                            {3, 2, 2},
-                                            {3, 2, 3},
-                                            {4, 3, 3},
-                                            {5, 3, 4},
-                                            {6, 3, 4},
-                                            {7, 4, 5},
-                                            {9, 5, 6},
-                                            {11, 6, 8}}};
+constexpr std::array<Layout, 11> kLadder = {{{2, 2, 2},
+                                             {3, 2, 2},
+                                             {3, 2, 3},
+                                             {4, 3, 3},
+                                             {5, 3, 4},
+                                             {6, 3, 4},
+                                             {7, 4, 5},
+                                             {9, 5, 6},
+                                             {11, 6, 8},
+                                             {14, 8, 10},
+                                             {18, 10, 13}}};
 constexpr Layout kPaperLayout = {6, 3, 4};
 
 constexpr int kMostCapsulesPerSphere = 2;
