@@ -1,11 +1,18 @@
+#include <algorithm>
 #include <array>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/capsule/build_primitives.h"
+#include "core/capsule/mirrored_set.h"
 #include "core/geometry/smallest_enclosing.h"
 
 namespace capfit::capsule {
 namespace {
+
+// A difference must be felt: mirrored spheres tie to the last digits.
+constexpr double kFeltM = 1e-9;
 
 using PointsByPart = std::array<std::vector<Eigen::Vector3d>, body::kPartCount>;
 
@@ -54,6 +61,21 @@ void AddPair(body::Part part, std::vector<Eigen::Vector3d> points,
   Add(body::MirrorPart(part), index, MirrorImage(ball), set);
 }
 
+// The sphere of the ball's chain that leaves the least gap; -1: there is none.
+int NearestOfChain(const MirroredSet& set, int ball) {
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < set.sphere_count(); ++i) {
+    if (set.part(i) != ChainAt(set.part(ball))) continue;
+    const geometry::Sphere& sphere = set.sphere(i);
+    const double gap = (sphere.center_m - set.sphere(ball).center_m).norm() - sphere.radius_m;
+    if (gap >= least - kFeltM) continue;
+    least = gap;
+    nearest = i;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 void AddEndBalls(const body::Body& body, const body::PartSelection& parts, PrimitiveSet& set) {
@@ -71,6 +93,32 @@ void AddEndBalls(const body::Body& body, const body::PartSelection& parts, Primi
       AddPair(part, own, others, set);
     }
   }
+}
+
+body::Part ChainAt(body::Part ball) {
+  switch (ball) {
+    case body::Part::kLeftHand:
+      return body::Part::kLeftArm;
+    case body::Part::kRightHand:
+      return body::Part::kRightArm;
+    case body::Part::kLeftFoot:
+      return body::Part::kLeftLeg;
+    case body::Part::kRightFoot:
+      return body::Part::kRightLeg;
+    default:
+      return body::Part::kTorso;
+  }
+}
+
+void LinkEndBalls(PrimitiveSet& set) {
+  MirroredSet linked(std::move(set), /*is_mirrored=*/true);
+  for (int ball = 0; ball < linked.sphere_count(); ++ball) {
+    const bool is_ball = static_cast<int>(linked.part(ball)) >= body::kChainCount;
+    if (!is_ball || !linked.IsRepresentative(ball)) continue;
+    const int nearest = NearestOfChain(linked, ball);
+    if (nearest >= 0) linked.AddCapsule(ball, nearest);
+  }
+  set = linked.set();
 }
 
 }  // namespace capfit::capsule

@@ -27,6 +27,14 @@ namespace capfit::capsule {
 // each around both sides' vertices, and the head's ball is centred. O(vertices).
 void AddEndBalls(const body::Body& body, const body::PartSelection& parts, PrimitiveSet& set);
 
+// The chain that a head (torso), a hand (arm) or a foot (leg) hangs on.
+[[nodiscard]] body::Part ChainAt(body::Part ball);
+
+// A capsule from each ball to the sphere of its chain that leaves the least gap, and to that one's
+// image (not in the paper): the ball need not reach round the whole part then. For sets whose
+// spheres are moved and sized together; where they only grow it would enclose more for nothing.
+void LinkEndBalls(PrimitiveSet& set);
+
 // Removes capsules that one other capsule covers, then those that the union of the others covers.
 // Mirrored capsules go together; small ones are asked first. The union is certified by cutting the
 // capsule's slanted surface into patches until each is at most `tolerance_m` outside the others,

@@ -31,6 +31,7 @@ class MirroredSet {
   [[nodiscard]] const std::vector<CapsuleEnds>& capsules() const { return set_.capsules; }
   [[nodiscard]] const geometry::Sphere& sphere(int v) const { return set_.spheres[At(v)]; }
   [[nodiscard]] geometry::Sphere& sphere(int v) { return set_.spheres[At(v)]; }
+  [[nodiscard]] body::Part part(int v) const { return set_.origins[At(v)].part; }
   [[nodiscard]] const CapsuleEnds& ends(int e) const { return set_.capsules[At(e)]; }
 
   // The image of sphere `v` or capsule `e`; itself on the mid-plane and where there is none.

@@ -155,7 +155,7 @@ class BodyFit {
   absl::Status Approximate() {
     clock_.Begin(Stage::kSection);
     const capsule::Budget total = TotalBudget(options_);
-    const capsule::Budget chains = ChainBudget(total, OverheadOf(*body_, options_.parts, total));
+    const capsule::Budget chains = ChainBudget(total, OverheadOf(*body_, options_, total));
     section::FeaturePolygons features = section::ExtractFeaturePolygons(
         *body_, PlanSections(options_, *body_, chains), pool_, clock_);
     Append(std::move(features.warnings), result_.warnings);

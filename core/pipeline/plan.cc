@@ -2,37 +2,45 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "core/capsule/build_primitives.h"
 #include "core/pipeline/engines.h"
 
 namespace capfit::pipeline {
 namespace {
 
-// Polygons on the torso, on an arm, on a leg.
+// Polygons on the torso, on an arm, on a leg. `room`: what the budget must have for them, relative
+// to their cost with one circle each.
 struct Layout {
   int torso = 0;
   int arm = 0;
   int leg = 0;
+  double room = 1.0;
 };
 
-// From the smallest that still has a capsule in each chain to more than the paper's twenty.
-constexpr std::array<Layout, 11> kLadder = {{{2, 2, 2},
-                                             {3, 2, 2},
-                                             {3, 2, 3},
-                                             {4, 3, 3},
-                                             {5, 3, 4},
-                                             {6, 3, 4},
-                                             {7, 4, 5},
-                                             {9, 5, 6},
-                                             {11, 6, 8},
-                                             {14, 8, 10},
-                                             {18, 10, 13}}};
-constexpr Layout kPaperLayout = {6, 3, 4};
+// From the smallest that still has a capsule in each chain to more than the paper's twenty. With
+// little to spend, more polygons serve better than more circles on each; later both grow.
+constexpr std::array<Layout, 13> kLadder = {{{2, 2, 2, 1.0},
+                                             {3, 2, 2, 1.0},
+                                             {3, 2, 3, 1.0},
+                                             {3, 3, 3, 1.0},
+                                             {3, 3, 4, 1.0},
+                                             {4, 3, 4, 1.0},
+                                             {6, 3, 5, 1.2},
+                                             {6, 4, 6, 1.3},
+                                             {8, 5, 7, 1.3},
+                                             {9, 5, 8, 1.6},
+                                             {11, 6, 9, 2.0},
+                                             {14, 8, 10, 2.2},
+                                             {18, 10, 13, 2.5}}};
+constexpr Layout kPaperLayout = {6, 3, 4, 1.0};
 
 constexpr int kMostCapsulesPerSphere = 2;
 
@@ -53,31 +61,45 @@ ChainsPresent CountChains(const body::Body& body, const body::PartSelection& par
           Present(body, parts, Part::kLeftLeg) + Present(body, parts, Part::kRightLeg)};
 }
 
-// A chain of `polygons` with `circles` on each and all pairs of neighbours joined.
-capsule::PrimitiveCount ChainCost(int polygons, int circles) {
-  return {polygons * circles, (polygons - 1) * circles * circles};
+// With one circle on each polygon.
+capsule::PrimitiveCount Cost(const Layout& layout, const ChainsPresent& chains) {
+  const int spheres =
+      chains.torsos * layout.torso + chains.arms * layout.arm + chains.legs * layout.leg;
+  return {spheres, spheres - chains.torsos - chains.arms - chains.legs};
 }
 
-// With `torso_circles` on each torso polygon and one on each limb polygon.
-capsule::PrimitiveCount Cost(const Layout& layout, const ChainsPresent& chains, int torso_circles) {
-  const capsule::PrimitiveCount torso = ChainCost(layout.torso, torso_circles);
-  const capsule::PrimitiveCount arm = ChainCost(layout.arm, 1);
-  const capsule::PrimitiveCount leg = ChainCost(layout.leg, 1);
-  return {chains.torsos * torso.spheres + chains.arms * arm.spheres + chains.legs * leg.spheres,
-          chains.torsos * torso.capsules + chains.arms * arm.capsules + chains.legs * leg.capsules};
+// What a budget must have for the layout to be taken.
+capsule::PrimitiveCount RoomFor(const Layout& layout, const ChainsPresent& chains) {
+  const capsule::PrimitiveCount cost = Cost(layout, chains);
+  const auto more = [&](int count) { return static_cast<int>(std::lround(layout.room * count)); };
+  return {more(cost.spheres), more(cost.capsules)};
 }
 
-int CountBalls(const body::Body& body, const body::PartSelection& parts) {
+// The heads, hands and feet that get a ball.
+std::vector<body::Part> EndsPresent(const body::Body& body, const body::PartSelection& parts) {
   std::array<bool, body::kPartCount> has_vertices{};
   for (const body::Segment segment : body.vertex_segments) {
     has_vertices[static_cast<std::size_t>(body::PartOf(segment))] = true;
   }
-  int balls = 0;
+  std::vector<body::Part> ends;
   for (int i = body::kChainCount; i < body::kPartCount; ++i) {
-    const bool is_wanted = parts.Includes(static_cast<body::Part>(i));
-    if (is_wanted && has_vertices[static_cast<std::size_t>(i)]) ++balls;
+    const body::Part part = static_cast<body::Part>(i);
+    if (parts.Includes(part) && has_vertices[static_cast<std::size_t>(i)]) ends.push_back(part);
   }
-  return balls;
+  return ends;
+}
+
+int CountBalls(const body::Body& body, const body::PartSelection& parts) {
+  return static_cast<int>(EndsPresent(body, parts).size());
+}
+
+// Capsules from balls to chains, at most: the head's ball is joined to both of a pair.
+int CountBallLinks(const body::Body& body, const body::PartSelection& parts) {
+  int links = 0;
+  for (const body::Part ball : EndsPresent(body, parts)) {
+    links += Present(body, parts, capsule::ChainAt(ball)) * (ball == body::Part::kHead ? 2 : 1);
+  }
+  return links;
 }
 
 // A limit that the caller gave, or none. `engine`: whose capsules make it so many; empty: any.
@@ -137,24 +159,30 @@ capsule::Budget TotalBudget(const FitOptions& options) {
   return budget;
 }
 
-Overhead OverheadOf(const body::Body& body, const body::PartSelection& parts,
+Overhead OverheadOf(const body::Body& body, const FitOptions& options,
                     const capsule::Budget& total) {
+  const body::PartSelection& parts = options.parts;
   Overhead overhead;
   overhead.balls = CountBalls(body, parts);
   const ChainsPresent chains = CountChains(body, parts);
-  if (chains.torsos == 0) return overhead;
-  const int links = chains.arms + chains.legs;
-  capsule::PrimitiveCount least = Cost(kLadder.front(), chains, 1);
+  capsule::PrimitiveCount least = Cost(kLadder.front(), chains);
   least.spheres += overhead.balls;
-  least.capsules += links;
-  if (total.Allows(least)) overhead.links = links;
+  if (chains.torsos > 0) {
+    least.capsules += chains.arms + chains.legs;
+    if (!total.Allows(least)) return overhead;
+    overhead.limb_links = chains.arms + chains.legs;
+  }
+  if (options.grows_only) return overhead;  // links would only make balls of full size larger
+  const int ball_links = CountBallLinks(body, parts);
+  least.capsules += ball_links;
+  if (total.Allows(least)) overhead.ball_links = ball_links;
   return overhead;
 }
 
 absl::Status CheckBudget(const body::Body& body, const FitOptions& asked,
                          const FitOptions& limited) {
   const int balls = CountBalls(body, asked.parts);
-  capsule::PrimitiveCount least = Cost(kLadder.front(), CountChains(body, asked.parts), 1);
+  capsule::PrimitiveCount least = Cost(kLadder.front(), CountChains(body, asked.parts));
   least.spheres += balls;
   if (TotalBudget(limited).Allows(least)) return absl::OkStatus();
   const Engine* const engine = FindEngine(asked.engine);
@@ -174,7 +202,7 @@ absl::Status CheckBudget(const body::Body& body, const FitOptions& asked,
 }
 
 capsule::Budget ChainBudget(const capsule::Budget& total, const Overhead& overhead) {
-  return total.Without({overhead.balls, overhead.links});
+  return total.Without({overhead.balls, overhead.limb_links + overhead.ball_links});
 }
 
 section::SectionOptions PlanSections(const FitOptions& options, const body::Body& body,
@@ -182,7 +210,7 @@ section::SectionOptions PlanSections(const FitOptions& options, const body::Body
   const ChainsPresent chains = CountChains(body, options.parts);
   Layout chosen = kLadder.front();
   for (const Layout& layout : kLadder) {
-    if (chain_budget.Allows(Cost(layout, chains, 2))) chosen = layout;
+    if (chain_budget.Allows(RoomFor(layout, chains))) chosen = layout;
   }
   if (options.polygon_error.has_value()) chosen = kPaperLayout;
   section::SectionOptions sections;

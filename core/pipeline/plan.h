@@ -14,13 +14,14 @@ namespace capfit::pipeline {
 // alone: twice as many capsules. An error threshold: the largest that could be asked for.
 [[nodiscard]] capsule::Budget TotalBudget(const FitOptions& options);
 
-// Balls that head, hands and feet will take, and capsules that link limbs to the trunk (none where
-// the budget has no room for them beside the smallest chains).
+// Balls that head, hands and feet will take, and capsules that link limbs to the trunk and balls to
+// their chains (none where the budget has no room for them beside the smallest chains).
 struct Overhead {
   int balls = 0;
-  int links = 0;
+  int limb_links = 0;
+  int ball_links = 0;
 };
-[[nodiscard]] Overhead OverheadOf(const body::Body& body, const body::PartSelection& parts,
+[[nodiscard]] Overhead OverheadOf(const body::Body& body, const FitOptions& options,
                                   const capsule::Budget& total);
 
 // INVALID_ARGUMENT naming the limit that is too low for the parts found: a chain takes two spheres
@@ -32,9 +33,9 @@ struct Overhead {
 // `total` without the overhead: what the feature polygons of the chains may use.
 [[nodiscard]] capsule::Budget ChainBudget(const capsule::Budget& total, const Overhead& overhead);
 
-// The paper's twenty polygons (6 on the torso, 3 on an arm, 4 on a leg) where the budget carries
-// them; more above that, fewer below: the largest layout of a fixed ladder whose
-// cost with two circles on the torso and one on the limbs fits.
+// The feature polygons that the budget carries: the largest layout of a fixed ladder that has the
+// room it asks for. The paper's twenty (6 on the torso, 3 on an arm, 4 on a leg) come with some 60
+// primitives; fewer below, more above.
 [[nodiscard]] section::SectionOptions PlanSections(const FitOptions& options,
                                                    const body::Body& body,
                                                    const capsule::Budget& chain_budget);
