@@ -62,7 +62,7 @@ constexpr BrokenInput kInputs[] = {
     {"no_mesh.glb", "INVALID_ARGUMENT MISSING", "has no mesh"},
     {"nonmanifold_edge.obj", "OK FINS_DROPPED", ""},
     {"nonmanifold_vertex.obj",
-     "OK UNUSED_VERTICES NONMANIFOLD_VERTICES PART_MISSING SECTION_MISSED", ""},
+     "OK UNUSED_VERTICES NONMANIFOLD_VERTICES PART_MISSING SECTION_MISSED SECTION_MISSED", ""},
     {"one_arm_up.obj", "OK", ""},
     {"open_hole.obj", "OK UNUSED_VERTICES HOLES_CLOSED", ""},
     {"open_neck_wrists_ankles.obj",

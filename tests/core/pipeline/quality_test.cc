@@ -106,7 +106,7 @@ TEST(PaperQuality, ThePublishedLastStepEnclosesWithMore) {
   const FitResult published = MustFit(soup, options);
   EXPECT_LE(FurthestVertexOut(soup, published), 0.0);
   EXPECT_LE(published.metrics.max_gap_m, 1e-3);
-  EXPECT_EQ(published.metrics.n_p, paper.metrics.n_p);
+  EXPECT_NEAR(published.metrics.n_p, paper.metrics.n_p, 3);  // what may stay unspent
   EXPECT_GT(published.metrics.E_r, 1.2 * paper.metrics.E_r);
 }
 
