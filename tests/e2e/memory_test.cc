@@ -168,8 +168,8 @@ grpc::Status SendOneMessage(const std::string& address, const grpc::Slice& bytes
 
 TEST_F(Memory, MessagesOfAQuarterGigabyteEachStayBounded) {
   constexpr int kCallers = 8;
-  // gRPC refuses what is beyond its quota when it has seen it, and where the machine is busy it sees
-  // late: 70 to 110 MB mostly, once 232. Without the quota 2 GB.
+  // gRPC refuses what is beyond its quota when it has seen it, and where the machine is busy it
+  // sees late: 70 to 110 MB mostly, once 232. Without the quota 2 GB.
   constexpr double kMostMib = 512.0;
   const std::string nothing(256 * 1024 * 1024, '\0');
   const grpc::Slice bytes(nothing.data(), nothing.size(), grpc::Slice::STATIC_SLICE);
