@@ -107,5 +107,43 @@ TEST(AddEndBallsTest, OnlyWhatIsAskedForIndicesGoOnFromTheSet) {
   EXPECT_EQ(set.origins[1].mirror, 1);
 }
 
+// Two spheres of each chain, one nearer to the ball's place than the other; pairs where not
+// centred.
+PrimitiveSet ChainsAndBalls() {
+  PrimitiveSet set;
+  const auto pair = [&](Part part, const Eigen::Vector3d& at) {
+    const int index = static_cast<int>(set.spheres.size());
+    set.spheres.push_back({at, 0.05});
+    set.spheres.push_back({{-at.x(), at.y(), at.z()}, 0.05});
+    set.origins.push_back({part, -1, index + 1});
+    set.origins.push_back({body::MirrorPart(part), -1, index});
+  };
+  pair(Part::kTorso, {0.1, 1.0, 0.0});   // 0, 1
+  pair(Part::kTorso, {0.05, 1.4, 0.0});  // 2, 3
+  pair(Part::kLeftArm, {0.3, 1.3, 0.0});
+  pair(Part::kLeftArm, {0.6, 1.3, 0.0});   // 6, 7
+  pair(Part::kLeftHand, {0.8, 1.3, 0.0});  // 8, 9
+  set.spheres.push_back({{0.0, 1.6, 0.0}, 0.1});
+  set.origins.push_back({Part::kHead, -1, 10});
+  return set;
+}
+
+TEST(LinkEndBallsTest, BallsAreJoinedToTheNearestOfTheirChain) {
+  PrimitiveSet set = ChainsAndBalls();
+  LinkEndBalls(set);
+  std::sort(set.capsules.begin(), set.capsules.end());
+  const std::vector<CapsuleEnds> expected = {{2, 10}, {3, 10}, {6, 8}, {7, 9}};
+  EXPECT_EQ(set.capsules, expected);
+  EXPECT_EQ(set.spheres.size(), ChainsAndBalls().spheres.size());
+}
+
+TEST(LinkEndBallsTest, BallsWithoutAChainStayAlone) {
+  PrimitiveSet set;
+  set.spheres = {{{0.1, 0.0, 0.0}, 0.1}, {{0.3, 1.0, 0.0}, 0.1}};
+  set.origins = {{Part::kLeftFoot, -1, -1}, {Part::kLeftArm, -1, -1}};
+  LinkEndBalls(set);
+  EXPECT_TRUE(set.capsules.empty());
+}
+
 }  // namespace
 }  // namespace capfit::capsule
