@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -10,9 +9,6 @@
 
 namespace capfit::capsule {
 namespace {
-
-// A difference must be felt: mirrored spheres tie to the last digits.
-constexpr double kFeltM = 1e-9;
 
 using PointsByPart = std::array<std::vector<Eigen::Vector3d>, body::kPartCount>;
 
@@ -61,19 +57,12 @@ void AddPair(body::Part part, std::vector<Eigen::Vector3d> points,
   Add(body::MirrorPart(part), index, MirrorImage(ball), set);
 }
 
-// The sphere of the ball's chain that leaves the least gap; -1: there is none.
-int NearestOfChain(const MirroredSet& set, int ball) {
-  int nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
+std::vector<int> SpheresOfPart(const MirroredSet& set, body::Part part) {
+  std::vector<int> spheres;
   for (int i = 0; i < set.sphere_count(); ++i) {
-    if (set.part(i) != ChainAt(set.part(ball))) continue;
-    const geometry::Sphere& sphere = set.sphere(i);
-    const double gap = (sphere.center_m - set.sphere(ball).center_m).norm() - sphere.radius_m;
-    if (gap >= least - kFeltM) continue;
-    least = gap;
-    nearest = i;
+    if (set.part(i) == part) spheres.push_back(i);
   }
-  return nearest;
+  return spheres;
 }
 
 }  // namespace
@@ -115,7 +104,8 @@ void LinkEndBalls(PrimitiveSet& set) {
   for (int ball = 0; ball < linked.sphere_count(); ++ball) {
     const bool is_ball = static_cast<int>(linked.part(ball)) >= body::kChainCount;
     if (!is_ball || !linked.IsRepresentative(ball)) continue;
-    const int nearest = NearestOfChain(linked, ball);
+    const std::vector<int> chain = SpheresOfPart(linked, ChainAt(linked.part(ball)));
+    const int nearest = NearestByGap(linked.spheres(), chain, linked.sphere(ball).center_m).index;
     if (nearest >= 0) linked.AddCapsule(ball, nearest);
   }
   set = linked.set();

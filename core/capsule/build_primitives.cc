@@ -121,14 +121,10 @@ class Builder {
     CapsuleEnds best{-1, -1};
     double least = std::numeric_limits<double>::infinity();
     for (const int i : SpheresOf(polygon)) {
-      for (const int j : torso) {
-        const double gap = (At(i).center_m - At(j).center_m).norm() - At(j).radius_m;
-        // The difference must be felt: mirrored spheres tie to the last digits.
-        if (gap < least - 1e-9) {
-          least = gap;
-          best = {i, j};
-        }
-      }
+      const NearestSphere nearest = NearestByGap(set_.spheres, torso, At(i).center_m);
+      if (nearest.index < 0 || !IsFeltSmaller(nearest.gap_m, least)) continue;
+      least = nearest.gap_m;
+      best = {i, nearest.index};
     }
     if (best[0] >= 0) {
       AddCapsule(best[0], best[1]);
@@ -193,6 +189,17 @@ class Builder {
 };
 
 }  // namespace
+
+NearestSphere NearestByGap(std::span<const Sphere> spheres, std::span<const int> candidates,
+                           const Eigen::Vector3d& center_m) {
+  NearestSphere nearest = {-1, std::numeric_limits<double>::infinity()};
+  for (const int i : candidates) {
+    const Sphere& sphere = spheres[static_cast<std::size_t>(i)];
+    const double gap = (center_m - sphere.center_m).norm() - sphere.radius_m;
+    if (IsFeltSmaller(gap, nearest.gap_m)) nearest = {i, gap};
+  }
+  return nearest;
+}
 
 PrimitiveSet BuildPrimitives(std::span<const section::FeaturePolygon> polygons,
                              std::span<const circle::PolygonApproximation> approximations,

@@ -27,6 +27,22 @@ namespace capfit::capsule {
 // each around both sides' vertices, and the head's ball is centred. O(vertices).
 void AddEndBalls(const body::Body& body, const body::PartSelection& parts, PrimitiveSet& set);
 
+// Of `candidates`, indices of spheres, the first that leaves the least gap to a center; -1: of
+// none.
+struct NearestSphere {
+  int index = -1;
+  double gap_m = 0.0;  // from the center to the sphere's surface, negative inside
+};
+// Of `candidates`, indices of spheres, the first that leaves the least gap to a center; -1: of
+// none.
+[[nodiscard]] NearestSphere NearestByGap(std::span<const geometry::Sphere> spheres,
+                                         std::span<const int> candidates,
+                                         const Eigen::Vector3d& center_m);
+// Whether a gap is smaller by what is more than rounding: mirrored spheres tie to the last digits.
+[[nodiscard]] inline bool IsFeltSmaller(double gap_m, double than_m) {
+  return gap_m < than_m - 1e-9;
+}
+
 // The chain that a head (torso), a hand (arm) or a foot (leg) hangs on.
 [[nodiscard]] body::Part ChainAt(body::Part ball);
 

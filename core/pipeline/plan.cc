@@ -26,7 +26,9 @@ struct Layout {
 };
 
 // From the smallest that still has a capsule in each chain to more than the paper's twenty. With
-// little to spend, more polygons serve better than more circles on each; later both grow.
+// little to spend, more polygons serve better than more circles on each; later both grow. Layouts
+// and room: what was best of up to nine layouts at each of nine budgets, over 13 bodies; the best
+// few are within 3 %.
 constexpr std::array<Layout, 13> kLadder = {{{2, 2, 2, 1.0},
                                              {3, 2, 2, 1.0},
                                              {3, 2, 3, 1.0},

@@ -15,7 +15,8 @@ namespace capfit::pipeline {
 [[nodiscard]] capsule::Budget TotalBudget(const FitOptions& options);
 
 // Balls that head, hands and feet will take, and capsules that link limbs to the trunk and balls to
-// their chains (none where the budget has no room for them beside the smallest chains).
+// their chains (none where the budget has no room for them beside the smallest chains; to balls
+// none either where spheres only grow).
 struct Overhead {
   int balls = 0;
   int limb_links = 0;
@@ -34,8 +35,8 @@ struct Overhead {
 [[nodiscard]] capsule::Budget ChainBudget(const capsule::Budget& total, const Overhead& overhead);
 
 // The feature polygons that the budget carries: the largest layout of a fixed ladder that has the
-// room it asks for. The paper's twenty (6 on the torso, 3 on an arm, 4 on a leg) come with some 60
-// primitives; fewer below, more above.
+// room it asks for. About as many as the paper's twenty (6 on the torso, 3 on an arm, 4 on a leg)
+// come with some 60 primitives; fewer below, more above.
 [[nodiscard]] section::SectionOptions PlanSections(const FitOptions& options,
                                                    const body::Body& body,
                                                    const capsule::Budget& chain_budget);
