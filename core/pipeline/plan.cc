@@ -27,8 +27,8 @@ struct Layout {
 
 // From the smallest that still has a capsule in each chain to more than the paper's twenty. With
 // little to spend, more polygons serve better than more circles on each; later both grow. Layouts
-// and room: what was best of up to nine layouts at each of nine budgets, over 13 bodies; the best
-// few are within 3 %.
+// and room: what was best of up to nine layouts at each of twelve budgets, over 13 bodies; the best
+// few are within some per cent of each other.
 constexpr std::array<Layout, 13> kLadder = {{{2, 2, 2, 1.0},
                                              {3, 2, 2, 1.0},
                                              {3, 2, 3, 1.0},
