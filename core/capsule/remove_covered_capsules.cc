@@ -1,8 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/capsule/build_primitives.h"
@@ -17,54 +22,111 @@ using geometry::TaperedCapsule;
 // A certificate that needs more cells than this is not worth having: the capsule stays. Typical
 // ones need a few hundred.
 constexpr int kMaxCells = 20'000;
-// Size of the cells in which the inside is searched for cavities, relative to the capsule's larger
-// radius. The surface is certified exactly; a cavity that fits between these is of no consequence.
-constexpr double kCavityCell = 0.1;
+// The inside is looked at on so many cones, of 1/10, 2/10 ... of the capsule's radii. The outermost
+// is its surface; a cavity that fits between two is of no consequence.
+constexpr int kCones = 10;
+
+// Which of a cover's solids may be nearest somewhere in a cell: a stretch of its list of them.
+struct Candidates {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+struct Nearest {
+  double distance_m = std::numeric_limits<double>::infinity();
+  const TaperedCapsule* solid = nullptr;
+};
 
 // What remains of the set when some of it is left out.
-struct Cover {
-  std::vector<TaperedCapsule> solids;
+class Cover {
+ public:
+  explicit Cover(std::vector<TaperedCapsule> solids) : solids_(std::move(solids)) {}
 
-  double Distance(const Eigen::Vector3d& point) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const TaperedCapsule& solid : solids) {
-      least = std::min(least, solid.SignedDistance(point));
-    }
-    return least;
-  }
-  bool ContainsWhole(const TaperedCapsule& capsule) const {
-    return std::any_of(solids.begin(), solids.end(), [&](const TaperedCapsule& solid) {
+  [[nodiscard]] bool ContainsWhole(const TaperedCapsule& capsule) const {
+    return std::any_of(solids_.begin(), solids_.end(), [&](const TaperedCapsule& solid) {
       return solid.Contains(capsule.a()) && solid.Contains(capsule.b());
     });
   }
+
+  // For the first cells; what was handed out before is void.
+  Candidates All() {
+    listed_.resize(solids_.size());
+    std::iota(listed_.begin(), listed_.end(), std::uint32_t{0});
+    return {0, listed_.size()};
+  }
+
+  // What is nearest to the middle of a cell; and in place of `candidates`, which are those of a
+  // cell that contains it, its own. A solid that is more than twice the cell's reach further than
+  // the nearest is nearest nowhere in it, as distances change no faster than points move.
+  Nearest Look(const Eigen::Vector3d& middle, double reach_m, Candidates& candidates) {
+    distances_.clear();
+    Nearest nearest;
+    for (std::size_t i = candidates.first; i < candidates.last; ++i) {
+      const TaperedCapsule& solid = solids_[listed_[i]];
+      distances_.push_back(solid.SignedDistance(middle));
+      if (distances_.back() < nearest.distance_m) nearest = {distances_.back(), &solid};
+    }
+    const std::size_t begin = listed_.size();
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      if (distances_[i] > nearest.distance_m + 2.0 * reach_m + kRoundingM) continue;
+      listed_.push_back(listed_[candidates.first + i]);
+    }
+    candidates = {begin, listed_.size()};
+    return nearest;
+  }
+
+ private:
+  static constexpr double kRoundingM = 1e-9;
+
+  std::vector<TaperedCapsule> solids_;
+  std::vector<std::uint32_t> listed_;  // indices of solids, cell by cell
+  std::vector<double> distances_;      // of one cell
 };
 
-// The cone between the two tangent circles of a capsule, with coordinates u along the slant and v
-// round the axis, both in [0, 1].
+// The cone between the two tangent circles of a capsule, or of one with the same centres and a
+// share of its radii, with coordinates u along the slant and v round the axis, both in [0, 1].
 class Slant {
  public:
-  explicit Slant(const TaperedCapsule& capsule) : capsule_(capsule) {
+  Slant(const TaperedCapsule& whole, double share)
+      : whole_(whole), capsule_(Scaled(whole.a(), share), Scaled(whole.b(), share)) {
+    const Eigen::Vector3d& axis = capsule_.axis();
     const Eigen::Vector3d helper =
-        std::abs(capsule.axis().x()) < 0.6 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
-    first_ = capsule.axis().cross(helper).normalized();
-    second_ = capsule.axis().cross(first_);
+        std::abs(axis.x()) < 0.6 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+    first_ = axis.cross(helper).normalized();
+    second_ = axis.cross(first_);
   }
-  Eigen::Vector3d At(double u, double v) const {
+  Eigen::Vector3d At(double u, double v) const { return At(u, v, 1.0); }
+  // `stretch` times as far from the axis.
+  Eigen::Vector3d At(double u, double v, double stretch) const {
     const double angle = 2.0 * std::numbers::pi * v;
     const Eigen::Vector3d outward = std::cos(angle) * first_ + std::sin(angle) * second_;
     const Eigen::Vector3d normal =
-        capsule_.sin_half_angle() * capsule_.axis() + capsule_.cos_half_angle() * outward;
+        capsule_.sin_half_angle() * capsule_.axis() + stretch * capsule_.cos_half_angle() * outward;
     return (1 - u) * capsule_.a().center_m + u * capsule_.b().center_m +
            ((1 - u) * capsule_.a().radius_m + u * capsule_.b().radius_m) * normal;
   }
   double length() const { return capsule_.length_m() * capsule_.cos_half_angle(); }
+  // Where, in u, it leaves the whole capsule's end spheres, made larger by the tolerance, and
+  // enters the second. It leaves the tangent circles along tangents.
+  std::pair<double, double> BetweenEnds(double tolerance_m) const {
+    const auto held = [&](const Sphere& whole, const Sphere& own) {
+      const double reach = whole.radius_m + tolerance_m;
+      return std::sqrt(reach * reach - own.radius_m * own.radius_m) / length();
+    };
+    return {held(whole_.a(), capsule_.a()), 1.0 - held(whole_.b(), capsule_.b())};
+  }
   double girth() const {
     return 2.0 * std::numbers::pi * capsule_.cos_half_angle() *
            std::max(capsule_.a().radius_m, capsule_.b().radius_m);
   }
 
  private:
-  const TaperedCapsule& capsule_;
+  static Sphere Scaled(const Sphere& sphere, double share) {
+    return {sphere.center_m, share * sphere.radius_m};
+  }
+
+  const TaperedCapsule& whole_;
+  TaperedCapsule capsule_;
   Eigen::Vector3d first_;
   Eigen::Vector3d second_;
 };
@@ -75,69 +137,61 @@ struct Patch {
   double v = 0.5;
   double half_u = 0.5;
   double half_v = 0.5;
+  Candidates candidates;
 };
 
-// Whether no point of the slant is further than `tolerance_m` outside the cover. Distances change
-// no faster than points move, so one distance decides a whole patch, or it is cut.
-bool CoversSlant(const Cover& cover, const TaperedCapsule& capsule, double tolerance_m) {
-  const Slant slant(capsule);
+// Points whose convex hull contains the patch: the ends of its two arcs, and where the tangents at
+// an arc's ends meet.
+std::array<Eigen::Vector3d, 6> HullOf(const Patch& patch, const Slant& slant) {
+  const double to_tangents = 1.0 / std::cos(2.0 * std::numbers::pi * patch.half_v);
+  std::array<Eigen::Vector3d, 6> points;
+  auto* next = points.begin();
+  for (const double u : {patch.u - patch.half_u, patch.u + patch.half_u}) {
+    *next++ = slant.At(u, patch.v - patch.half_v);
+    *next++ = slant.At(u, patch.v, to_tangents);
+    *next++ = slant.At(u, patch.v + patch.half_v);
+  }
+  return points;
+}
+
+// A solid is convex, and so is what is no further than the tolerance from it.
+bool ContainsAll(const TaperedCapsule& solid, std::span<const Eigen::Vector3d> points,
+                 double tolerance_m) {
+  return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+    return solid.SignedDistance(point) <= tolerance_m;
+  });
+}
+
+// Whether no point of the slant is further than `tolerance_m` outside the cover. What is nearest to
+// a patch's middle contains all of it, or it is cut.
+bool CoversSlant(Cover& cover, const Slant& slant, double tolerance_m) {
+  const auto [begin, end] = slant.BetweenEnds(tolerance_m);
+  const double width = end - begin;
+  if (!(width > 0.0)) return true;
+  const Candidates all = cover.All();
   std::vector<Patch> patches;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 8; ++j) {
-      patches.push_back({(i + 0.5) / 4, (j + 0.5) / 8, 0.5 / 4, 0.5 / 8});
+      patches.push_back(
+          {begin + width * (i + 0.5) / 4, (j + 0.5) / 8, width * 0.5 / 4, 0.5 / 8, all});
     }
   }
   // Breadth first: an exposed point is found before much is certified.
   for (std::size_t next = 0; next < patches.size(); ++next) {
     if (next >= static_cast<std::size_t>(kMaxCells)) return false;
-    const Patch patch = patches[next];
-    const double distance = cover.Distance(slant.At(patch.u, patch.v));
-    if (distance > tolerance_m) return false;
+    Patch patch = patches[next];
     const double half_length = patch.half_u * slant.length();
     const double half_girth = patch.half_v * slant.girth();
-    if (distance + half_length + half_girth <= tolerance_m) continue;
+    const double reach = half_length + half_girth;
+    const Nearest nearest = cover.Look(slant.At(patch.u, patch.v), reach, patch.candidates);
+    if (nearest.distance_m > tolerance_m) return false;
+    if (ContainsAll(*nearest.solid, HullOf(patch, slant), tolerance_m)) continue;
     const bool cut_u = half_length > half_girth;
     for (const double side : {-0.5, 0.5}) {
       Patch half = patch;
       (cut_u ? half.u : half.v) += side * (cut_u ? patch.half_u : patch.half_v);
       (cut_u ? half.half_u : half.half_v) *= 0.5;
       patches.push_back(half);
-    }
-  }
-  return true;
-}
-
-struct Cube {
-  Eigen::Vector3d center;
-  double half = 0.0;
-};
-
-Cube BoundingCube(const TaperedCapsule& capsule) {
-  const Eigen::Array3d a = capsule.a().center_m;
-  const Eigen::Array3d b = capsule.b().center_m;
-  const Eigen::Array3d low = (a - capsule.a().radius_m).min(b - capsule.b().radius_m);
-  const Eigen::Array3d high = (a + capsule.a().radius_m).max(b + capsule.b().radius_m);
-  return {0.5 * (low + high), 0.5 * (high - low).maxCoeff()};
-}
-
-// Whether the inside of the capsule, whose surface is covered, has no cavity worth the name.
-bool CoversInside(const Cover& cover, const TaperedCapsule& capsule, double tolerance_m) {
-  const double least_half =
-      0.5 * kCavityCell * std::max(capsule.a().radius_m, capsule.b().radius_m);
-  std::vector<Cube> cubes = {BoundingCube(capsule)};
-  for (int visited = 0; !cubes.empty(); ++visited) {
-    if (visited >= kMaxCells) return false;
-    const Cube cube = cubes.back();
-    cubes.pop_back();
-    const double reach = std::sqrt(3.0) * cube.half;
-    const double own = capsule.SignedDistance(cube.center);
-    if (own >= reach) continue;  // outside the capsule
-    const double distance = cover.Distance(cube.center);
-    if (own <= 0.0 && distance > tolerance_m) return false;
-    if (distance + reach <= tolerance_m || cube.half <= least_half) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Vector3d step(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      cubes.push_back({cube.center + 0.5 * cube.half * step, 0.5 * cube.half});
     }
   }
   return true;
@@ -174,7 +228,7 @@ class Remover {
   }
 
  private:
-  using Test = bool (Remover::*)(const TaperedCapsule&, const Cover&) const;
+  using Test = bool (Remover::*)(const TaperedCapsule&, Cover&) const;
 
   void MakeGroups() {
     for (int i = 0; i < static_cast<int>(set_.capsules.size()); ++i) {
@@ -188,7 +242,8 @@ class Remover {
   void RemoveIf(const Group& group, Test is_covered) {
     if (is_gone_[static_cast<std::size_t>(group.capsules[0])]) return;
     const TaperedCapsule capsule = set_.Capsule(static_cast<std::size_t>(group.capsules[0]));
-    if (!(this->*is_covered)(capsule, CoverWithout(group, capsule))) return;
+    Cover cover = CoverWithout(group, capsule);
+    if (!(this->*is_covered)(capsule, cover)) return;
     for (const int i : group.capsules) {
       if (i >= 0) is_gone_[static_cast<std::size_t>(i)] = true;
     }
@@ -199,9 +254,9 @@ class Remover {
     const Eigen::Vector3d middle = 0.5 * (capsule.a().center_m + capsule.b().center_m);
     const double reach = 0.5 * capsule.length_m() +
                          std::max(capsule.a().radius_m, capsule.b().radius_m) + tolerance_m_;
-    Cover cover;
+    std::vector<TaperedCapsule> solids;
     const auto add = [&](const TaperedCapsule& solid) {
-      if (solid.SignedDistance(middle) <= reach) cover.solids.push_back(solid);
+      if (solid.SignedDistance(middle) <= reach) solids.push_back(solid);
     };
     for (int i = 0; i < static_cast<int>(set_.capsules.size()); ++i) {
       const auto index = static_cast<std::size_t>(i);
@@ -209,17 +264,22 @@ class Remover {
       add(set_.Capsule(index));
     }
     for (const Sphere& sphere : set_.spheres) add({sphere, sphere});
-    return cover;
+    return Cover(std::move(solids));
   }
 
-  bool IsCoveredByOne(const TaperedCapsule& capsule, const Cover& cover) const {
+  bool IsCoveredByOne(const TaperedCapsule& capsule, Cover& cover) const {
     // A capsule that one of its ends swallows is that sphere.
     return capsule.IsSphere() || cover.ContainsWhole(capsule);
   }
 
-  // The caps need no look: they are part of the end spheres.
-  bool IsCoveredByUnion(const TaperedCapsule& capsule, const Cover& cover) const {
-    return CoversSlant(cover, capsule, tolerance_m_) && CoversInside(cover, capsule, tolerance_m_);
+  // What is not between the cones is part of the end spheres.
+  bool IsCoveredByUnion(const TaperedCapsule& capsule, Cover& cover) const {
+    for (int i = kCones; i > 0; --i) {
+      if (!CoversSlant(cover, Slant(capsule, static_cast<double>(i) / kCones), tolerance_m_)) {
+        return false;
+      }
+    }
+    return true;
   }
 
   PrimitiveSet& set_;
