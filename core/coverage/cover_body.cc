@@ -30,12 +30,12 @@ constexpr double kRowSpacing = 0.015;
 
 // The set finds its shape with points left out at a price, which rises; then they must all come in.
 // Starting with a low price matters most (a fifth of E_r): where everything must be inside from the
-// start, each sphere is caught in the circle it came with.
-constexpr tighten::TightenPhase kLoosePhase{.steps = 12,
+// start, each sphere is caught in the circle it came with. Half as many steps cost 1 to 5 % of E_r.
+constexpr tighten::TightenPhase kLoosePhase{.steps = 24,
                                             .first_trust = 0.012,
-                                            .last_trust = 0.006,
-                                            .first_penalty = 1.3,
-                                            .last_penalty = 8.0};
+                                            .last_trust = 0.003,
+                                            .first_penalty = 1.2,
+                                            .last_penalty = 12.0};
 constexpr tighten::TightenPhase kTightPhase{.steps = 3,
                                             .first_trust = 0.004,
                                             .last_trust = 0.001,
@@ -57,8 +57,8 @@ constexpr int kShowingRounds = 4;
 constexpr double kShownBy = 1e-5;  // metres, see CoverOptions::keeps_swallowed
 // How much of the time has gone by at the end of each phase, as measured; a round takes this share
 // of what is left up to the last.
-constexpr double kLooseUntil = 0.4;
-constexpr double kTightUntil = 0.65;
+constexpr double kLooseUntil = 0.5;
+constexpr double kTightUntil = 0.7;
 constexpr double kLastUntil = 0.9;
 constexpr double kRoundShare = 0.4;
 constexpr double kGrownUntil = 0.95;
