@@ -1,5 +1,7 @@
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -31,30 +33,67 @@ double RadiusAround(const Eigen::Vector3d& center, const std::vector<Eigen::Vect
   return radius;
 }
 
+// The points by stretches of equal length of their longest extent; with a normal, of that within
+// the plane across it. Stretches without points are left out.
+std::vector<std::vector<Eigen::Vector3d>> Stretches(const std::vector<Eigen::Vector3d>& points,
+                                                    int count, const Eigen::Vector3d& normal) {
+  if (count == 1) return {points};
+  const Eigen::Matrix3d in_plane = Eigen::Matrix3d::Identity() - normal * normal.transpose();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) middle += p / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& p : points) spread += (p - middle) * (p - middle).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(in_plane * spread * in_plane);
+  const Eigen::Vector3d longest = axes.eigenvectors().col(2);
+  std::vector<double> places;
+  for (const Eigen::Vector3d& p : points) places.push_back(longest.dot(p));
+  const auto [low, high] = std::minmax_element(places.begin(), places.end());
+  std::vector<std::vector<Eigen::Vector3d>> stretches(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double share = *high > *low ? (places[i] - *low) / (*high - *low) : 0.0;
+    stretches[static_cast<std::size_t>(std::min(static_cast<int>(share * count), count - 1))]
+        .push_back(points[i]);
+  }
+  std::erase_if(stretches, [](const auto& stretch) { return stretch.empty(); });
+  return stretches;
+}
+
 void Add(body::Part part, int mirror, const geometry::Sphere& ball, PrimitiveSet& set) {
   set.spheres.push_back(ball);
   set.origins.push_back({part, -1, mirror});
 }
 
-// One ball on the mid-plane.
-void AddCentred(body::Part part, std::vector<Eigen::Vector3d> points, PrimitiveSet& set) {
-  const std::size_t count = points.size();
-  for (std::size_t i = 0; i < count; ++i) points.push_back(Mirrored(points[i]));
-  geometry::Sphere ball = geometry::SmallestEnclosingBall(points);
-  ball.center_m.x() = 0.0;  // so it is but for rounding
-  ball.radius_m = RadiusAround(ball.center_m, points);
-  Add(part, static_cast<int>(set.spheres.size()), ball, set);
+void AddAlone(body::Part part, const std::vector<Eigen::Vector3d>& points, int count,
+              PrimitiveSet& set) {
+  for (const auto& stretch : Stretches(points, count, Eigen::Vector3d::Zero())) {
+    Add(part, -1, geometry::SmallestEnclosingBall(stretch), set);
+  }
 }
 
-// One ball and its exact image, around both sides' points. The two sides of a symmetric body still
+// Balls on the mid-plane.
+void AddCentred(body::Part part, std::vector<Eigen::Vector3d> points, int count,
+                PrimitiveSet& set) {
+  const std::size_t own = points.size();
+  for (std::size_t i = 0; i < own; ++i) points.push_back(Mirrored(points[i]));
+  for (const auto& stretch : Stretches(points, count, Eigen::Vector3d::UnitX())) {
+    geometry::Sphere ball = geometry::SmallestEnclosingBall(stretch);
+    ball.center_m.x() = 0.0;  // so it is but for rounding
+    ball.radius_m = RadiusAround(ball.center_m, stretch);
+    Add(part, static_cast<int>(set.spheres.size()), ball, set);
+  }
+}
+
+// Balls and their exact images, around both sides' points. The two sides of a symmetric body still
 // differ a little.
-void AddPair(body::Part part, std::vector<Eigen::Vector3d> points,
-             const std::vector<Eigen::Vector3d>& others, PrimitiveSet& set) {
+void AddPairs(body::Part part, std::vector<Eigen::Vector3d> points,
+              const std::vector<Eigen::Vector3d>& others, int count, PrimitiveSet& set) {
   for (const Eigen::Vector3d& p : others) points.push_back(Mirrored(p));
-  const geometry::Sphere ball = geometry::SmallestEnclosingBall(points);
-  const int index = static_cast<int>(set.spheres.size());
-  Add(part, index + 1, ball, set);
-  Add(body::MirrorPart(part), index, MirrorImage(ball), set);
+  for (const auto& stretch : Stretches(points, count, Eigen::Vector3d::Zero())) {
+    const geometry::Sphere ball = geometry::SmallestEnclosingBall(stretch);
+    const int index = static_cast<int>(set.spheres.size());
+    Add(part, index + 1, ball, set);
+    Add(body::MirrorPart(part), index, MirrorImage(ball), set);
+  }
 }
 
 std::vector<int> SpheresOfPart(const MirroredSet& set, body::Part part) {
@@ -67,7 +106,23 @@ std::vector<int> SpheresOfPart(const MirroredSet& set, body::Part part) {
 
 }  // namespace
 
-void AddEndBalls(const body::Body& body, const body::PartSelection& parts, PrimitiveSet& set) {
+int EndBalls::Of(body::Part part) const {
+  switch (part) {
+    case body::Part::kHead:
+      return head;
+    case body::Part::kLeftHand:
+    case body::Part::kRightHand:
+      return hand;
+    case body::Part::kLeftFoot:
+    case body::Part::kRightFoot:
+      return foot;
+    default:
+      return 0;
+  }
+}
+
+void AddEndBalls(const body::Body& body, const body::PartSelection& parts, const EndBalls& balls,
+                 PrimitiveSet& set) {
   const PointsByPart points = GroupByPart(body);
   for (int index = body::kChainCount; index < body::kPartCount; ++index) {
     const body::Part part = static_cast<body::Part>(index);
@@ -75,11 +130,11 @@ void AddEndBalls(const body::Body& body, const body::PartSelection& parts, Primi
     const auto& others = points[static_cast<std::size_t>(body::MirrorPart(part))];
     if (!parts.Includes(part) || own.empty()) continue;
     if (!body.is_symmetric || others.empty()) {
-      Add(part, -1, geometry::SmallestEnclosingBall(own), set);
+      AddAlone(part, own, balls.Of(part), set);
     } else if (body::MirrorPart(part) == part) {
-      AddCentred(part, own, set);
+      AddCentred(part, own, balls.Of(part), set);
     } else if (part < body::MirrorPart(part)) {
-      AddPair(part, own, others, set);
+      AddPairs(part, own, others, balls.Of(part), set);
     }
   }
 }
@@ -101,12 +156,22 @@ body::Part ChainAt(body::Part ball) {
 
 void LinkEndBalls(PrimitiveSet& set) {
   MirroredSet linked(std::move(set), /*is_mirrored=*/true);
-  for (int ball = 0; ball < linked.sphere_count(); ++ball) {
-    const bool is_ball = static_cast<int>(linked.part(ball)) >= body::kChainCount;
-    if (!is_ball || !linked.IsRepresentative(ball)) continue;
-    const std::vector<int> chain = SpheresOfPart(linked, ChainAt(linked.part(ball)));
-    const int nearest = NearestByGap(linked.spheres(), chain, linked.sphere(ball).center_m).index;
-    if (nearest >= 0) linked.AddCapsule(ball, nearest);
+  for (int index = body::kChainCount; index < body::kPartCount; ++index) {
+    const body::Part part = static_cast<body::Part>(index);
+    const std::vector<int> balls = SpheresOfPart(linked, part);
+    if (balls.empty() || !linked.IsRepresentative(balls.front())) continue;
+    for (std::size_t i = 1; i < balls.size(); ++i) linked.AddCapsule(balls[i - 1], balls[i]);
+    const std::vector<int> chain = SpheresOfPart(linked, ChainAt(part));
+    CapsuleEnds best{-1, -1};
+    double least = std::numeric_limits<double>::infinity();
+    for (const int ball : balls) {
+      const NearestSphere nearest =
+          NearestByGap(linked.spheres(), chain, linked.sphere(ball).center_m);
+      if (nearest.index < 0 || !IsFeltSmaller(nearest.gap_m, least)) continue;
+      least = nearest.gap_m;
+      best = {ball, nearest.index};
+    }
+    if (best[0] >= 0) linked.AddCapsule(best[0], best[1]);
   }
   set = linked.set();
 }

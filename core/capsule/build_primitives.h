@@ -22,13 +22,23 @@ namespace capfit::capsule {
     std::span<const section::FeaturePolygon> polygons,
     std::span<const circle::PolygonApproximation> approximations, bool link_limbs);
 
-// Adds the smallest enclosing ball of each selected head, hand and foot that the body has, around
-// the vertices of that segment. On a symmetric body hands and feet are exact images of each other,
-// each around both sides' vertices, and the head's ball is centred. O(vertices).
-void AddEndBalls(const body::Body& body, const body::PartSelection& parts, PrimitiveSet& set);
+// How many balls each of them gets.
+struct EndBalls {
+  int head = 1;
+  int hand = 1;
+  int foot = 1;
 
-// Of `candidates`, indices of spheres, the first that leaves the least gap to a center; -1: of
-// none.
+  [[nodiscard]] int Of(body::Part part) const;  // 0 for chains
+};
+
+// Adds the smallest enclosing ball of each selected head, hand and foot that the body has, around
+// the vertices of that segment; where more than one is asked for (not in the paper), of stretches
+// of equal length of its longest extent, in order. On a symmetric body hands and feet are exact
+// images of each other, each around both sides' vertices, and the head's balls are centred.
+// O(vertices).
+void AddEndBalls(const body::Body& body, const body::PartSelection& parts, const EndBalls& balls,
+                 PrimitiveSet& set);
+
 struct NearestSphere {
   int index = -1;
   double gap_m = 0.0;  // from the center to the sphere's surface, negative inside
@@ -46,9 +56,10 @@ struct NearestSphere {
 // The chain that a head (torso), a hand (arm) or a foot (leg) hangs on.
 [[nodiscard]] body::Part ChainAt(body::Part ball);
 
-// A capsule from each ball to the sphere of its chain that leaves the least gap, and to that one's
-// image (not in the paper): the ball need not reach round the whole part then. For sets whose
-// spheres are moved and sized together; where they only grow it would enclose more for nothing.
+// A capsule from each head, hand and foot to the sphere of its chain that leaves the least gap to
+// one of its balls, and to that one's image, and one between neighbouring balls (not in the paper):
+// the balls need not reach round the whole part then. For sets whose spheres are moved and sized
+// together; where they only grow it would enclose more for nothing.
 void LinkEndBalls(PrimitiveSet& set);
 
 // Removes capsules that one other capsule covers, then those that the union of the others covers.

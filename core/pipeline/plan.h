@@ -5,6 +5,7 @@
 #include "absl/status/status.h"
 #include "core/body/body.h"
 #include "core/capsule/allocation.h"
+#include "core/capsule/build_primitives.h"
 #include "core/pipeline/fit.h"
 #include "core/section/feature_polygon.h"
 
@@ -14,11 +15,12 @@ namespace capfit::pipeline {
 // alone: twice as many capsules. An error threshold: the largest that could be asked for.
 [[nodiscard]] capsule::Budget TotalBudget(const FitOptions& options);
 
-// Balls that head, hands and feet will take, and capsules that link limbs to the trunk and balls to
-// their chains (none where the budget has no room for them beside the smallest chains; to balls
-// none either where spheres only grow).
+// Balls that head, hands and feet will take, the more the larger the budget; and capsules that link
+// limbs to the trunk, and balls to each other and to their chains (none where the budget has no
+// room for them beside the smallest chains; of balls none either where spheres only grow).
 struct Overhead {
-  int balls = 0;
+  capsule::EndBalls end_balls;
+  int balls = 0;  // of all ends together
   int limb_links = 0;
   int ball_links = 0;
 };

@@ -20,24 +20,18 @@ constexpr int kMaxSettlings = 3;
 constexpr double kRateFromCirclesM = 0.008;
 constexpr double kRateFromCutsM = 0.003;
 
-// Which of the capsules that the paper does not have are wanted.
-struct Links {
-  bool limbs = false;  // from limbs to the trunk
-  bool balls = false;  // from balls to their chains
-};
-
 PrimitiveStage Build(const body::Body& body, const FitOptions& options,
                      std::span<const section::FeaturePolygon> polygons,
-                     const std::vector<int>& circle_counts, const Links& links,
+                     const std::vector<int>& circle_counts, const Overhead& overhead,
                      const circle::ErrorCurves& curves) {
   PrimitiveStage stage;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     stage.approximations.push_back(curves.Approximation(static_cast<int>(i), circle_counts[i]));
   }
-  stage.set = capsule::BuildPrimitives(polygons, stage.approximations, links.limbs);
-  capsule::AddEndBalls(body, options.parts, stage.set);
+  stage.set = capsule::BuildPrimitives(polygons, stage.approximations, overhead.limb_links > 0);
+  capsule::AddEndBalls(body, options.parts, overhead.end_balls, stage.set);
   capsule::RemoveCoveredCapsules(stage.set);
-  if (links.balls) capsule::LinkEndBalls(stage.set);
+  if (overhead.ball_links > 0) capsule::LinkEndBalls(stage.set);
   return stage;
 }
 
@@ -46,8 +40,9 @@ PrimitiveStage BuildByThreshold(const body::Body& body, const FitOptions& option
                                 const circle::ErrorCurves& curves) {
   const std::vector<int> counts = capsule::AllocateByThreshold(
       polygons, *options.polygon_error, curves.max_circles(), curves.AsErrorOf());
-  return Build(body, options, polygons, counts, {.limbs = true, .balls = !options.grows_only},
-               curves);
+  capsule::Budget as_large;
+  as_large.max_primitives = capsule::CountPrimitives(polygons, counts).total();
+  return Build(body, options, polygons, counts, OverheadOf(body, options, as_large), curves);
 }
 
 // `budget` with `more` primitives on top of each limit that is set.
@@ -71,7 +66,6 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
   }
   const Overhead overhead = OverheadOf(body, options, total);
   const capsule::Budget chains = ChainBudget(total, overhead);
-  const Links links = {.limbs = overhead.limb_links > 0, .balls = overhead.ball_links > 0};
   PrimitiveStage best;
   std::vector<int> tried;
   int bonus = 0;  // what pruning is expected to free again
@@ -81,7 +75,7 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
     if (round > 0 && counts == tried)
       break;  // the first of none is none, where there are only balls
     tried = counts;
-    PrimitiveStage stage = Build(body, options, polygons, counts, links, curves);
+    PrimitiveStage stage = Build(body, options, polygons, counts, overhead, curves);
     const bool fits = total.Allows(stage.set.count());
     const int unused = total.Unused(stage.set.count());
     if (round == 0 || (fits && unused < total.Unused(best.set.count()))) best = std::move(stage);
