@@ -64,10 +64,11 @@ void LinkEndBalls(PrimitiveSet& set);
 
 // Removes capsules that one other capsule covers, then those that the union of the others covers.
 // Mirrored capsules go together; small ones are asked first. The union is certified by cutting the
-// capsule's slanted surface into patches until each is at most `tolerance_m` outside the others,
-// and its inside into cells of a tenth of its radius. Capsules that one end sphere swallows go
-// too: they are that sphere. Spheres stay, unless no capsule is left that uses them and another
-// capsule contains them. O(capsules^2) and some hundred cells for each capsule that goes.
+// capsule's slanted surface into patches until a single one of the others, made larger by
+// `tolerance_m`, contains each; its inside on cones of a tenth, two tenths ... of its radii. Capsules
+// that one end sphere swallows go too: they are that sphere. Spheres stay, unless no capsule is left
+// that uses them and another capsule contains them. O(capsules^2) and some hundred patches for each
+// capsule that goes.
 void RemoveCoveredCapsules(PrimitiveSet& set, double tolerance_m = 2e-4);
 
 }  // namespace capfit::capsule

@@ -56,7 +56,7 @@ TEST(AddEndBallsTest, BallsAroundHeadHandsAndFeetOnly) {
                                    {Segment::kLeftFoot, {0.1, 0, 0.1}}},
                                   false);
   PrimitiveSet set;
-  AddEndBalls(body, kAll, set);
+  AddEndBalls(body, kAll, {}, set);
   ASSERT_EQ(set.spheres.size(), 4u);
   EXPECT_EQ(set.origins[0].part, Part::kHead);
   EXPECT_EQ(set.origins[1].part, Part::kLeftHand);
@@ -78,7 +78,7 @@ TEST(AddEndBallsTest, OnASymmetricBodyTheyAreExactImagesAroundBothSides) {
                                    {Segment::kRightHand, {-0.51, 1, 0.02}}},
                                   true);
   PrimitiveSet set;
-  AddEndBalls(body, kAll, set);
+  AddEndBalls(body, kAll, {}, set);
   ASSERT_EQ(set.spheres.size(), 3u);
   EXPECT_EQ(set.spheres[0].center_m.x(), 0.0);
   EXPECT_EQ(set.origins[0].mirror, 0);
@@ -101,10 +101,53 @@ TEST(AddEndBallsTest, OnlyWhatIsAskedForIndicesGoOnFromTheSet) {
   PrimitiveSet set;
   set.spheres.push_back({{0, 1, 0}, 0.1});
   set.origins.emplace_back();
-  AddEndBalls(body, {true, true, true, true, false, false}, set);
+  AddEndBalls(body, {true, true, true, true, false, false}, {}, set);
   ASSERT_EQ(set.spheres.size(), 2u);
   EXPECT_EQ(set.origins[1].part, Part::kHead);
   EXPECT_EQ(set.origins[1].mirror, 1);
+}
+
+// Of each stretch of the longest extent: here two boxes beside each other.
+TEST(AddEndBallsTest, SeveralAreInARowAlongThePart) {
+  const body::Body body = BoxBody({{Segment::kHead, {0.0, 1.5, 0.0}},
+                                   {Segment::kHead, {0.0, 1.9, 0.1}},
+                                   {Segment::kLeftFoot, {0.2, 0.1, 0.0}},
+                                   {Segment::kLeftFoot, {0.2, 0.1, 0.4}},
+                                   {Segment::kRightFoot, {-0.2, 0.1, 0.0}},
+                                   {Segment::kRightFoot, {-0.2, 0.1, 0.4}}},
+                                  true);
+  PrimitiveSet set;
+  AddEndBalls(body, kAll, {.head = 2, .hand = 3, .foot = 2}, set);
+  ASSERT_EQ(set.spheres.size(), 6u);
+  for (const geometry::Sphere& ball : set.spheres) {
+    EXPECT_NEAR(ball.radius_m, 0.1 * std::sqrt(3.0), 1e-9);
+  }
+  EXPECT_EQ(set.spheres[0].center_m.x(), 0.0);
+  EXPECT_EQ(set.spheres[1].center_m.x(), 0.0);
+  EXPECT_NEAR(std::abs(set.spheres[0].center_m.y() - set.spheres[1].center_m.y()), 0.4, 1e-9);
+  for (const std::size_t left : {2u, 4u}) {
+    EXPECT_EQ(set.origins[left].part, Part::kLeftFoot);
+    EXPECT_EQ(set.origins[left].mirror, static_cast<int>(left) + 1);
+    EXPECT_EQ(set.origins[left + 1].mirror, static_cast<int>(left));
+    EXPECT_EQ(set.spheres[left].center_m.x(), -set.spheres[left + 1].center_m.x());
+  }
+  EXPECT_NEAR(std::abs(set.spheres[2].center_m.z() - set.spheres[4].center_m.z()), 0.4, 1e-9);
+}
+
+// The head of a body that leans to a side is longest aside; its balls stay in the middle.
+TEST(AddEndBallsTest, OfAHeadTheyAreInTheMiddlePlane) {
+  const body::Body body = BoxBody({{Segment::kHead, {-0.5, 1.5, 0.0}},
+                                   {Segment::kHead, {0.5, 1.5, 0.0}},
+                                   {Segment::kHead, {0.0, 1.8, 0.0}}},
+                                  true);
+  PrimitiveSet set;
+  AddEndBalls(body, kAll, {.head = 2}, set);
+  ASSERT_EQ(set.spheres.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(set.spheres[i].center_m.x(), 0.0);
+    EXPECT_EQ(set.origins[i].mirror, static_cast<int>(i));
+  }
+  EXPECT_NEAR(std::abs(set.spheres[0].center_m.y() - set.spheres[1].center_m.y()), 0.3, 1e-9);
 }
 
 // Two spheres of each chain, one nearer to the ball's place than the other; pairs where not
@@ -135,6 +178,24 @@ TEST(LinkEndBallsTest, BallsAreJoinedToTheNearestOfTheirChain) {
   const std::vector<CapsuleEnds> expected = {{2, 10}, {3, 10}, {6, 8}, {7, 9}};
   EXPECT_EQ(set.capsules, expected);
   EXPECT_EQ(set.spheres.size(), ChainsAndBalls().spheres.size());
+}
+
+TEST(LinkEndBallsTest, ARowIsJoinedAndHangsOnWhatIsNearest) {
+  PrimitiveSet set;
+  set.spheres = {{{0.1, 1.0, 0.0}, 0.1},
+                 {{0.1, 0.2, 0.0}, 0.1},
+                 {{0.1, 0.0, 0.4}, 0.05},
+                 {{0.1, 0.0, 0.2}, 0.05},
+                 {{0.1, 0.0, 0.0}, 0.05}};
+  set.origins = {{Part::kLeftLeg, -1, -1},
+                 {Part::kLeftLeg, -1, -1},
+                 {Part::kLeftFoot, -1, -1},
+                 {Part::kLeftFoot, -1, -1},
+                 {Part::kLeftFoot, -1, -1}};
+  LinkEndBalls(set);
+  std::sort(set.capsules.begin(), set.capsules.end());
+  const std::vector<CapsuleEnds> expected = {{1, 4}, {2, 3}, {3, 4}};
+  EXPECT_EQ(set.capsules, expected);
 }
 
 TEST(LinkEndBallsTest, BallsWithoutAChainStayAlone) {
