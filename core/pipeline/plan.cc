@@ -126,12 +126,13 @@ int CountBallLinks(const body::Body& body, const body::PartSelection& parts,
   return links;
 }
 
-// The smallest chains, a ball for each end, and the links of both.
-capsule::PrimitiveCount LeastOf(const body::Body& body, const body::PartSelection& parts) {
+// The smallest chains, so many balls for the ends, and the links of both.
+capsule::PrimitiveCount LeastWith(const capsule::EndBalls& balls, const body::Body& body,
+                                  const body::PartSelection& parts) {
   const ChainsPresent chains = CountChains(body, parts);
   capsule::PrimitiveCount least = Cost(kLadder.front(), chains);
-  least.spheres += CountBalls(body, parts, {});
-  least.capsules += CountBallLinks(body, parts, {});
+  least.spheres += CountBalls(body, parts, balls);
+  least.capsules += CountBallLinks(body, parts, balls);
   if (chains.torsos > 0) least.capsules += chains.arms + chains.legs;
   return least;
 }
@@ -207,10 +208,13 @@ Overhead OverheadOf(const body::Body& body, const FitOptions& options,
     overhead.limb_links = chains.arms + chains.legs;
   }
   if (options.grows_only) return overhead;  // links would only make balls of full size larger
-  least = LeastOf(body, parts);
+  least = LeastWith({}, body, parts);
   if (!total.Allows(least)) return overhead;
   for (const EndLayout& layout : kEndLadder) {
-    if (total.Allows(Times(layout.room, least))) overhead.end_balls = layout.balls;
+    if (total.Allows(Times(layout.room, least)) &&
+        total.Allows(LeastWith(layout.balls, body, parts))) {
+      overhead.end_balls = layout.balls;
+    }
   }
   overhead.balls = CountBalls(body, parts, overhead.end_balls);
   overhead.ball_links = CountBallLinks(body, parts, overhead.end_balls);

@@ -10,7 +10,7 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
 import expected_set  # noqa: E402
 
-FLOAT_TOLERANCE = 2e-5  # Unity reckons in floats, through a chain of bones
+FLOAT_TOLERANCE = 5e-5  # Unity reckons in floats, through a chain of bones up to a finger's
 
 
 def unity(p):
