@@ -1,7 +1,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -161,16 +160,8 @@ void LinkEndBalls(PrimitiveSet& set) {
     const std::vector<int> balls = SpheresOfPart(linked, part);
     if (balls.empty() || !linked.IsRepresentative(balls.front())) continue;
     for (std::size_t i = 1; i < balls.size(); ++i) linked.AddCapsule(balls[i - 1], balls[i]);
-    const std::vector<int> chain = SpheresOfPart(linked, ChainAt(part));
-    CapsuleEnds best{-1, -1};
-    double least = std::numeric_limits<double>::infinity();
-    for (const int ball : balls) {
-      const NearestSphere nearest =
-          NearestByGap(linked.spheres(), chain, linked.sphere(ball).center_m);
-      if (nearest.index < 0 || !IsFeltSmaller(nearest.gap_m, least)) continue;
-      least = nearest.gap_m;
-      best = {ball, nearest.index};
-    }
+    const CapsuleEnds best =
+        LeastGap(linked.spheres(), balls, SpheresOfPart(linked, ChainAt(part)));
     if (best[0] >= 0) linked.AddCapsule(best[0], best[1]);
   }
   set = linked.set();

@@ -11,6 +11,9 @@ namespace {
 
 using geometry::Sphere;
 
+// Mirrored spheres tie to the last digits.
+constexpr double kGapTieM = 1e-9;
+
 // Circles of a trunk polygon count as each other's mirror image when they match this well, relative
 // to their radius. A symmetric fit matches to rounding; a fit that is not symmetric is nowhere
 // near.
@@ -118,14 +121,7 @@ class Builder {
   void LinkLimb(int polygon, const std::vector<int>& torso) {
     const int mirror = polygons_[static_cast<std::size_t>(polygon)].mirror;
     if (mirror >= 0 && mirror < polygon && LinkLikeMirror(polygon)) return;
-    CapsuleEnds best{-1, -1};
-    double least = std::numeric_limits<double>::infinity();
-    for (const int i : SpheresOf(polygon)) {
-      const NearestSphere nearest = NearestByGap(set_.spheres, torso, At(i).center_m);
-      if (nearest.index < 0 || !IsFeltSmaller(nearest.gap_m, least)) continue;
-      least = nearest.gap_m;
-      best = {i, nearest.index};
-    }
+    const CapsuleEnds best = LeastGap(set_.spheres, SpheresOf(polygon), torso);
     if (best[0] >= 0) {
       AddCapsule(best[0], best[1]);
       links_.push_back(best);
@@ -190,15 +186,21 @@ class Builder {
 
 }  // namespace
 
-NearestSphere NearestByGap(std::span<const Sphere> spheres, std::span<const int> candidates,
-                           const Eigen::Vector3d& center_m) {
-  NearestSphere nearest = {-1, std::numeric_limits<double>::infinity()};
-  for (const int i : candidates) {
-    const Sphere& sphere = spheres[static_cast<std::size_t>(i)];
-    const double gap = (center_m - sphere.center_m).norm() - sphere.radius_m;
-    if (IsFeltSmaller(gap, nearest.gap_m)) nearest = {i, gap};
+CapsuleEnds LeastGap(std::span<const Sphere> spheres, std::span<const int> from,
+                     std::span<const int> to) {
+  CapsuleEnds best{-1, -1};
+  double least = std::numeric_limits<double>::infinity();
+  for (const int i : from) {
+    for (const int j : to) {
+      const Sphere& other = spheres[static_cast<std::size_t>(j)];
+      const double gap =
+          (spheres[static_cast<std::size_t>(i)].center_m - other.center_m).norm() - other.radius_m;
+      if (gap >= least - kGapTieM) continue;
+      least = gap;
+      best = {i, j};
+    }
   }
-  return nearest;
+  return best;
 }
 
 PrimitiveSet BuildPrimitives(std::span<const section::FeaturePolygon> polygons,

@@ -39,19 +39,10 @@ struct EndBalls {
 void AddEndBalls(const body::Body& body, const body::PartSelection& parts, const EndBalls& balls,
                  PrimitiveSet& set);
 
-struct NearestSphere {
-  int index = -1;
-  double gap_m = 0.0;  // from the center to the sphere's surface, negative inside
-};
-// Of `candidates`, indices of spheres, the first that leaves the least gap to a center; -1: of
-// none.
-[[nodiscard]] NearestSphere NearestByGap(std::span<const geometry::Sphere> spheres,
-                                         std::span<const int> candidates,
-                                         const Eigen::Vector3d& center_m);
-// Whether a gap is smaller by what is more than rounding: mirrored spheres tie to the last digits.
-[[nodiscard]] inline bool IsFeltSmaller(double gap_m, double than_m) {
-  return gap_m < than_m - 1e-9;
-}
+// One of `from` and one of `to`, indices of spheres: the first pair with the least gap between the
+// centre of the one and the surface of the other. {-1, -1} where there are none.
+[[nodiscard]] CapsuleEnds LeastGap(std::span<const geometry::Sphere> spheres,
+                                   std::span<const int> from, std::span<const int> to);
 
 // The chain that a head (torso), a hand (arm) or a foot (leg) hangs on.
 [[nodiscard]] body::Part ChainAt(body::Part ball);
@@ -65,10 +56,10 @@ void LinkEndBalls(PrimitiveSet& set);
 // Removes capsules that one other capsule covers, then those that the union of the others covers.
 // Mirrored capsules go together; small ones are asked first. The union is certified by cutting the
 // capsule's slanted surface into patches until a single one of the others, made larger by
-// `tolerance_m`, contains each; its inside on cones of a tenth, two tenths ... of its radii. Capsules
-// that one end sphere swallows go too: they are that sphere. Spheres stay, unless no capsule is left
-// that uses them and another capsule contains them. O(capsules^2) and some hundred patches for each
-// capsule that goes.
+// `tolerance_m`, contains each; its inside on cones of a tenth, two tenths ... of its radii.
+// Capsules that one end sphere swallows go too: they are that sphere. Spheres stay, unless no
+// capsule is left that uses them and another capsule contains them. O(capsules^2) and some hundred
+// patches for each capsule that goes.
 void RemoveCoveredCapsules(PrimitiveSet& set, double tolerance_m = 2e-4);
 
 }  // namespace capfit::capsule
