@@ -104,4 +104,10 @@ void ErrorCurves::Prepare(int circle_count) const {
   });
 }
 
+void ErrorCurves::Prepare(std::span<const int> circle_counts) const {
+  pool_.ForEach(circle_counts.size(), [&](std::size_t polygon) {
+    (void)Compute(static_cast<int>(polygon), circle_counts[polygon]);
+  });
+}
+
 }  // namespace capfit::circle

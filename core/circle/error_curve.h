@@ -52,6 +52,8 @@ class ErrorCurves {
   // Computes 1 to `circle_count` circles for every polygon in parallel: what an allocation will
   // surely ask for.
   void Prepare(int circle_count) const;
+  // So many circles for each polygon, in parallel.
+  void Prepare(std::span<const int> circle_counts) const;
 
  private:
   struct Entry;

@@ -86,7 +86,27 @@ Corners CornersOf(const tighten::CoverTarget& target, std::size_t triangle) {
   return {target.points_m[t[0]], target.points_m[t[1]], target.points_m[t[2]]};
 }
 
-// All corners within `limit_m` of the same solid: true of nearly every triangle, and quick to see.
+// Whether one corner is so deep that nothing of the triangle can be further out than `limit_m`: no
+// distance changes faster than the point moves.
+bool IsDeepEnough(const tighten::CoverTarget& target, const mesh::Triangle& t,
+                  const tighten::UnionDistances& at, double limit_m) {
+  const auto deepest =
+      static_cast<std::size_t>(std::min_element(t.begin(), t.end(),
+                                                [&at](std::uint32_t a, std::uint32_t b) {
+                                                  return at.distance_m[a] < at.distance_m[b];
+                                                }) -
+                               t.begin());
+  const double room = limit_m - kGridAccuracy - at.distance_m[t[deepest]];
+  if (room <= 0.0) return false;
+  const Eigen::Vector3d& corner = target.points_m[t[deepest]];
+  const auto is_within = [&](std::uint32_t other) {
+    return (target.points_m[other] - corner).squaredNorm() <= room * room;
+  };
+  return is_within(t[(deepest + 1) % 3]) && is_within(t[(deepest + 2) % 3]);
+}
+
+// All corners within `limit_m` of the same solid, or one deep inside: true of nearly every
+// triangle, and quick to see.
 bool IsPlainlyNear(const tighten::CoverTarget& target, std::size_t triangle,
                    const tighten::UnionDistances& at, const std::vector<TaperedCapsule>& solids,
                    double limit_m) {
@@ -95,6 +115,7 @@ bool IsPlainlyNear(const tighten::CoverTarget& target, std::size_t triangle,
     return std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]}) <=
            limit_m - kGridAccuracy;
   }
+  if (IsDeepEnough(target, t, at, limit_m)) return true;
   return std::any_of(t.begin(), t.end(), [&](std::uint32_t nearest_to) {
     const TaperedCapsule& solid = solids[static_cast<std::size_t>(at.solid[nearest_to])];
     return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
@@ -196,6 +217,12 @@ double CertifiedGap(const tighten::CoverTarget& target, const capsule::Primitive
   const tighten::PointGrid grid(target.points_m);
   const tighten::UnionDistances at_vertices = InCallersOrder(
       grid, grid.DistancesTo(solids, -std::numeric_limits<double>::infinity(), pool));
+  return CertifiedGap(target, at_vertices, solids, tolerance_m, pool);
+}
+
+double CertifiedGap(const tighten::CoverTarget& target, const tighten::UnionDistances& at_vertices,
+                    const std::vector<TaperedCapsule>& solids, double tolerance_m,
+                    const ThreadPool& pool) {
   double gap = 0.0;
   for (std::size_t v = 0; v < target.points_m.size(); ++v) {
     if (at_vertices.distance_m[v] <= -kGridAccuracy) continue;

@@ -16,13 +16,19 @@ namespace capfit::coverage {
 // asked_m < max_gap_m. None: proved for all triangles. Triangles with a corner that far out are
 // left alone: the corner has to come in first.
 //
-// A triangle is proved when its corners are that near to one solid (which is convex), or when its
-// middle is near enough for its size; otherwise it is cut into four. `at_vertices` are the
-// distances of the target's points, by the target's index. O(triangles) and a little.
+// A triangle is proved when its corners are that near to one solid (which is convex), or when a
+// corner or its middle is near enough for its size; otherwise it is cut into four. `at_vertices`
+// are the distances of the target's points, by the target's index. O(triangles) and a little.
 [[nodiscard]] std::vector<Eigen::Vector3d> FindPointsOutside(
     const tighten::CoverTarget& target, const tighten::UnionDistances& at_vertices,
     const std::vector<geometry::TaperedCapsule>& solids, double asked_m, double max_gap_m,
     const ThreadPool& pool);
+
+// The CertifiedGap of cover_body.h where the distances of the target's points are known already.
+[[nodiscard]] double CertifiedGap(const tighten::CoverTarget& target,
+                                  const tighten::UnionDistances& at_vertices,
+                                  const std::vector<geometry::TaperedCapsule>& solids,
+                                  double tolerance_m, const ThreadPool& pool);
 
 // Distances of the target's points by the target's index.
 [[nodiscard]] tighten::UnionDistances InCallersOrder(const tighten::PointGrid& points,

@@ -164,13 +164,18 @@ class BodyFit {
     clock_.Begin(Stage::kCircle);
     circle::CircleOptions circle_options;
     circle_options.seed = options_.seed;
+    // One local minimum tells how many circles a polygon is worth as well as the best of several.
+    circle::CircleOptions draft_options = circle_options;
+    draft_options.max_idle_teleports = 0;
+    const circle::ErrorCurves drafts(features.polygons, kMaxCirclesPerPolygon, draft_options, pool_,
+                                     clock_);
     const circle::ErrorCurves curves(features.polygons, kMaxCirclesPerPolygon, circle_options,
                                      pool_, clock_);
-    curves.Prepare(kCirclesFittedAhead);
+    (options_.polygon_error ? curves : drafts).Prepare(kCirclesFittedAhead);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
 
     clock_.Begin(Stage::kCapsule);
-    PrimitiveStage stage = BuildUnderBudget(*body_, options_, features.polygons, curves);
+    PrimitiveStage stage = BuildUnderBudget(*body_, options_, features.polygons, drafts, curves);
     set_ = std::move(stage.set);
     if (!IsSearched() && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);

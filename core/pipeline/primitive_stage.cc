@@ -25,6 +25,7 @@ PrimitiveStage Build(const body::Body& body, const FitOptions& options,
                      const std::vector<int>& circle_counts, const Overhead& overhead,
                      const circle::ErrorCurves& curves) {
   PrimitiveStage stage;
+  curves.Prepare(circle_counts);
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     stage.approximations.push_back(curves.Approximation(static_cast<int>(i), circle_counts[i]));
   }
@@ -57,6 +58,7 @@ capsule::Budget Raised(capsule::Budget budget, int more) {
 
 PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
                                 std::span<const section::FeaturePolygon> polygons,
+                                const circle::ErrorCurves& drafts,
                                 const circle::ErrorCurves& curves) {
   const capsule::Budget total = TotalBudget(options);
   if (options.polygon_error.has_value()) {
@@ -71,7 +73,7 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
   int bonus = 0;  // what pruning is expected to free again
   for (int round = 0; round < kMaxRounds; ++round) {
     const std::vector<int> counts = capsule::AllocateUnderBudget(
-        polygons, Raised(chains, bonus), curves.max_circles(), curves.AsErrorOf());
+        polygons, Raised(chains, bonus), drafts.max_circles(), drafts.AsErrorOf());
     if (round > 0 && counts == tried)
       break;  // the first of none is none, where there are only balls
     tried = counts;

@@ -24,8 +24,12 @@ struct PrimitiveStage {
 // Allocates circles, builds spheres and capsules, removes the covered ones, and gives what the
 // removal freed to more circles, until the budget is used up (within 3 primitives) or nothing more
 // can be bought. Never above the budget unless one circle per polygon already is.
+//
+// `drafts` tell what circles would save, and need not be the best ones: only the circles that were
+// allocated, and all of those that an error threshold asks for, are taken from `curves`.
 [[nodiscard]] PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
                                               std::span<const section::FeaturePolygon> polygons,
+                                              const circle::ErrorCurves& drafts,
                                               const circle::ErrorCurves& curves);
 
 // A best fit of quality paper, which nothing encloses later: circles and capsules stay as the

@@ -49,8 +49,11 @@ constexpr double kFineLooseness = 0.5;  // the shape is found, it need not be fo
 constexpr int kFineTakeInSteps = 2;
 constexpr int kHungSteps = 8;      // for a layout that is kept
 constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
-// Of an enclosing search: rounds of giving up and spending anew, and how much of the time it takes.
-constexpr int kRounds = 8;
+// Of an enclosing search: rounds of giving up and spending anew, one for so many primitives (where
+// there are more of them, more can be placed better), and how much of the time it takes.
+constexpr int kPrimitivesPerRound = 40;
+constexpr int kLeastRounds = 2;
+constexpr int kMostRounds = 6;
 constexpr int kQuickRounds = 1;
 constexpr double kSearched = 0.92;
 constexpr double kFillingShare = 0.75;    // of the budget, that a standard layout must use
@@ -230,7 +233,9 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
   pool.ForEach(spacings.rough > spacings.usual ? 3 : 2, [&](std::size_t i) {
     task_of[i].first->emplace(target, body.is_symmetric, options.tolerance_m, task_of[i].second);
   });
-  const int rounds = options.thorough ? kRounds : kQuickRounds;
+  const int rounds = options.thorough
+                         ? std::clamp(primitives / kPrimitivesPerRound, kLeastRounds, kMostRounds)
+                         : kQuickRounds;
   capsule::MirroredSet graph =
       FindEnclosingGraph(rough ? *rough : *usual, *usual, options.budget,
                          StartsOf(body, options, primitives), rounds, kSearched, pool, meter);

@@ -49,8 +49,12 @@ class InteriorPoint {
     Start();
   }
 
-  Eigen::VectorXd Run(double relative_gap) {
-    for (int i = 0; i < kMaxIterations && !IsDone(relative_gap); ++i) Iterate();
+  Eigen::VectorXd Run(const SolveTo& to) {
+    if (to.iterations > 0) {
+      for (int i = 0; i < to.iterations; ++i) Iterate();
+    } else {
+      for (int i = 0; i < kMaxIterations && !IsDone(to.relative_gap); ++i) Iterate();
+    }
     return d_;
   }
 
@@ -338,9 +342,9 @@ class InteriorPoint {
 
 }  // namespace
 
-Eigen::VectorXd Solve(const PenaltyProgram& program, double relative_gap) {
-  return relative_gap >= kFloatGap ? InteriorPoint<float>(program).Run(relative_gap)
-                                   : InteriorPoint<double>(program).Run(relative_gap);
+Eigen::VectorXd Solve(const PenaltyProgram& program, const SolveTo& to) {
+  const bool is_rough = to.iterations > 0 || to.relative_gap >= kFloatGap;
+  return is_rough ? InteriorPoint<float>(program).Run(to) : InteriorPoint<double>(program).Run(to);
 }
 
 }  // namespace capfit::tighten

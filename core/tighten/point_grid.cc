@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/tighten/distance_kernel.h"
+#include "core/tighten/solid_table.h"
 
 namespace capfit::tighten {
 namespace {
@@ -70,10 +71,10 @@ void Lower(const FloatKernel& solid, std::int32_t own_index, const float* x, con
 
 // The solids' distances from a block's centre, the least of them and whose it is.
 struct AtCenter {
-  AtCenter(const std::vector<DistanceKernel>& solids, const Eigen::Vector3d& center,
+  AtCenter(const SolidTable& solids, const Eigen::Vector3d& center,
            std::vector<double>& distance_m) {
+    solids.DistancesFrom(center, distance_m);
     for (std::size_t k = 0; k < solids.size(); ++k) {
-      distance_m[k] = solids[k].SignedDistance(center.x(), center.y(), center.z());
       if (distance_m[k] < least_m) least_m = distance_m[k], nearest = k;
     }
   }
@@ -138,14 +139,14 @@ UnionDistances PointGrid::DistancesTo(const std::vector<TaperedCapsule>& solids,
   result.distance_m.assign(size(), std::numeric_limits<double>::infinity());
   result.solid.assign(size(), -1);
   if (solids.empty()) return result;
-  const std::vector<DistanceKernel> kernels(solids.begin(), solids.end());
+  const SolidTable table(solids);
   pool.ForChunks(blocks_.size(), 32, [&](std::size_t first, std::size_t last) {
     std::vector<double> at_center(solids.size());
     std::array<float, kMaxBlock> best{};
     for (std::size_t b = first; b < last; ++b) {
       const Block& block = blocks_[b];
       const int count = static_cast<int>(block.end - block.begin);
-      const AtCenter at(kernels, block.center, at_center);
+      const AtCenter at(table, block.center, at_center);
       double* const distances = result.distance_m.data() + block.begin;
       std::int32_t* const index = result.solid.data() + block.begin;
       if (at.least_m + block.reach < ignore_below_m) {
@@ -157,7 +158,7 @@ UnionDistances PointGrid::DistancesTo(const std::vector<TaperedCapsule>& solids,
       for (std::size_t k = 0; k < solids.size(); ++k) {
         // Neither this solid nor the nearest at the centre can gain more than the block's reach.
         if (at_center[k] > at.least_m + 2.0 * block.reach) continue;
-        Lower(KernelAround(kernels[k], block.center), static_cast<std::int32_t>(k),
+        Lower(KernelAround(table.kernel(k), block.center), static_cast<std::int32_t>(k),
               x_m_.data() + block.begin, y_m_.data() + block.begin, z_m_.data() + block.begin,
               count, best.data(), index);
       }

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 namespace capfit::tighten {
 
@@ -53,8 +55,32 @@ struct Samples {
   template <typename ShareOf>
   void Hide(const ShareOf& share_of) {
     for (std::size_t first = 0; first < static_cast<std::size_t>(count); first += kLane) {
+      if (!IsSeen(first)) continue;
       for (std::size_t i = first; i < first + kLane; ++i) seen[i] *= share_of(i);
     }
+  }
+
+  // Moves the samples that are seen to `to`, calls `when_full` each time that is full and should
+  // empty it, and leaves none here.
+  template <typename WhenFull>
+  void MoveSeen(Samples& to, const WhenFull& when_full) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      if (seen[i] == 0.0f) continue;
+      const auto next = static_cast<std::size_t>(to.count++);
+      to.x[next] = x[i], to.y[next] = y[i], to.z[next] = z[i];
+      to.nx[next] = nx[i], to.ny[next] = ny[i], to.nz[next] = nz[i];
+      to.seen[next] = seen[i];
+      if (to.IsFull()) when_full();
+    }
+    count = 0;
+  }
+
+ private:
+  // Whether any sample of a lane is: shares are never negative, so one with any bit set is seen.
+  [[nodiscard]] bool IsSeen(std::size_t first) const {
+    std::array<std::uint64_t, kLane * sizeof(float) / sizeof(std::uint64_t)> bits;
+    std::memcpy(bits.data(), seen.data() + first, sizeof(bits));
+    return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
   }
 };
 

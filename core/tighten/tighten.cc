@@ -50,16 +50,18 @@ class Tightener {
   void Step(double trust_m, double penalty, const TightenPhase& phase, std::uint64_t seed) {
     shapes_ = capsule::Solids(set_);
     PenaltyProgram program;
-    AddVolume(seed, program);
+    pool_.ForEach(2, [&](std::size_t half) {  // they touch different members
+      if (half == 0) AddVolume(seed, program);
+      if (half == 1) AddPointRows(kDepthOfInterest * trust_m, phase.row_spacing * size_, program);
+    });
     AddBounds(trust_m, phase.fixed_centers ? kFixed * trust_m : trust_m, program);
-    AddPointRows(kDepthOfInterest * trust_m, phase.row_spacing * size_, program);
     SetPenalties(penalty, program);
     if (phase.uniform_radius) {
       AddUniformRows(program);
     } else {
       AddSteepnessRows(program);
     }
-    const Eigen::VectorXd change = Solve(program, phase.relative_gap);
+    const Eigen::VectorXd change = Solve(program, phase.solve_to);
     if (change.allFinite()) variables_.Apply(change, set_);
   }
 

@@ -12,6 +12,7 @@
 #include "core/base/thread_pool.h"
 #include "core/base/work_meter.h"
 #include "core/capsule/primitive_set.h"
+#include "core/tighten/penalty_program.h"
 #include "core/tighten/point_grid.h"
 
 namespace capfit::tighten {
@@ -28,10 +29,12 @@ struct TightenPhase {
   // must be inside.
   double first_penalty = 3.0;
   double last_penalty = 3.0;
-  // Each step's programme is solved to this share of what it wins: by default far better than its
-  // rows are true. Where it is left unfinished the number of iterations decides, and vertices moved
-  // by a millionth can change that; trials that are only compared may take hundredths.
-  double relative_gap = 1e-8;
+  // How far each step's programme is solved: by default far better than its rows are true. Where a
+  // gap leaves it unfinished, vertices moved by a millionth can change the number of iterations and
+  // with it the result; a number that is given does not depend on them. The next step's programme
+  // makes up for what few iterations leave over. Trials that are only compared may take a gap of
+  // hundredths.
+  SolveTo solve_to = {};
   // 0: a row for each point near the surface. Else one for each cell of this edge length and solid,
   // for the point that asks for most there: enough to end with, where another step follows that
   // sees what the others ask for.

@@ -7,6 +7,7 @@
 
 #include "core/base/random.h"
 #include "core/tighten/distance_kernel.h"
+#include "core/tighten/solid_table.h"
 #include "core/tighten/surface_samples.h"
 
 namespace capfit::tighten {
@@ -43,7 +44,7 @@ class Sampler {
         variables_(variables),
         solids_(variables.solids()),
         shapes_(capsule::Solids(set)),
-        kernels_(shapes_.begin(), shapes_.end()),
+        table_(shapes_),
         spacing_(spacing_m),
         fade_(kFade * spacing_m),
         half_over_fade_(static_cast<float>(0.5 / fade_)),
@@ -89,6 +90,12 @@ class Sampler {
                   2.0 * std::numbers::pi / std::numbers::phi);
     const auto radius = static_cast<float>(sphere.radius_m);
     Samples samples;
+    Samples seen;  // where no cut is: few of them on a sphere between capsules
+    const auto finish = [&] {
+      seen.FillUp();
+      for (const FloatKernel& other : around.others) HideBehind(other, seen);
+      Collect(seen, sphere.center_m, area / count, 0.0, share);
+    };
     for (int i = 0; i < count; ++i, turner.Next()) {
       const double z = 1.0 - 2.0 * (i + 0.5) / count;
       const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
@@ -97,9 +104,9 @@ class Sampler {
       if (!samples.IsFull() && i + 1 < count) continue;
       samples.FillUp();
       for (const Cut& cut : around.cuts) Hide(cut, radius, samples);
-      for (const FloatKernel& other : around.others) HideBehind(other, samples);
-      Collect(samples, sphere.center_m, area / count, 0.0, share);
+      samples.MoveSeen(seen, finish);
     }
+    finish();
     return share;
   }
 
@@ -168,8 +175,11 @@ class Sampler {
     std::vector<const Neighbour*> joined;
   };
 
-  double DistanceOf(std::size_t solid, const Eigen::Vector3d& point) const {
-    return kernels_[solid].SignedDistance(point.x(), point.y(), point.z());
+  // Of all solids from a place.
+  std::vector<double> DistancesFrom(const Eigen::Vector3d& place) const {
+    std::vector<double> distances;
+    table_.DistancesFrom(place, distances);
+    return distances;
   }
 
   // A capsule hides the part of its end sphere beyond the circle where they touch: there both run
@@ -186,6 +196,7 @@ class Sampler {
   Surroundings SurroundingsOf(std::size_t sphere_index) const {
     const Sphere& sphere = set_.spheres[sphere_index];
     const int self = static_cast<int>(sphere_index);
+    const std::vector<double> distances = DistancesFrom(sphere.center_m);
     Surroundings around;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       const TaperedCapsule& shape = shapes_[k];
@@ -200,8 +211,8 @@ class Sampler {
         // Swallowed by this sphere: nothing else is there.
         if (std::max(shape.a().radius_m, shape.b().radius_m) <= sphere.radius_m) continue;
       }
-      if (DistanceOf(k, sphere.center_m) < sphere.radius_m + fade_) {
-        around.others.push_back(KernelAround(kernels_[k], sphere.center_m));
+      if (distances[k] < sphere.radius_m + fade_) {
+        around.others.push_back(KernelAround(table_.kernel(k), sphere.center_m));
       }
     }
     return around;
@@ -220,13 +231,14 @@ class Sampler {
                                       std::size_t self) const {
     const capsule::CapsuleEnds& own = solids_[self];
     const auto is_shared = [&own](int end) { return end == own[0] || end == own[1]; };
+    const std::vector<double> distances = DistancesFrom(center);
     std::vector<Neighbour> near;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
-      if (k == self || DistanceOf(k, center) >= reach + fade_) continue;
+      if (k == self || distances[k] >= reach + fade_) continue;
       const bool shares_a = is_shared(solids_[k][0]);
       const bool shares_b = is_shared(solids_[k][1]);
       const TaperedCapsule& shape = shapes_[k];
-      Neighbour neighbour{KernelAround(kernels_[k], center)};
+      Neighbour neighbour{KernelAround(table_.kernel(k), center)};
       if (shape.IsSphere()) {
         // Nothing of a capsule lies within its own end sphere.
         if (shape.a().radius_m >= shape.b().radius_m ? shares_a : shares_b) continue;
@@ -327,7 +339,7 @@ class Sampler {
   const SetVariables& variables_;
   const std::vector<capsule::CapsuleEnds>& solids_;
   std::vector<TaperedCapsule> shapes_;
-  std::vector<DistanceKernel> kernels_;  // of the same solids
+  SolidTable table_;  // of the same solids
   double spacing_;
   double fade_;
   float half_over_fade_;

@@ -17,12 +17,12 @@ namespace capfit::refine {
 namespace {
 
 // Steps, as few as do: topology decides more than the last digits of places.
-constexpr int kGrowthSteps = 4;
+constexpr int kGrowthSteps = 3;
 constexpr int kSparingSteps = 3;
-constexpr int kTrialSteps = 4;
+constexpr int kTrialSteps = 3;
 constexpr int kTakeInSteps = 2;
 constexpr int kStartSteps = 8;
-constexpr int kLooseSteps = 3;     // that show where ties would win
+constexpr int kLooseSteps = 2;     // that show where ties would win
 constexpr double kTieShare = 0.5;  // of what growth spends, into ties and leaves
 // A round of growth or sparing goes so far.
 constexpr double kGrowthShare = 0.2;
@@ -32,13 +32,13 @@ constexpr double kLeastSpared = 0.06;  // of the graph
 constexpr int kUsedUp = 3;             // a graph this near to the budget is not grown
 constexpr double kLeastImprovement = 1e-4;
 constexpr std::size_t kTies = 8;
-// Much is given up and spent anew at once: two ways in each round, by turns.
+// Much is given up and spent anew at once: in these ways side by side in each round. Half as many
+// in twice the rounds lead to no better sets and keep fewer threads busy.
 struct Renewal {
   double given_up;   // part of the primitives
   double tie_share;  // part of those that goes into ties and leaves
 };
 constexpr std::array<Renewal, 4> kRenewals = {{{0.06, 0.5}, {0.24, 0.3}, {0.12, 1.0}, {0.24, 0.6}}};
-constexpr std::size_t kRenewalsAtOnce = 2;
 
 // How much of the search's time has gone by at the end of each part, as measured.
 constexpr double kStarted = 0.2;
@@ -242,13 +242,11 @@ class Search {
 
   // `share`: of the search, that is done then.
   void Renew(double share, Attempt& best) {
-    std::array<Attempt, kRenewalsAtOnce> attempts;
+    std::array<Attempt, kRenewals.size()> attempts;
     meter_.Expect(until_ * share, WorkOf(kStepsOfGrowth * attempts.size(), best.graph));
     pool_.ForEach(attempts.size(), [&](std::size_t i) {
-      const Renewal& renewal = kRenewals[(renewals_ + i) % kRenewals.size()];
-      attempts[i] = Renewed(best.graph, renewal, seed_ + i);
+      attempts[i] = Renewed(best.graph, kRenewals[i], seed_ + i);
     });
-    renewals_ += attempts.size();
     TakeBest(attempts, best);
   }
 
@@ -302,7 +300,6 @@ class Search {
   const ThreadPool& pool_;
   WorkMeter& meter_;
   std::uint64_t seed_ = kFirstSeed;
-  std::size_t renewals_ = 0;
 };
 
 }  // namespace

@@ -27,17 +27,18 @@ constexpr double kOutsidePrice = 4.0;
 // No solid grows further than this to make up for a removed capsule, relative to the body's size.
 constexpr double kFurthestGrowth = 0.045;
 
-constexpr double kTrialGap = 0.03;  // graphs are compared here, not finished
+// Graphs are compared here, not finished.
+constexpr tighten::SolveTo kTrial{.relative_gap = 0.03};
 constexpr tighten::TightenPhase kShapePhase{.first_trust = 0.012,
                                             .last_trust = 0.003,
                                             .first_penalty = 1.6,
                                             .last_penalty = 16.0,
-                                            .relative_gap = kTrialGap};
+                                            .solve_to = kTrial};
 constexpr tighten::TightenPhase kInsidePhase{.first_trust = 0.004,
                                              .last_trust = 0.001,
                                              .first_penalty = 100.0,
                                              .last_penalty = 100.0,
-                                             .relative_gap = kTrialGap};
+                                             .solve_to = kTrial};
 
 constexpr double kLoosePenalty = 8.0;
 constexpr double kApart = 0.03;  // of the worst points, relative to the body's size

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/refine/internal.h"
+#include "core/tighten/solid_table.h"
 
 namespace capfit::refine {
 namespace {
@@ -33,7 +34,8 @@ class Weigher {
       : furthest_m_(furthest_m),
         bridges_(BridgesOf(graph)),
         solids_(capsule::SolidEnds(graph.set())),
-        shapes_(capsule::Solids(graph.set())) {
+        shapes_(capsule::Solids(graph.set())),
+        table_(shapes_) {
     worth_.edge_gap.assign(graph.capsules().size(), 0.0);
     worth_.edge_loss.assign(graph.capsules().size(), 0.0);
     worth_.node_loss.assign(graph.spheres().size(), 0.0);
@@ -54,12 +56,8 @@ class Weigher {
   // The solids that the block's points may be told by, their distances, and for each point the two
   // nearest of them.
   void Approach(const tighten::PointGrid& grid, const tighten::PointGrid::Block& block) {
-    at_center_.resize(shapes_.size());
-    double least = std::numeric_limits<double>::max();
-    for (std::size_t k = 0; k < shapes_.size(); ++k) {
-      at_center_[k] = shapes_[k].SignedDistance(block.center);
-      least = std::min(least, at_center_[k]);
-    }
+    table_.DistancesFrom(block.center, at_center_);
+    const double least = *std::min_element(at_center_.begin(), at_center_.end());
     near_.clear();
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       if (at_center_[k] <= least + 2.0 * block.reach + furthest_m_) near_.push_back(k);
@@ -131,6 +129,7 @@ class Weigher {
   std::vector<std::optional<TaperedCapsule>> bridges_;  // by node
   std::vector<capsule::CapsuleEnds> solids_;
   std::vector<TaperedCapsule> shapes_;
+  tighten::SolidTable table_;
   std::vector<double> at_center_;
   std::vector<std::size_t> near_;
   std::size_t count_ = 0;         // of the block's points
