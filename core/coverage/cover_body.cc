@@ -208,10 +208,14 @@ class Coverer {
   double MaxGap() const { return options_.tolerance_m + options_.max_gap_m; }
   double AllowedBetween() const { return options_.tolerance_m + 0.8 * options_.max_gap_m; }
 
+  Unproved FindUnproved() {
+    return FindPointsOutside(target_, AtVertices(), capsule::Solids(set_), AllowedBetween(),
+                             MaxGap(), pool_);
+  }
+
   // Adds points between vertices where the surface sticks out; whether there were any.
   bool Collect() {
-    const std::vector<Eigen::Vector3d> found = FindPointsOutside(
-        target_, AtVertices(), capsule::Solids(set_), AllowedBetween(), MaxGap(), pool_);
+    const std::vector<Eigen::Vector3d> found = FindUnproved().points_m;
     between_.insert(between_.end(), found.begin(), found.end());
     return !found.empty();
   }
@@ -235,15 +239,24 @@ class Coverer {
     return at_vertices_;
   }
 
-  // Vertices first, then what lies between them. Solids only grow here, so no point is met twice
-  // and the rounds come to an end.
+  // Vertices first, then what lies between them. Solids only grow here: no point is met twice, what
+  // is proved stays so, and the rounds come to an end.
   void Grow() {
     if (meter_.IsCancelled()) return;
     meter_.Expect(kGrownUntil, 1);
-    do {
-      const std::vector<Demand> demands = OpenDemands();
+    report_.growth_steps += GrowToAll(OpenDemands(), meter_.observer(), set_);
+    Unproved open;
+    if (!meter_.IsCancelled()) open = FindUnproved();
+    while (!meter_.IsCancelled() && !open.points_m.empty()) {
+      between_.insert(between_.end(), open.points_m.begin(), open.points_m.end());
+      std::vector<Demand> demands;
+      for (const Eigen::Vector3d& point : open.points_m) {
+        demands.push_back({point, AllowedBetween()});
+      }
       report_.growth_steps += GrowToAll(demands, meter_.observer(), set_);
-    } while (!meter_.IsCancelled() && Collect());
+      open = FindPointsOutside(target_, open.triangles, capsule::Solids(set_), AllowedBetween(),
+                               MaxGap(), pool_);
+    }
     // Only contains more by that, and still all that it has to.
     if (options_.uniform_radius) capsule::RaiseToUniformRadii(set_);
   }

@@ -12,6 +12,7 @@ using geometry::TaperedCapsule;
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 constexpr std::size_t kChunk = 2048;
+constexpr std::size_t kFewChunk = 32;  // where each is probed
 // Distances by tighten::PointGrid are good to this.
 constexpr double kGridAccuracy = 1e-6;
 
@@ -128,8 +129,14 @@ bool HasCornerOutside(const mesh::Triangle& t, const tighten::UnionDistances& at
   return std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]}) > limit_m;
 }
 
-void FindOutside(const TriangleProbe& probe, double asked_m, double max_gap_m,
+struct Limits {
+  double asked_m;
+  double max_gap_m;
+};
+
+void FindOutside(const TriangleProbe& probe, const Limits& limits,
                  std::vector<Eigen::Vector3d>& out) {
+  const auto [asked_m, max_gap_m] = limits;
   std::vector<Corners> pieces = {probe.corners()};
   while (!pieces.empty()) {
     const Corners piece = pieces.back();
@@ -149,6 +156,30 @@ void FindOutside(const TriangleProbe& probe, double asked_m, double max_gap_m,
       pieces.insert(pieces.end(), quarters.begin(), quarters.end());
     }
   }
+}
+
+void Probe(const tighten::CoverTarget& target, std::size_t triangle,
+           const std::vector<TaperedCapsule>& solids, const Limits& limits, Unproved& found) {
+  const std::size_t before = found.points_m.size();
+  FindOutside(TriangleProbe(CornersOf(target, triangle), solids), limits, found.points_m);
+  if (found.points_m.size() > before) {
+    found.triangles.push_back(static_cast<std::uint32_t>(triangle));
+  }
+}
+
+// What `look`(index, found) finds for each index, in their order.
+template <typename Look>
+Unproved InChunks(std::size_t count, std::size_t chunk, const ThreadPool& pool, const Look& look) {
+  std::vector<Unproved> found((count + chunk - 1) / chunk);
+  pool.ForChunks(count, chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) look(i, found[begin / chunk]);
+  });
+  Unproved all;
+  for (const Unproved& some : found) {
+    all.points_m.insert(all.points_m.end(), some.points_m.begin(), some.points_m.end());
+    all.triangles.insert(all.triangles.end(), some.triangles.begin(), some.triangles.end());
+  }
+  return all;
 }
 
 // The largest upper bound left when every piece's is within tolerance of a point that is out.
@@ -189,24 +220,26 @@ tighten::UnionDistances InCallersOrder(const tighten::PointGrid& points,
   return sorted;
 }
 
-std::vector<Eigen::Vector3d> FindPointsOutside(const tighten::CoverTarget& target,
-                                               const tighten::UnionDistances& at_vertices,
-                                               const std::vector<TaperedCapsule>& solids,
-                                               double asked_m, double max_gap_m,
-                                               const ThreadPool& pool) {
-  const std::size_t count = target.triangles.size();
-  std::vector<std::vector<Eigen::Vector3d>> found((count + kChunk - 1) / kChunk);
-  pool.ForChunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (IsPlainlyNear(target, i, at_vertices, solids, max_gap_m)) continue;
-      if (HasCornerOutside(target.triangles[i], at_vertices, max_gap_m)) continue;
-      FindOutside(TriangleProbe(CornersOf(target, i), solids), asked_m, max_gap_m,
-                  found[begin / kChunk]);
-    }
+Unproved FindPointsOutside(const tighten::CoverTarget& target,
+                           const tighten::UnionDistances& at_vertices,
+                           const std::vector<TaperedCapsule>& solids, double asked_m,
+                           double max_gap_m, const ThreadPool& pool) {
+  const auto may_stick_out = [&](std::size_t triangle) {
+    return !IsPlainlyNear(target, triangle, at_vertices, solids, max_gap_m) &&
+           !HasCornerOutside(target.triangles[triangle], at_vertices, max_gap_m);
+  };
+  return InChunks(target.triangles.size(), kChunk, pool, [&](std::size_t i, Unproved& found) {
+    if (may_stick_out(i)) Probe(target, i, solids, {asked_m, max_gap_m}, found);
   });
-  std::vector<Eigen::Vector3d> all;
-  for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-  return all;
+}
+
+Unproved FindPointsOutside(const tighten::CoverTarget& target,
+                           std::span<const std::uint32_t> triangles,
+                           const std::vector<TaperedCapsule>& solids, double asked_m,
+                           double max_gap_m, const ThreadPool& pool) {
+  return InChunks(triangles.size(), kFewChunk, pool, [&](std::size_t i, Unproved& found) {
+    Probe(target, triangles[i], solids, {asked_m, max_gap_m}, found);
+  });
 }
 
 double CertifiedGap(const tighten::CoverTarget& target, const capsule::PrimitiveSet& set,

@@ -36,7 +36,7 @@ std::vector<Eigen::Vector3d> PointsOutside(const Tent& tent, double asked_m, dou
   const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(tent.set);
   const tighten::PointGrid grid(tent.target.points_m);
   const tighten::UnionDistances at = InCallersOrder(grid, grid.DistancesTo(solids, -1.0, Alone()));
-  return FindPointsOutside(tent.target, at, solids, asked_m, max_gap_m, Alone());
+  return FindPointsOutside(tent.target, at, solids, asked_m, max_gap_m, Alone()).points_m;
 }
 
 double Furthest(const tighten::CoverTarget& target, const capsule::PrimitiveSet& set, int n) {
