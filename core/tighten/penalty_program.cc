@@ -14,7 +14,6 @@
 namespace capfit::tighten {
 namespace {
 
-constexpr int kMaxIterations = 40;
 // Steps stop short of the boundary by this share.
 constexpr double kStepBack = 0.99;
 // Programmes that may be left so far from solved are reckoned in floats, twice as many at a time.
@@ -50,11 +49,7 @@ class InteriorPoint {
   }
 
   Eigen::VectorXd Run(const SolveTo& to) {
-    if (to.iterations > 0) {
-      for (int i = 0; i < to.iterations; ++i) Iterate();
-    } else {
-      for (int i = 0; i < kMaxIterations && !IsDone(to.relative_gap); ++i) Iterate();
-    }
+    for (int i = 0; i < to.most_iterations && !IsDone(to.relative_gap); ++i) Iterate();
     return d_;
   }
 
@@ -343,8 +338,8 @@ class InteriorPoint {
 }  // namespace
 
 Eigen::VectorXd Solve(const PenaltyProgram& program, const SolveTo& to) {
-  const bool is_rough = to.iterations > 0 || to.relative_gap >= kFloatGap;
-  return is_rough ? InteriorPoint<float>(program).Run(to) : InteriorPoint<double>(program).Run(to);
+  return to.relative_gap >= kFloatGap ? InteriorPoint<float>(program).Run(to)
+                                      : InteriorPoint<double>(program).Run(to);
 }
 
 }  // namespace capfit::tighten

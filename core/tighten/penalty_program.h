@@ -30,15 +30,13 @@ struct PenaltyProgram {
 // How far a programme is solved.
 struct SolveTo {
   double relative_gap = 1e-8;  // of the decrease won
-  // 0: as many as the gap takes. Else exactly so many, whatever the gap is then.
-  int iterations = 0;
+  int most_iterations = 40;    // whatever the gap is then
 };
 
 // Primal-dual interior point with predictor and corrector (Mehrotra 1992); the rows' slacks are
 // eliminated, so that each iteration costs 36 products a row and one Cholesky factorisation by
-// blocks. Ten to twenty iterations, about 20 ns a row each; from a gap of a hundredth on, and for a
-// given number of iterations, rows are reckoned in floats, which takes half as long. The bounds
-// hold strictly. Deterministic.
+// blocks. Ten to twenty iterations, about 20 ns a row each; from a gap of a hundredth on rows are
+// reckoned in floats, which takes half as long. The bounds hold strictly. Deterministic.
 [[nodiscard]] Eigen::VectorXd Solve(const PenaltyProgram& program, const SolveTo& to = {});
 
 }  // namespace capfit::tighten

@@ -31,9 +31,8 @@ struct TightenPhase {
   double last_penalty = 3.0;
   // How far each step's programme is solved: by default far better than its rows are true. Where a
   // gap leaves it unfinished, vertices moved by a millionth can change the number of iterations and
-  // with it the result; a number that is given does not depend on them. The next step's programme
-  // makes up for what few iterations leave over. Trials that are only compared may take a gap of
-  // hundredths.
+  // with it the result; most_iterations do not depend on them. The next step's programme makes up
+  // for what few iterations leave over. Trials that are only compared may take a gap of hundredths.
   SolveTo solve_to = {};
   // 0: a row for each point near the surface. Else one for each cell of this edge length and solid,
   // for the point that asks for most there: enough to end with, where another step follows that

@@ -73,5 +73,18 @@ TEST(ErrorCurvesTest, SameBitsForAnyThreadsAndOrder) {
   }
 }
 
+TEST(ErrorCurvesTest, PreparedCountsAreWhatIsAskedForLater) {
+  const auto polygons = ThreePolygons();
+  const ThreadPool pool(2);
+  const ErrorCurves alone(polygons, 5, {}, pool, kSilent);
+  const ErrorCurves prepared(polygons, 5, {}, pool, kSilent);
+  const std::vector<int> counts = {4, 2, 2};
+  prepared.Prepare(counts);
+  for (int p = 0; p < 3; ++p) {
+    EXPECT_EQ(prepared.Approximation(p, counts[static_cast<std::size_t>(p)]).outside_area_m2,
+              alone.Approximation(p, counts[static_cast<std::size_t>(p)]).outside_area_m2);
+  }
+}
+
 }  // namespace
 }  // namespace capfit::circle

@@ -32,11 +32,16 @@ struct Tent {
   }
 };
 
-std::vector<Eigen::Vector3d> PointsOutside(const Tent& tent, double asked_m, double max_gap_m) {
-  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(tent.set);
-  const tighten::PointGrid grid(tent.target.points_m);
+Unproved FindUnproved(const tighten::CoverTarget& target, const capsule::PrimitiveSet& set,
+                      double asked_m, double max_gap_m) {
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set);
+  const tighten::PointGrid grid(target.points_m);
   const tighten::UnionDistances at = InCallersOrder(grid, grid.DistancesTo(solids, -1.0, Alone()));
-  return FindPointsOutside(tent.target, at, solids, asked_m, max_gap_m, Alone()).points_m;
+  return FindPointsOutside(target, at, solids, asked_m, max_gap_m, Alone());
+}
+
+std::vector<Eigen::Vector3d> PointsOutside(const Tent& tent, double asked_m, double max_gap_m) {
+  return FindUnproved(tent.target, tent.set, asked_m, max_gap_m).points_m;
 }
 
 double Furthest(const tighten::CoverTarget& target, const capsule::PrimitiveSet& set, int n) {
@@ -85,6 +90,27 @@ TEST(SurfaceProbeTest, PointsOutsideAreOutsideAndNoneMeansProved) {
     EXPECT_TRUE(p.x() >= -1e-12 && p.y() >= -1e-12 && p.x() + p.y() <= 1.0 + 1e-12);
   }
   EXPECT_TRUE(PointsOutside(Tent(0.66), 0.05, 0.06).empty());
+}
+
+// Grown solids leave fewer triangles open, and those are among the ones that were.
+TEST(SurfaceProbeTest, WhatWasOpenIsEnoughToLookAtAgain) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    tighten::TubeBody body = tighten::MakeTubeBody(seed, 0.0);
+    const double out_m = std::max(0.0, Furthest(body.target, body.set, 1));
+    for (geometry::Sphere& sphere : body.set.spheres) sphere.radius_m += out_m;
+    const Unproved before = FindUnproved(body.target, body.set, 0.0008, 0.001);
+    for (const double growth_m : {0.0, 0.001, 0.004}) {
+      capsule::PrimitiveSet grown = body.set;
+      for (geometry::Sphere& sphere : grown.spheres) sphere.radius_m += growth_m;
+      const Unproved all = FindUnproved(body.target, grown, 0.0008, 0.001);
+      const Unproved again = FindPointsOutside(body.target, before.triangles,
+                                               capsule::Solids(grown), 0.0008, 0.001, Alone());
+      for (const std::uint32_t triangle : all.triangles) {
+        EXPECT_EQ(std::count(again.triangles.begin(), again.triangles.end(), triangle), 1)
+            << "seed " << seed << " growth " << growth_m << " triangle " << triangle;
+      }
+    }
+  }
 }
 
 TEST(SurfaceProbeTest, WithoutSolidsTheGapIsInfiniteAndWithoutPointsNothing) {

@@ -35,7 +35,7 @@ double Objective(const PenaltyProgram& program, const Eigen::VectorXd& d) {
 TEST(PenaltyProgramTest, WithoutRowsTheFreeMinimumWithinTheBounds) {
   PenaltyProgram program = Free(4, 2.0);
   program.gradient << 1.0, -10.0, 0.0, 0.2;
-  const Eigen::VectorXd d = Solve(program, 1e-6);
+  const Eigen::VectorXd d = Solve(program, {.relative_gap = 1e-6});
   EXPECT_NEAR(d[0], -0.5, 1e-3);
   EXPECT_NEAR(d[1], 1.0, 1e-3);
   EXPECT_NEAR(d[2], 0.0, 1e-9);
@@ -52,7 +52,7 @@ TEST(PenaltyProgramTest, ARowHoldsWhenItsPenaltyIsWorthIt) {
     row.value = -0.3;
     row.penalty = penalty;
     program.rows.push_back(row);
-    EXPECT_NEAR(Solve(program, 1e-6)[3], penalty > 1.0 ? -0.3 : -1.0, 1e-3);
+    EXPECT_NEAR(Solve(program, {.relative_gap = 1e-6})[3], penalty > 1.0 ? -0.3 : -1.0, 1e-3);
   }
 }
 
@@ -77,7 +77,7 @@ TEST(PenaltyProgramTest, NothingNearOrFarIsBetter) {
   Random random(61);
   for (int round = 0; round < 30; ++round) {
     const PenaltyProgram program = RandomProgram(random);
-    const Eigen::VectorXd d = Solve(program, 1e-6);
+    const Eigen::VectorXd d = Solve(program, {.relative_gap = 1e-6});
     EXPECT_TRUE((d.array() > program.lower.array()).all());
     EXPECT_TRUE((d.array() < program.upper.array()).all());
     const double value = Objective(program, d);
@@ -96,13 +96,45 @@ TEST(PenaltyProgramTest, LeavesNoMoreThanTheGapOfWhatItWins) {
   for (int round = 0; round < 100; ++round) {
     const PenaltyProgram program = RandomProgram(random);
     const double at_first = Objective(program, Eigen::VectorXd::Zero(program.gradient.size()));
-    const double least = Objective(program, Solve(program, 1e-9));
+    const double least = Objective(program, Solve(program, {.relative_gap = 1e-9}));
     for (const double gap : {0.1, 0.03, 0.01, 1e-3, 1e-5}) {
-      const Eigen::VectorXd d = Solve(program, gap);
+      const Eigen::VectorXd d = Solve(program, {.relative_gap = gap});
       EXPECT_TRUE((d.array() > program.lower.array()).all());
       EXPECT_TRUE((d.array() < program.upper.array()).all());
       EXPECT_LE(Objective(program, d) - least, 2.0 * gap * (at_first - least) + 1e-7);
     }
+  }
+}
+
+TEST(PenaltyProgramTest, MoreIterationsLeaveLessAndAlwaysKeepTheBounds) {
+  Random random(63);
+  double left_by_few = 0.0;
+  double left_by_many = 0.0;
+  for (int round = 0; round < 100; ++round) {
+    const PenaltyProgram program = RandomProgram(random);
+    const double least = Objective(program, Solve(program, {.relative_gap = 1e-9}));
+    for (const int iterations : {1, 3, 6, 30}) {
+      const Eigen::VectorXd d = Solve(program, {.most_iterations = iterations});
+      ASSERT_TRUE(d.allFinite());
+      EXPECT_TRUE((d.array() > program.lower.array()).all());
+      EXPECT_TRUE((d.array() < program.upper.array()).all());
+      if (iterations == 3) left_by_few += Objective(program, d) - least;
+      if (iterations == 6) left_by_many += Objective(program, d) - least;
+    }
+  }
+  EXPECT_LT(left_by_many, 0.1 * left_by_few);
+}
+
+// The number of iterations does not hang on the last digits, so the result follows the rows
+// smoothly.
+TEST(PenaltyProgramTest, FewIterationsFollowSmallChangesOfTheRows) {
+  Random random(64);
+  for (int round = 0; round < 100; ++round) {
+    PenaltyProgram program = RandomProgram(random);
+    const Eigen::VectorXd before = Solve(program, {.most_iterations = 6});
+    for (PenaltyRow& row : program.rows) row.value += random.NextIn(-1e-6, 1e-6);
+    const Eigen::VectorXd after = Solve(program, {.most_iterations = 6});
+    EXPECT_LT((after - before).cwiseAbs().maxCoeff(), 1e-3);
   }
 }
 
