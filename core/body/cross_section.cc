@@ -42,6 +42,7 @@ std::vector<SectionLoop> LoopsOf(const std::vector<mesh::CutPiece>& pieces) {
   for (const mesh::CutLoop& linked : mesh::LinkPieces(pieces)) {
     SectionLoop& loop = loops.emplace_back();
     loop.is_closed = linked.is_closed;
+    loop.outline.reserve(linked.pieces.size());
     for (const std::uint32_t piece : linked.pieces) loop.outline.push_back(pieces[piece].start);
   }
   return loops;

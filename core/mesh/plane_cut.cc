@@ -16,7 +16,7 @@ class PiecesByEdge {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
   explicit PiecesByEdge(const std::vector<CutPiece>& pieces) : pieces_(pieces) {
-    while ((std::size_t{1} << bits_) < 2 * pieces.size()) ++bits_;
+    while ((std::size_t{1} << bits_) < 4 * pieces.size()) ++bits_;
     slots_.assign(std::size_t{1} << bits_, kNone);
     for (std::uint32_t i = 0; i < pieces.size(); ++i) {
       std::size_t slot = SlotOf(pieces[i].from);
@@ -53,12 +53,13 @@ void CutPassedTriangle(std::span<const Eigen::Vector3d> points, const Triangle& 
   constexpr std::array<std::size_t, 8> kIn = {0, 0, 1, 1, 2, 0, 2, 0};
   constexpr std::array<std::size_t, 8> kOut = {0, 2, 0, 2, 1, 1, 0, 0};
   constexpr std::array<std::size_t, 3> kNext = {1, 2, 0};
-  std::size_t low = kIn[above];
-  std::size_t high = kNext[low];
+  const std::array<std::size_t, 2> in = {kIn[above], kNext[kIn[above]]};
   const std::size_t out = kOut[above];
-  if (triangle[low] > triangle[high]) std::swap(low, high);
-  // From the lower index, so that both triangles at the edge get the same bits. The heights' signs
-  // differ: never 0 / 0.
+  // From the lower index, so that both triangles at the edge get the same bits; which one that is
+  // is as good as chance: no branch. The heights' signs differ: never 0 / 0.
+  const std::size_t first = triangle[in[0]] > triangle[in[1]] ? 1 : 0;
+  const std::size_t low = in[first];
+  const std::size_t high = in[1 - first];
   const double t = heights[low] / (heights[low] - heights[high]);
   const Eigen::Vector3d& from = points[triangle[low]];
   pieces.push_back(

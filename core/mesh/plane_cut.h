@@ -31,7 +31,13 @@ struct CutPiece {
 inline void CutTriangle(std::span<const Eigen::Vector3d> points, const Triangle& triangle,
                         const std::array<double, 3>& heights, std::vector<CutPiece>& pieces);
 
-// The same for a triangle that the plane passes. `above`: bit k tells of corner k.
+// Bit k tells whether corner k is above; 0 or 7: the plane misses the triangle.
+[[nodiscard]] inline std::size_t CornersAbove(const std::array<double, 3>& heights) {
+  return (heights[0] >= 0.0 ? 1U : 0U) + (heights[1] >= 0.0 ? 2U : 0U) +
+         (heights[2] >= 0.0 ? 4U : 0U);
+}
+
+// The same for a triangle that the plane passes, with its corners above.
 void CutPassedTriangle(std::span<const Eigen::Vector3d> points, const Triangle& triangle,
                        const std::array<double, 3>& heights, std::size_t above,
                        std::vector<CutPiece>& pieces);
@@ -47,8 +53,7 @@ struct CutLoop {
 // Here, because most triangles end with the first question.
 inline void CutTriangle(std::span<const Eigen::Vector3d> points, const Triangle& triangle,
                         const std::array<double, 3>& heights, std::vector<CutPiece>& pieces) {
-  const std::size_t above =
-      (heights[0] >= 0.0 ? 1U : 0U) + (heights[1] >= 0.0 ? 2U : 0U) + (heights[2] >= 0.0 ? 4U : 0U);
+  const std::size_t above = CornersAbove(heights);
   if (above == 0 || above == 7) return;
   CutPassedTriangle(points, triangle, heights, above, pieces);
 }

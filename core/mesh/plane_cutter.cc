@@ -1,6 +1,7 @@
 #include "core/mesh/plane_cutter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -50,6 +51,8 @@ PlaneCutter::PlaneCutter(std::span<const Eigen::Vector3d> points,
   });
 }
 
+// What a plane meets next to what it touches is as good as chance: what it meets is listed without
+// branches, then visited.
 std::vector<CutPiece> PlaneCutter::Cut(const Eigen::Vector3d& origin,
                                        const Eigen::Vector3d& normal) const {
   std::vector<CutPiece> pieces;
@@ -59,20 +62,42 @@ std::vector<CutPiece> PlaneCutter::Cut(const Eigen::Vector3d& origin,
   const auto touches = [&](const Box& box) {
     return std::abs(normal.dot(box.center) - offset) <= steepness.dot(box.half) + kRounding;
   };
-  const auto height = [&](std::uint32_t v) { return normal.dot(points_[v] - origin); };
+  std::array<std::size_t, kGroupSize> touched;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if (!touches(blocks_[b])) continue;
     const std::size_t last_group = std::min((b + 1) * kGroupSize, groups_.size());
+    std::size_t count = 0;
     for (std::size_t g = b * kGroupSize; g < last_group; ++g) {
-      if (!touches(groups_[g])) continue;
-      const std::size_t last = std::min((g + 1) * kGroupSize, triangles_.size());
-      for (std::size_t i = g * kGroupSize; i < last; ++i) {
-        const Triangle& t = triangles_[i];
-        CutTriangle(points_, t, {height(t[0]), height(t[1]), height(t[2])}, pieces);
-      }
+      touched[count] = g;
+      count += touches(groups_[g]) ? 1 : 0;
     }
+    for (std::size_t i = 0; i < count; ++i) CutGroup(touched[i], origin, normal, pieces);
   }
   return pieces;
+}
+
+void PlaneCutter::CutGroup(std::size_t group, const Eigen::Vector3d& origin,
+                           const Eigen::Vector3d& normal, std::vector<CutPiece>& pieces) const {
+  struct Passed {
+    std::size_t triangle;
+    std::size_t above;
+    std::array<double, 3> heights;
+  };
+  std::array<Passed, kGroupSize> passed;
+  std::size_t count = 0;
+  const auto height = [&](std::uint32_t v) { return normal.dot(points_[v] - origin); };
+  const std::size_t last = std::min((group + 1) * kGroupSize, triangles_.size());
+  for (std::size_t i = group * kGroupSize; i < last; ++i) {
+    const Triangle& t = triangles_[i];
+    const std::array<double, 3> heights = {height(t[0]), height(t[1]), height(t[2])};
+    const std::size_t above = CornersAbove(heights);
+    passed[count] = {i, above, heights};
+    count += (above != 0) & (above != 7) ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    CutPassedTriangle(points_, triangles_[passed[i].triangle], passed[i].heights, passed[i].above,
+                      pieces);
+  }
 }
 
 }  // namespace capfit::mesh

@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_MESH_PLANE_CUTTER_H_
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,9 @@ class PlaneCutter {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     Eigen::Vector3d half = Eigen::Vector3d::Zero();
   };
+  void CutGroup(std::size_t group, const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
+                std::vector<CutPiece>& pieces) const;
+
   std::span<const Eigen::Vector3d> points_;
   std::span<const Triangle> triangles_;
   std::vector<Box> groups_;  // of triangles
