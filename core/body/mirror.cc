@@ -62,32 +62,48 @@ bool IsNearOutline(const SectionLoop& loop, const Eigen::Vector3d& p, double tol
   return false;
 }
 
-// Level sections against their own mirror images, by outline length.
-bool SurfaceMirrors(const Shape& shape) {
+// Of outlines: how long they are, and how much of that has no mirror image.
+struct Mirroring {
   double length = 0.0;
   double missing = 0.0;
+};
+
+Mirroring HowItMirrors(const std::vector<SectionLoop>& loops, double tolerance) {
+  Mirroring sum;
+  for (const SectionLoop& loop : loops) {
+    const std::size_t step = std::max<std::size_t>(1, loop.outline.size() / kDirections);
+    for (std::size_t i = 0; i < loop.outline.size(); i += step) {
+      const Eigen::Vector3d image = Mirrored(loop.outline[i]);
+      const bool is_met = std::any_of(loops.begin(), loops.end(), [&](const SectionLoop& other) {
+        return IsNearOutline(other, image, tolerance);
+      });
+      const double share =
+          loop.girth * static_cast<double>(step) / static_cast<double>(loop.outline.size());
+      sum.length += share;
+      if (!is_met) sum.missing += share;
+    }
+  }
+  return sum;
+}
+
+// Level sections against their own mirror images, by outline length.
+bool SurfaceMirrors(const Shape& shape) {
   const double tolerance = 1.5 * kTolerance * shape.stature_m;
   std::vector<CutPlane> levels;
   for (double y = 0.5 * kLevelStep * shape.stature_m; y < shape.top_m;
        y += kLevelStep * shape.stature_m) {
     levels.push_back({Eigen::Vector3d(0, y, 0), Eigen::Vector3d::UnitY()});
   }
-  for (const std::vector<SectionLoop>& loops : shape.surface->CutAll(levels, *shape.pool)) {
-    for (const SectionLoop& loop : loops) {
-      const std::size_t step = std::max<std::size_t>(1, loop.outline.size() / kDirections);
-      for (std::size_t i = 0; i < loop.outline.size(); i += step) {
-        const Eigen::Vector3d image = Mirrored(loop.outline[i]);
-        const bool is_met = std::any_of(loops.begin(), loops.end(), [&](const SectionLoop& other) {
-          return IsNearOutline(other, image, tolerance);
-        });
-        const double share =
-            loop.girth * static_cast<double>(step) / static_cast<double>(loop.outline.size());
-        length += share;
-        if (!is_met) missing += share;
-      }
-    }
+  std::vector<Mirroring> sections(levels.size());
+  shape.pool->ForEach(levels.size(), [&](std::size_t i) {
+    sections[i] = HowItMirrors(shape.surface->Cut(levels[i]), tolerance);
+  });
+  Mirroring all;
+  for (const Mirroring& section : sections) {
+    all.length += section.length;
+    all.missing += section.missing;
   }
-  return missing <= (1.0 - kShareThatMustMirror) * length;
+  return all.missing <= (1.0 - kShareThatMustMirror) * all.length;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace capfit::body {
@@ -50,22 +51,34 @@ struct Barrier {
   const std::vector<char>* in_limb = nullptr;  // by vertex
   [[nodiscard]] bool Stops(std::uint32_t v, const Eigen::Vector3d& p) const {
     const bool is_inner = plane.Height(p) < 0.0;
+    const bool is_of_limb = (*in_limb)[v] != 0;
+    if (is_of_limb != is_inner) return is_inner;  // most vertices
     const bool is_near = (p - plane.origin).norm() < radius;
-    return (*in_limb)[v] ? is_inner && is_near : is_inner || !is_near;
+    return is_of_limb == is_near;
   }
 };
 
-// What can be reached from `start`, itself included.
+// What can be reached from `start`, itself included. A vertex is noted when it is met and asked
+// whether it stops the way when its turn comes: once each.
 std::vector<std::uint32_t> Flood(const Shape& shape, std::vector<std::uint32_t> start,
                                  const Barrier& barrier) {
-  std::vector<char> seen(shape.points.size(), 0);
-  for (const std::uint32_t v : start) seen[v] = 1;
+  std::vector<char> is_free(shape.points.size(), 1);
+  for (const std::uint32_t v : start) is_free[v] = 0;
   std::vector<std::uint32_t> reached = std::move(start);
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    for (const std::uint32_t n : shape.graph->Neighbours(reached[i])) {
-      if (seen[n] || barrier.Stops(n, shape.points[n])) continue;
-      seen[n] = 1;
-      reached.push_back(n);
+  const std::size_t start_count = reached.size();
+  const auto met = std::make_unique_for_overwrite<std::uint32_t[]>(shape.points.size() + 1);
+  std::copy(reached.begin(), reached.end(), met.get());
+  std::size_t count = start_count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t v = met[i];
+    if (i >= start_count) {
+      if (barrier.Stops(v, shape.points[v])) continue;
+      reached.push_back(v);
+    }
+    for (const std::uint32_t n : shape.graph->Neighbours(v)) {
+      met[count] = n;
+      count += static_cast<std::size_t>(is_free[n]);  // as good as chance: no branch
+      is_free[n] = 0;
     }
   }
   return reached;
