@@ -163,20 +163,16 @@ void SurfaceGraph::FinishInOrder(std::span<const std::uint32_t> open,
 class SurfaceGraph::Search {
  public:
   Search(const SurfaceGraph& graph, std::uint8_t region, const FitObserver& observer,
-         std::vector<double>& distance)
+         std::vector<double>& distance, std::vector<char>& waits)
       : graph_(graph),
         region_(region),
         observer_(observer),
         distance_(distance),
+        waits_(waits),
         looks_left_(kMostLooks * graph.region_links_[region]) {}
 
   void Offer(std::uint32_t vertex, double candidate) {
-    if (candidate >= distance_[vertex]) return;
-    distance_[vertex] = candidate;
-    const auto bucket = static_cast<std::size_t>(candidate * graph_.buckets_per_unit_);
-    if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
-    buckets_[bucket].push_back(vertex);
-    first_ = std::min(first_, bucket);
+    if (candidate < distance_[vertex]) Improve(vertex, candidate);
   }
 
   // Until nothing can be improved within the region, or there were too many looks, or nobody waits.
@@ -188,9 +184,10 @@ class SurfaceGraph::Search {
         if (looks > looks_left_) return;
         looks_left_ -= looks;
         buckets_[k].pop_back();
-        const double here = distance_[vertex];
-        if (static_cast<std::size_t>(here * graph_.buckets_per_unit_) == k) LeaveFrom(vertex, here);
+        // It may have come up in a bucket before, or in this one when it was put there again.
+        if (std::exchange(waits_[vertex], 0) != 0) LeaveFrom(vertex, distance_[vertex]);
       }
+      if (buckets_[k].capacity() > 0) spare_.push_back(std::exchange(buckets_[k], {}));
     }
     first_ = buckets_.size();
   }
@@ -210,6 +207,21 @@ class SurfaceGraph::Search {
   }
 
  private:
+  void Improve(std::uint32_t vertex, double candidate) {
+    distance_[vertex] = candidate;
+    waits_[vertex] = 1;
+    // By way of a signed number: processors have no quick way to an unsigned one.
+    const auto bucket =
+        static_cast<std::size_t>(static_cast<std::int64_t>(candidate * graph_.buckets_per_unit_));
+    if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
+    if (buckets_[bucket].capacity() == 0 && !spare_.empty()) {
+      buckets_[bucket].swap(spare_.back());
+      spare_.pop_back();
+    }
+    buckets_[bucket].push_back(vertex);
+    first_ = std::min(first_, bucket);
+  }
+
   void LeaveFrom(std::uint32_t vertex, double here) {
     const auto pass_on = [this](std::uint32_t to, double candidate) {
       if (graph_.region_[to] == region_) {
@@ -228,9 +240,11 @@ class SurfaceGraph::Search {
   std::uint8_t region_;
   const FitObserver& observer_;
   std::vector<double>& distance_;  // of this region's vertices
+  std::vector<char>& waits_;       // those that have not passed on how near they are
   std::size_t looks_left_;
   std::size_t first_ = 0;  // no bucket before it holds anything
   std::vector<std::vector<std::uint32_t>> buckets_;
+  std::vector<std::vector<std::uint32_t>> spare_;  // memory of buckets that are done
   std::vector<GeodesicSource> departing_;
 };
 
@@ -240,9 +254,10 @@ std::vector<double> SurfaceGraph::Distances(std::span<const GeodesicSource> sour
                                             const ThreadPool& pool,
                                             const FitObserver& observer) const {
   std::vector<double> distance(vertex_count(), kInfinity);
+  std::vector<char> waits(vertex_count(), 0);
   std::vector<Search> searches;
   for (std::uint8_t region = 0; region < kRegions; ++region) {
-    searches.emplace_back(*this, region, observer, distance);
+    searches.emplace_back(*this, region, observer, distance, waits);
   }
   std::vector<GeodesicSource> arriving(sources.begin(), sources.end());
   while (!arriving.empty()) {
