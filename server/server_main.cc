@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "core/base/large_pages.h"
 #include "server/log_format.h"
 #include "server/log_sink.h"
 #include "server/server.h"
@@ -74,4 +75,7 @@ int Run(int argc, const char* const* argv) {
 }  // namespace
 }  // namespace capfit::server
 
-int main(int argc, char** argv) { return capfit::server::Run(argc, argv); }
+int main(int argc, char** argv) {
+  capfit::RestartWithLargePages(argv);
+  return capfit::server::Run(argc, argv);
+}

@@ -52,8 +52,8 @@ inline constexpr std::size_t kMostPartsTold = 1000;
 // smallest E_r.
 enum class FitMode { kEnclose, kBestFit };
 // kPaper: the published method, its coverage step replaced by a better one. The others, under the
-// same budget: centres, radii and topology found together (core/refine); kBalanced with an eighth
-// of the search of kTight.
+// same budget: centres, radii and topology found together (core/refine); kBalanced with a half to a
+// sixth of the search of kTight.
 enum class Quality { kPaper, kBalanced, kTight };
 inline constexpr int kQualityCount = 3;
 // "paper", "balanced", "tight".

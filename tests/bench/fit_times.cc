@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "CLI/CLI.hpp"
+#include "core/base/large_pages.h"
 #include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 
@@ -81,6 +82,7 @@ bool Run(const std::string& body, const Task& task) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  capfit::UseLargePages();
   CLI::App app{"Median time of each stage of a fit, in milliseconds"};
   std::vector<std::string> bodies;
   std::string quality = "paper";

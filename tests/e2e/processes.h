@@ -40,6 +40,7 @@ class ServerProcess {
 
   [[nodiscard]] const std::string& address() const { return address_; }
   void Signal(int signal) const;
+  [[nodiscard]] pid_t pid() const { return pid_; }
   // Its resident memory now.
   [[nodiscard]] double ResidentMib() const;
   // What it has logged so far.

@@ -48,6 +48,16 @@ grpc::health::v1::HealthCheckResponse::ServingStatus HealthOf(const ServerProces
   return response.status();
 }
 
+// A server starts itself anew with its malloc's settings, as the same process by the same name.
+TEST(ServerProcess, ItsHeapsTakeLargePages) {
+  ServerProcess server;
+  const std::string process = "/proc/" + std::to_string(server.pid());
+  EXPECT_THAT(ReadText(process + "/environ"), HasSubstr("GLIBC_TUNABLES=glibc.malloc.hugetlb=1"));
+  EXPECT_EQ(ReadText(process + "/comm"), "capfit-server\n");
+  server.Signal(SIGTERM);
+  EXPECT_EQ(server.Wait(), 0);
+}
+
 TEST(ServerProcess, ReportsHealthAndEndsInOrder) {
   for (const int signal : {SIGTERM, SIGINT}) {
     ServerProcess server;
