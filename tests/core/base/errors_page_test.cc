@@ -19,9 +19,9 @@
 namespace capfit {
 namespace {
 
-// Words in capitals that are neither warnings nor reasons: the wire's own names in messages.
-constexpr std::array<std::string_view, 4> kNoWarnings = {"JOINTS_0", "JOINTS_1", "WEIGHTS_0",
-                                                         "WEIGHTS_1"};
+// Words in capitals that are neither warnings nor reasons: names of others.
+constexpr std::array<std::string_view, 5> kNoWarnings = {"GLIBC_TUNABLES", "JOINTS_0", "JOINTS_1",
+                                                         "WEIGHTS_0", "WEIGHTS_1"};
 
 std::filesystem::path Source(const std::string& path) {
   return std::filesystem::path(CAPFIT_SOURCE_DIR) / path;
