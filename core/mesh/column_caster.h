@@ -84,11 +84,13 @@ class ColumnCaster {
   // the body come first.
   [[nodiscard]] std::vector<ColumnCrossing> Row(std::size_t row) const;
 
-  // visit(crossing) for all crossings, in an order that is always the same.
+  // visit(crossing) for those of one row, in an order that is always the same.
   template <typename Visit>
-  void ForEach(const Visit& visit) const {
+  void ForEachInRow(std::size_t row, const Visit& visit) const {
     for (const Chunk& chunk : chunks_) {
-      for (const ColumnCrossing& crossing : chunk.crossings) visit(crossing);
+      for (std::uint32_t i = chunk.begin[row]; i < chunk.begin[row + 1]; ++i) {
+        visit(chunk.crossings[i]);
+      }
     }
   }
 

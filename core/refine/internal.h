@@ -16,6 +16,9 @@ inline constexpr double kLeastHungRadiusM = 0.006;
 // Up to here a change of topology is tried quickly.
 inline constexpr int kFewPrimitives = 80;
 
+// Of a whole: steps of so much spread evenly, however many there are.
+inline constexpr double kGoldenShare = 0.6180339887498949;
+
 [[nodiscard]] constexpr std::size_t U(int i) { return static_cast<std::size_t>(i); }
 
 // What is left of x above its next lower integer, in [0, 1).

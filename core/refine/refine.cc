@@ -29,15 +29,21 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kCellM = 0.008;         // of the occupancy grid
-constexpr double kThinnedCellM = 0.012;  // of the points that growing works on
-constexpr double kFoldCellM = 2e-5;      // mirrored vertices this close count as one
+constexpr double kCellM = 0.008;  // of the occupancy grid
+// Of the points that tell what is left out by far, which several in each cell do: a dozen
+// centimetres count, not millimetres.
+constexpr double kThinnedCellM = 0.03;
 // What a sphere or chain that hangs on nothing counts beside its primitives in a best fit: in one
 // piece is what users want, but it costs a twentieth to a tenth of the error.
-constexpr double kPieceCost = 0.35;
-constexpr int kExchangesOfFew = 5;
-constexpr int kExchangesOfMany = 2;
-constexpr int kMostSpared = 10;  // primitives that a start of the best fit may have too many
+constexpr double kPieceCost = 0.45;
+constexpr int kFewOfBestFit = 40;  // primitives: up to here each matters much
+// Rounds that give up primitives of a best fit and spend them elsewhere. After sparing hardly any
+// pays.
+struct Exchanges {
+  int of_few, of_spared, of_others;
+};
+constexpr Exchanges kExchanges = {8, 1, 2};
+constexpr Exchanges kQuickExchanges = {1, 0, 1};
 // Points of the enclosing search are this far apart over the root of the number of primitives,
 // relative to the body's size; the second for the last steps.
 constexpr double kSpacing = 0.216;
@@ -64,7 +70,8 @@ constexpr double kGrown = 0.5;
 constexpr double kExchanged = 0.75;
 constexpr double kFinished = 0.78;
 
-// The vertices of the selected parts; folded to x >= 0, copies dropped, where symmetric.
+// The vertices of the selected parts; folded to x >= 0 where symmetric. Of mirrored vertices both
+// stay: thinning out keeps one of them.
 std::vector<Eigen::Vector3f> SelectedPoints(const body::Body& body, const RefineOptions& options,
                                             bool symmetric) {
   std::vector<Eigen::Vector3f> points;
@@ -73,31 +80,23 @@ std::vector<Eigen::Vector3f> SelectedPoints(const body::Body& body, const Refine
     points.push_back(body.mesh.vertices()[v].cast<float>());
     if (symmetric) points.back().x() = std::abs(points.back().x());
   }
-  if (!symmetric) return points;
-  const auto key = [](const Eigen::Vector3f& p) {
-    const Eigen::Vector3f q = p / static_cast<float>(kFoldCellM);
-    return std::array<long, 3>{std::lround(q.x()), std::lround(q.y()), std::lround(q.z())};
-  };
-  std::vector<std::pair<std::array<long, 3>, std::size_t>> order(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) order[i] = {key(points[i]), i};
-  std::sort(order.begin(), order.end());
-  std::vector<Eigen::Vector3f> kept;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    // Rounding may part equal points or join points up to 20 um apart; both are harmless.
-    if (i == 0 || order[i].first != order[i - 1].first) kept.push_back(points[order[i].second]);
-  }
-  return kept;
+  return points;
 }
 
-// How best fits are grown: their edits show late what they are worth, and exchanges pay while they
-// are quick.
-GrowthOptions PlanGrowth(const RefineOptions& options) {
-  const capsule::Budget& budget = options.budget;
+bool IsOfFew(const capsule::Budget& budget) {
+  return std::min(budget.max_primitives, budget.max_spheres) <= kFewOfBestFit;
+}
+
+// How best fits are grown: their edits show late what they are worth, and exchanges pay where
+// primitives are few or nothing has been chosen for this body by sparing.
+GrowthOptions PlanGrowth(const RefineOptions& options, bool spares) {
   GrowthOptions plan;
   plan.piece_cost = kPieceCost;
   plan.thorough_share = 0.15;
-  const bool few = std::min(budget.max_primitives, budget.max_spheres) <= kFewPrimitives;
-  if (options.thorough) plan.exchanges = few ? kExchangesOfFew : kExchangesOfMany;
+  const Exchanges& exchanges = options.thorough ? kExchanges : kQuickExchanges;
+  plan.exchanges = IsOfFew(options.budget) ? exchanges.of_few
+                   : spares                ? exchanges.of_spared
+                                           : exchanges.of_others;
   return plan;
 }
 
@@ -113,19 +112,19 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const RefineOpti
   const capsule::Budget& budget = options.budget;
   const double begin = meter.until();
   const auto at = [&](double share) { return begin + share * (until - begin); };
-  GrowthOptions plan = PlanGrowth(options);
+  GrowthOptions plan = PlanGrowth(options, budget.Excess(graph.count()) > 0);
   GrowthOptions at_first = plan;
   at_first.exchanges = 0;
   at_first.until = at(kGrown);
   plan.until = at(kExchanged);
   meter.Expect(at(kSettled), 1);
-  objective.Settle(Effort::kRough, meter.observer(), graph);
+  objective.Settle(Effort::kRough, pool, meter.observer(), graph);
   RemoveUseless(graph);
   Spare(objective, budget, at_first, pool, meter, graph);
   Grow(objective, budget, at_first, pool, meter, graph);
   Grow(objective, budget, plan, pool, meter, graph);
   meter.Expect(at(kFinished), 1);
-  objective.Settle(Effort::kFinish, meter.observer(), graph);
+  objective.Settle(Effort::kFinish, pool, meter.observer(), graph);
   RemoveUseless(graph);
   // What has become useless in the end is spent once more.
   const int used = graph.primitive_count();
@@ -133,16 +132,46 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const RefineOpti
   last.piece_cost = kPieceCost;
   last.until = until;
   Grow(objective, budget, last, pool, meter, graph);
-  if (graph.primitive_count() != used) objective.Settle(Effort::kTighten, meter.observer(), graph);
+  if (graph.primitive_count() != used)
+    objective.Settle(Effort::kTighten, pool, meter.observer(), graph);
   meter.Expect(until, 1);
-  SpendByCutting(objective, budget, meter, graph);
+  SpendByCutting(objective, budget, pool, meter, graph);
   return graph;
 }
 
-// The best set that one of the starts leads to.
-capsule::MirroredSet FindBestSet(const BestFitObjective& objective, const RefineOptions& options,
-                                 const ThreadPool& pool, WorkMeter& meter,
-                                 std::vector<capsule::MirroredSet> starts) {
+BestFitObjective MakeBestFitObjective(const body::Body& body, const RefineOptions& options,
+                                      bool symmetric, const ThreadPool& pool) {
+  OccupancyGrid grid;
+  std::vector<Vec3> thinned;
+  pool.ForEach(2, [&](std::size_t i) {
+    if (i == 0) {
+      grid = MakeOccupancyGrid(body, options.parts, kCellM, symmetric, pool);
+      return;
+    }
+    for (const Eigen::Vector3f& p :
+         ThinOut(SelectedPoints(body, options, symmetric), kThinnedCellM)) {
+      thinned.push_back(p.cast<double>());
+    }
+  });
+  SurfacePoints points{tighten::PointGrid(thinned), options.tolerance_m};
+  return {std::move(grid), std::move(points), options.seed};
+}
+
+// Of the larger layouts and those that fit. What is left of a larger one serves the single body
+// better than what a smaller one grows to, by a tenth at half its size; only of few primitives
+// either may end better.
+std::vector<capsule::MirroredSet> BestFitStarts(const body::Body& body,
+                                                const RefineOptions& options) {
+  std::vector<capsule::MirroredSet> starts = StartingGraphs(
+      FitKind::kBestFit, body, options.parts, options.budget, /*most_spared=*/capsule::kNoLimit);
+  if (!IsOfFew(options.budget)) starts.resize(1);
+  return starts;
+}
+
+capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& options,
+                                 const ThreadPool& pool, WorkMeter& meter) {
+  const BestFitObjective objective = MakeBestFitObjective(body, options, body.is_symmetric, pool);
+  std::vector<capsule::MirroredSet> starts = BestFitStarts(body, options);
   capsule::MirroredSet best;
   double least = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -151,33 +180,13 @@ capsule::MirroredSet FindBestSet(const BestFitObjective& objective, const Refine
         FindSet(objective, options, pool, until, meter, std::move(starts[i]));
     if (meter.IsCancelled()) return graph;
     // Over the budget only where nothing more could be spared.
-    const double value = objective.Value(graph) + options.budget.Excess(graph.count());
+    const double value = objective.Value(graph, pool) + options.budget.Excess(graph.count());
     if (value < least) {
       least = value;
       best = std::move(graph);
     }
   }
   return best;
-}
-
-BestFitObjective MakeBestFitObjective(const body::Body& body, const RefineOptions& options,
-                                      bool symmetric) {
-  OccupancyGrid grid = MakeOccupancyGrid(body, options.parts, kCellM, symmetric);
-  std::vector<Vec3> thinned;
-  for (const Eigen::Vector3f& p :
-       ThinOut(SelectedPoints(body, options, symmetric), kThinnedCellM)) {
-    thinned.push_back(p.cast<double>());
-  }
-  SurfacePoints points{tighten::PointGrid(thinned), options.tolerance_m};
-  return {std::move(grid), std::move(points), options.seed};
-}
-
-capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& options,
-                                 const ThreadPool& pool, WorkMeter& meter) {
-  std::vector<capsule::MirroredSet> starts =
-      StartingGraphs(FitKind::kBestFit, body, options.parts, options.budget, kMostSpared);
-  return FindBestSet(MakeBestFitObjective(body, options, body.is_symmetric), options, pool, meter,
-                     std::move(starts));
 }
 
 // Between the points of the enclosing search.
@@ -258,12 +267,12 @@ void Enclose(const tighten::CoverTarget& target, const RefineOptions& options,
   fine.FindShape(kHungFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
 }
 
-void FitBest(const body::Body& body, const RefineOptions& options, WorkMeter& meter,
-             capsule::MirroredSet& graph) {
+void FitBest(const body::Body& body, const RefineOptions& options, const ThreadPool& pool,
+             WorkMeter& meter, capsule::MirroredSet& graph) {
   meter.Expect(1.0, 1);
-  const BestFitObjective objective = MakeBestFitObjective(body, options, graph.is_mirrored());
-  objective.Settle(Effort::kRough, meter.observer(), graph);
-  objective.Settle(Effort::kFinish, meter.observer(), graph);
+  const BestFitObjective objective = MakeBestFitObjective(body, options, graph.is_mirrored(), pool);
+  objective.Settle(Effort::kRough, pool, meter.observer(), graph);
+  objective.Settle(Effort::kFinish, pool, meter.observer(), graph);
 }
 
 body::Part PartAt(const body::Body& body, const Vec3& point_m) {
@@ -299,7 +308,8 @@ capsule::PrimitiveSet RefineSet(const body::Body& body, const tighten::CoverTarg
   meter.Expect(1.0, 1);
   capsule::PrimitiveSet set = graph.set();
   pool.ForEach(graph.spheres().size(), [&](std::size_t v) {
-    if (observer.IsCancelled()) return;
+    // An image's part is the image of a part.
+    if (observer.IsCancelled() || !graph.IsRepresentative(static_cast<int>(v))) return;
     set.origins[v].part = PartAt(body, graph.spheres()[v].center_m);
   });
   if (graph.is_mirrored()) MirrorParts(options.parts, set);
@@ -316,7 +326,7 @@ absl::StatusOr<capsule::PrimitiveSet> FitToLayout(const body::Body& body,
   if (options.enclose) {
     Enclose(target, options, pool, meter, graph);
   } else {
-    FitBest(body, options, meter, graph);
+    FitBest(body, options, pool, meter, graph);
   }
   return graph.set();
 }

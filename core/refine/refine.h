@@ -22,8 +22,8 @@ struct RefineOptions {
   capsule::Budget budget;    // at least 3 spheres' worth
   double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, 0.1]
   body::PartSelection parts;
-  // False: one of the eight rounds that improve what the layouts lead to, and no
-  // exchanges in a best fit: less than half the time, and some hundredths more E_r.
+  // False: one of the eight rounds that improve what the layouts lead to, and one exchange
+  // or none in a best fit: less than half the time, and some hundredths more E_r.
   bool thorough = true;
   std::uint64_t seed = 0;  // of the best fit's samples
 };
@@ -32,7 +32,7 @@ struct RefineOptions {
 // spares or grows primitives where that pays most, up to the budget, and then gives up some and
 // spends them anew, again and again. A body whose is_symmetric holds gets an exactly symmetric set;
 // others are not forced. Any parts may be missing. A best fit prefers capsules that hang together
-// to lone spheres (one piece is worth a third of a primitive) and leaves out no limb; beside the
+// to lone spheres (one piece is worth nearly half a primitive) and leaves out no limb; beside the
 // best of unconnected spheres that costs about a twentieth of E_r.
 //
 // `target`: tighten::TargetOf(body, options.parts). Same input, same bits, for any pool. On

@@ -6,7 +6,6 @@
 
 #include "core/base/random.h"
 #include "core/refine/best_fit/boundary_integral.h"
-#include "core/refine/graph/cone.h"
 #include "core/refine/internal.h"
 
 namespace capfit::refine {
@@ -29,12 +28,13 @@ double RateAt(const BestFitOptions& options, int step) {
 }  // namespace
 
 void DescendBestFit(const OccupancyGrid& grid, const BestFitOptions& options,
-                    const FitObserver& observer, capsule::MirroredSet& graph) {
+                    const ThreadPool& pool, const FitObserver& observer,
+                    capsule::MirroredSet& graph) {
   std::vector<Moments> moments(graph.spheres().size());
   Random random(options.seed);
+  BoundaryIntegrator integrator(graph, {options.spacing_m, &grid, options.active});
   for (int step = 0; step < options.steps && !observer.IsCancelled(); ++step) {
-    const BoundaryIntegral boundary = IntegrateBoundary(
-        graph, ConesOf(graph), {options.spacing_m, random.NextUnit(), &grid, options.active});
+    const BoundaryIntegral& boundary = integrator.Integrate(random.NextUnit(), pool);
     const double rate = RateAt(options, step) / (1.0 - std::pow(kMeanDecay, step + 1));
     const double unbias = 1.0 / (1.0 - std::pow(kSquareDecay, step + 1));
     for (int v = 0; v < graph.sphere_count(); ++v) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/fit_observer.h"
+#include "core/base/thread_pool.h"
 #include "core/capsule/mirrored_set.h"
 #include "core/refine/best_fit/occupancy_grid.h"
 
@@ -25,7 +26,8 @@ struct BestFitOptions {
 // is exact for the continuous boundary. Symmetric graphs stay so bit for bit. About 0.1 ms a step
 // at 64 primitives; no further step once the observer cancels.
 void DescendBestFit(const OccupancyGrid& grid, const BestFitOptions& options,
-                    const FitObserver& observer, capsule::MirroredSet& graph);
+                    const ThreadPool& pool, const FitObserver& observer,
+                    capsule::MirroredSet& graph);
 
 }  // namespace capfit::refine
 

@@ -5,6 +5,7 @@
 
 #include "core/refine/best_fit/best_fit_descent.h"
 #include "core/refine/best_fit/far_misses.h"
+#include "core/refine/best_fit/fill_error.h"
 #include "core/refine/graph/points_apart.h"
 
 namespace capfit::refine {
@@ -32,36 +33,39 @@ int StepsOf(Effort effort, int primitives) {
 BestFitObjective::BestFitObjective(OccupancyGrid grid, SurfacePoints points, std::uint64_t seed)
     : grid_(std::move(grid)),
       coarse_(CoarserGrid(grid_)),
-      points_(std::move(points)),
+      points_(std::make_unique<const SurfacePoints>(std::move(points))),
+      groups_(*points_),
       seed_(seed) {}
 
-void BestFitObjective::Settle(Effort effort, const FitObserver& observer,
+void BestFitObjective::Settle(Effort effort, const ThreadPool& pool, const FitObserver& observer,
                               capsule::MirroredSet& graph) const {
   BestFitOptions options;
   options.seed = seed_;
   options.steps = StepsOf(effort, graph.primitive_count());
   options.first_rate_m = effort == Effort::kRough ? 0.008 : 0.003;
-  DescendBestFit(grid_, options, observer, graph);
+  DescendBestFit(grid_, options, pool, observer, graph);
 }
 
-double BestFitObjective::Value(const capsule::MirroredSet& graph) const {
+double BestFitObjective::Value(const capsule::MirroredSet& graph, const ThreadPool& pool) const {
   double missed_m = 0.0;
-  for (const double miss : FarMisses(points_, graph)) missed_m += miss;
-  return GridError(grid_, graph) + MissPenalty(points_, missed_m);
+  for (const double miss : FarMisses(*points_, graph, pool)) missed_m += miss;
+  return GridError(grid_, graph, pool) + MissPenalty(*points_, missed_m);
 }
 
-BestFitRound BestFitObjective::StartRound(const capsule::MirroredSet& graph) const {
-  return {grid_, coarse_, points_, seed_, graph};
+BestFitRound BestFitObjective::StartRound(const capsule::MirroredSet& graph,
+                                          const ThreadPool& pool) const {
+  return {grid_, coarse_, *points_, groups_, seed_, graph, pool};
 }
 
 std::vector<Eigen::Vector3d> BestFitObjective::WorstPoints(const capsule::MirroredSet& graph,
-                                                           int count) const {
-  const std::vector<double> excess = ExcessOf(points_, graph);
+                                                           int count,
+                                                           const ThreadPool& pool) const {
+  const std::vector<double> excess = ExcessOf(*points_, graph, pool);
   std::vector<Eigen::Vector3d> positions;
   std::vector<double> scores;
   for (std::size_t i = 0; i < excess.size(); ++i) {
     if (excess[i] < kLeastMissM) continue;
-    positions.push_back(points_.grid.point(i));
+    positions.push_back(points_->grid.point(i));
     scores.push_back(excess[i]);
   }
   return BestApart(positions, scores, kBestFitLeafDistanceM, count);

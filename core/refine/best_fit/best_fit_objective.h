@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_REFINE_BEST_FIT_BEST_FIT_OBJECTIVE_H_
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/base/fit_observer.h"
@@ -27,19 +28,22 @@ class BestFitObjective {
   BestFitObjective(OccupancyGrid grid, SurfacePoints points, std::uint64_t seed);
 
   // Moves and grows all spheres, until the observer cancels.
-  void Settle(Effort effort, const FitObserver& observer, capsule::MirroredSet& graph) const;
+  void Settle(Effort effort, const ThreadPool& pool, const FitObserver& observer,
+              capsule::MirroredSet& graph) const;
   // E_r, plus what is left out by far (MissPenalty).
-  [[nodiscard]] double Value(const capsule::MirroredSet& graph) const;
+  [[nodiscard]] double Value(const capsule::MirroredSet& graph, const ThreadPool& pool) const;
   // The objective must outlive the round.
-  [[nodiscard]] BestFitRound StartRound(const capsule::MirroredSet& graph) const;
+  [[nodiscard]] BestFitRound StartRound(const capsule::MirroredSet& graph,
+                                        const ThreadPool& pool) const;
   // Points of the surface where a new sphere would help most, best first, apart from each other.
   [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const capsule::MirroredSet& graph,
-                                                         int count) const;
+                                                         int count, const ThreadPool& pool) const;
 
  private:
   OccupancyGrid grid_;
   OccupancyGrid coarse_;
-  SurfacePoints points_;
+  std::unique_ptr<const SurfacePoints> points_;
+  PointGroups groups_;
   std::uint64_t seed_;
 };
 

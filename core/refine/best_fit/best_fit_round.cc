@@ -1,9 +1,7 @@
 #include "core/refine/best_fit/best_fit_round.h"
 
 #include <algorithm>
-#include <limits>
 
-#include "core/refine/best_fit/far_misses.h"
 #include "core/refine/graph/cone.h"
 #include "core/refine/internal.h"
 
@@ -12,55 +10,30 @@ namespace {
 
 // Further than this no sphere moves in a trial.
 constexpr double kDriftM = 0.05;
-// Edits of larger graphs gain so little that coarse cells do not tell.
-constexpr int kMostJudgedCoarsely = 100;
+// Of few primitives, which are large, a look at fewer samples and a glance of fewer steps at one
+// layer of cells in so many tells as much.
 constexpr double kTrialSpacingM = 0.03;
+constexpr double kTrialSpacingOfFewM = 0.04;
+constexpr int kGlanceStepsOfFew = 4;
+constexpr int kGlanceLayersOfFew = 2;
 constexpr int kBestFitGlanceSteps = 8;
 constexpr int kBestFitTrialSteps = 18;
-
-// Calls take(index) for the points in the box.
-template <class Take>
-void ForPointsIn(const tighten::PointGrid& grid, const Box& box, const Take& take) {
-  const Eigen::AlignedBox3d reach(box[0], box[1]);
-  for (const tighten::PointGrid::Block& block : grid.blocks()) {
-    if (reach.squaredExteriorDistance(block.center) > block.reach * block.reach) continue;
-    for (std::size_t i = block.begin; i < block.end; ++i) {
-      if (reach.contains(grid.point(i))) take(i);
-    }
-  }
-}
-
-// How much further out than kFarMissM the point is. `near`: the cone that is tried first, and in
-// the end the one that has the point; neighbours mostly have the same.
-double FarMissOf(const Eigen::Vector3d& point_m, double allowed_m, const std::vector<Cone>& cones,
-                 std::size_t& near) {
-  const Eigen::Vector3f p = point_m.cast<float>();
-  const auto excess = [&](const Cone& cone) {
-    return cone.SignedDistance(p.x(), p.y(), p.z()) - allowed_m;
-  };
-  if (near < cones.size() && excess(cones[near]) <= kFarMissM) return 0.0;
-  double least = std::numeric_limits<double>::max();
-  for (std::size_t k = 0; k < cones.size(); ++k) {
-    least = std::min(least, excess(cones[k]));
-    if (least > kFarMissM) continue;
-    near = k;
-    return 0.0;
-  }
-  return least - kFarMissM;
-}
 
 }  // namespace
 
 BestFitRound::BestFitRound(const OccupancyGrid& grid, const OccupancyGrid& coarse,
-                           const SurfacePoints& points, std::uint64_t seed,
-                           const capsule::MirroredSet& graph)
+                           const SurfacePoints& points, const PointGroups& groups,
+                           std::uint64_t seed, const capsule::MirroredSet& graph,
+                           const ThreadPool& pool)
     : grid_(grid),
       coarse_(coarse),
       points_(points),
+      groups_(groups),
       seed_(seed),
       before_(graph),
-      errors_before_(coarse, before_),
-      misses_before_m_(FarMisses(points, before_)) {}
+      is_of_few_(graph.primitive_count() <= kFewPrimitives),
+      errors_before_(coarse, ConesOf(before_), pool),
+      misses_before_(groups.Group(FarMisses(points, before_, pool))) {}
 
 double BestFitRound::Try(Trial trial, EditedGraph& edited) const {
   const bool glance = trial == Trial::kGlance;
@@ -74,7 +47,7 @@ double BestFitRound::Try(Trial trial, EditedGraph& edited) const {
   std::vector<char> local_active;
   for (const int v : local.nodes) local_active.push_back(active[U(v)]);
   // Who tries many looks between them: one is over in less than a millisecond.
-  DescendBestFit(grid_, OptionsOf(glance, local_active), NullObserver(), local.graph);
+  DescendBestFit(grid_, OptionsOf(glance, local_active), alone_, NullObserver(), local.graph);
   for (std::size_t v = 0; v < local.nodes.size(); ++v) {
     geometry::Sphere& node = edited.graph.sphere(local.nodes[v]);
     node.center_m = local.graph.spheres()[v].center_m;
@@ -82,31 +55,27 @@ double BestFitRound::Try(Trial trial, EditedGraph& edited) const {
   }
   box.extend(ReachOf(local.graph, local_active));
   box = box.intersection(widest);
-  return Gain(!glance && before_.primitive_count() > kMostJudgedCoarsely, local.graph,
-              {box.min(), box.max()});
+  return Gain(trial, local.graph, {box.min(), box.max()});
 }
 
 BestFitOptions BestFitRound::OptionsOf(bool glance, const std::vector<char>& active) const {
   BestFitOptions options;
-  options.steps = glance ? kBestFitGlanceSteps : kBestFitTrialSteps;
+  const int glance_steps = is_of_few_ ? kGlanceStepsOfFew : kBestFitGlanceSteps;
+  options.steps = glance ? glance_steps : kBestFitTrialSteps;
   options.first_rate_m = glance ? 0.005 : 0.004;
   options.last_rate_m = glance ? 0.002 : 0.0003;
-  options.spacing_m = kTrialSpacingM;
+  options.spacing_m = is_of_few_ ? kTrialSpacingOfFewM : kTrialSpacingM;
   options.seed = seed_;
   options.active = &active;
   return options;
 }
 
-double BestFitRound::Gain(bool fine, const capsule::MirroredSet& after, const Box& cells) const {
-  const double less_error = fine ? FillError(grid_, before_, cells) - FillError(grid_, after, cells)
-                                 : errors_before_.Over(cells) - FillError(coarse_, after, cells);
+double BestFitRound::Gain(Trial trial, const capsule::MirroredSet& after, const Box& cells) const {
   const std::vector<Cone> cones = ConesOf(after);
-  double less_missed_m = 0.0;
-  std::size_t near = 0;
-  ForPointsIn(points_.grid, cells, [&](std::size_t i) {
-    less_missed_m +=
-        misses_before_m_[i] - FarMissOf(points_.grid.point(i), points_.allowed_m, cones, near);
-  });
+  const int every = trial == Trial::kGlance && is_of_few_ ? kGlanceLayersOfFew : 1;
+  const double less_error =
+      errors_before_.Over(cells, every) - FillError(coarse_, cones, cells, every);
+  const double less_missed_m = groups_.LessMissed(misses_before_, cells, cones);
   return less_error / grid_.volume_m3 + MissPenalty(points_, less_missed_m);
 }
 

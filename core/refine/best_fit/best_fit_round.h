@@ -8,6 +8,7 @@
 #include "core/capsule/mirrored_set.h"
 #include "core/refine/best_fit/best_fit_descent.h"
 #include "core/refine/best_fit/far_misses.h"
+#include "core/refine/best_fit/fill_error.h"
 #include "core/refine/best_fit/occupancy_grid.h"
 #include "core/refine/graph/graph_edit.h"
 
@@ -19,9 +20,10 @@ enum class Trial { kGlance, kThorough };
 // What the trials share: made once per round. Immutable; may be asked from several threads.
 class BestFitRound {
  public:
-  // Grids and points must outlive the round. `coarse`: CoarserGrid of `grid`.
+  // Grids, points and their groups must outlive the round. `coarse`: CoarserGrid of `grid`.
   BestFitRound(const OccupancyGrid& grid, const OccupancyGrid& coarse, const SurfacePoints& points,
-               std::uint64_t seed, const capsule::MirroredSet& graph);
+               const PointGroups& groups, std::uint64_t seed, const capsule::MirroredSet& graph,
+               const ThreadPool& pool);
 
   // Settles the surroundings of the edit within edited.graph, a little or as far as pays; returns
   // by how much the objective falls against the graph without the edit.
@@ -29,15 +31,18 @@ class BestFitRound {
 
  private:
   [[nodiscard]] BestFitOptions OptionsOf(bool glance, const std::vector<char>& active) const;
-  [[nodiscard]] double Gain(bool fine, const capsule::MirroredSet& after, const Box& cells) const;
+  [[nodiscard]] double Gain(Trial trial, const capsule::MirroredSet& after, const Box& cells) const;
 
   const OccupancyGrid& grid_;
   const OccupancyGrid& coarse_;
   const SurfacePoints& points_;
+  const PointGroups& groups_;
+  ThreadPool alone_{1};  // trials run side by side, each by itself
   std::uint64_t seed_;
   capsule::MirroredSet before_;
+  bool is_of_few_;
   FillErrorMap errors_before_;
-  std::vector<double> misses_before_m_;  // by point, beyond kFarMissM
+  PointGroups::Misses misses_before_;
 };
 
 }  // namespace capfit::refine

@@ -15,7 +15,7 @@ constexpr int kLeastSteps = 150;  // and one more for each primitive
 }  // namespace
 
 OccupancyGrid BestFitGrid(const body::Body& body, const body::PartSelection& parts) {
-  return MakeOccupancyGrid(body, parts, kSettleCellM, body.is_symmetric);
+  return MakeOccupancyGrid(body, parts, kSettleCellM, body.is_symmetric, ThreadPool(1));
 }
 
 capsule::PrimitiveSet SettleBestFit(const OccupancyGrid& grid, double first_rate_m,
@@ -28,7 +28,7 @@ capsule::PrimitiveSet SettleBestFit(const OccupancyGrid& grid, double first_rate
   options.steps = kLeastSteps + graph.primitive_count();
   options.first_rate_m = first_rate_m;
   options.seed = seed;
-  DescendBestFit(grid, options, observer, graph);
+  DescendBestFit(grid, options, ThreadPool(1), observer, graph);
   RemoveSwallowed(graph);
   return graph.set();
 }

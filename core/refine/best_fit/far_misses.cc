@@ -1,27 +1,96 @@
 #include "core/refine/best_fit/far_misses.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace capfit::refine {
 namespace {
 
 constexpr double kMissWeightPerM = 10.0;
+constexpr float kNowhereM = 1e6f;
 
 }  // namespace
 
-std::vector<double> ExcessOf(const SurfacePoints& points, const capsule::MirroredSet& graph) {
-  const ThreadPool alone(1);
+std::vector<double> ExcessOf(const SurfacePoints& points, const capsule::MirroredSet& graph,
+                             const ThreadPool& pool) {
   std::vector<double> excess =
-      points.grid.DistancesTo(capsule::Solids(graph.set()), /*ignore_below_m=*/0.0, alone)
+      points.grid.DistancesTo(capsule::Solids(graph.set()), /*ignore_below_m=*/0.0, pool)
           .distance_m;
   for (double& value : excess) value -= points.allowed_m;
   return excess;
 }
 
-std::vector<double> FarMisses(const SurfacePoints& points, const capsule::MirroredSet& graph) {
-  std::vector<double> misses = ExcessOf(points, graph);
+std::vector<double> FarMisses(const SurfacePoints& points, const capsule::MirroredSet& graph,
+                              const ThreadPool& pool) {
+  std::vector<double> misses = ExcessOf(points, graph, pool);
   for (double& miss : misses) miss = std::max(0.0, miss - kFarMissM);
   return misses;
+}
+
+PointGroups::PointGroups(const SurfacePoints& points) : points_(points) {
+  for (std::size_t first = 0; first < points.grid.size(); first += kLane) {
+    Eight& group = groups_.emplace_back();
+    for (std::size_t k = 0; k < kLane; ++k) {
+      // What the last group lacks is beyond all boxes.
+      const bool is_there = first + k < points.grid.size();
+      const Eigen::Vector3f point =
+          is_there ? Eigen::Vector3f(points.grid.point(first + k).cast<float>())
+                   : Eigen::Vector3f(Eigen::Vector3f::Constant(kNowhereM));
+      group.x[k] = point.x(), group.y[k] = point.y(), group.z[k] = point.z();
+      if (is_there) group.box.extend(point);
+    }
+  }
+}
+
+PointGroups::Misses PointGroups::Group(const std::vector<double>& misses_m) const {
+  Misses misses;
+  misses.by_group_m.resize(groups_.size());
+  misses.any.resize(groups_.size(), 0);
+  for (std::size_t i = 0; i < misses_m.size(); ++i) {
+    misses.by_group_m[i / kLane][i % kLane] = static_cast<float>(misses_m[i]);
+    if (misses_m[i] > 0.0) misses.any[i / kLane] = 1;
+  }
+  return misses;
+}
+
+double PointGroups::LessMissed(const Misses& before, const Box& box,
+                               const std::vector<Cone>& cones) const {
+  const Eigen::AlignedBox3f reach(box[0].cast<float>(), box[1].cast<float>());
+  const Eigen::Vector3f low = reach.min(), high = reach.max();
+  double less_m = 0.0;
+  std::size_t near = 0;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Eight& group = groups_[g];
+    if (!reach.intersects(group.box)) continue;
+    std::array<float, kLane> misses;
+    if (!FindMisses(group, cones, near, misses) && !before.any[g]) continue;
+    for (std::size_t k = 0; k < kLane; ++k) {
+      const bool is_in = group.x[k] >= low.x() && group.x[k] <= high.x() && group.y[k] >= low.y() &&
+                         group.y[k] <= high.y() && group.z[k] >= low.z() && group.z[k] <= high.z();
+      if (is_in) less_m += before.by_group_m[g][k] - misses[k];
+    }
+  }
+  return less_m;
+}
+
+bool PointGroups::FindMisses(const Eight& group, const std::vector<Cone>& cones, std::size_t& near,
+                             std::array<float, kLane>& misses_m) const {
+  const auto allowed = static_cast<float>(kFarMissM + points_.allowed_m);
+  misses_m.fill(std::numeric_limits<float>::max());
+  const auto misses_with = [&](const Cone& cone) {
+    for (std::size_t k = 0; k < kLane; ++k) {
+      const float miss = cone.SignedDistance(group.x[k], group.y[k], group.z[k]) - allowed;
+      misses_m[k] = miss < misses_m[k] ? miss : misses_m[k];
+    }
+    return *std::max_element(misses_m.begin(), misses_m.end()) > 0.0f;
+  };
+  bool is_missed = near >= cones.size() || misses_with(cones[near]);
+  for (std::size_t j = 0; is_missed && j < cones.size(); ++j) {
+    is_missed = misses_with(cones[j]);
+    if (!is_missed) near = j;
+  }
+  for (float& miss : misses_m) miss = std::max(0.0f, miss);
+  return is_missed;
 }
 
 double MissPenalty(const SurfacePoints& points, double miss_m) {

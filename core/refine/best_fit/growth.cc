@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,12 +24,16 @@ constexpr std::size_t kLeastThorough = 8;
 // relative to the body's volume.
 constexpr double kSpareShare = 2.0;
 constexpr double kLeastLoss = 1e-4;
+// Of what a graph has too many so much goes by one look, but for what lies beside what has just
+// gone; at least so many primitives.
+constexpr double kSparedAtOnce = 0.5;
+constexpr int kLeastSpared = 4;
 // An exchange gives up this share of all primitives.
-constexpr double kExchangeShare = 0.06;
+constexpr double kExchangeShare = 0.1;
 // So many exchanges in a row may fail before no more are tried.
-constexpr std::size_t kMostFailures = 2;
+constexpr std::size_t kMostFailures = 4;
 // Of the removals glanced at, how many are tried thoroughly.
-constexpr double kSpareThoroughShare = 0.35;
+constexpr double kSpareThoroughShare = 0.15;
 // So often capsules are cut and all is settled again.
 constexpr int kCuttingRounds = 3;
 // A round of trials is taken for this share of what is left of the work, until it shows how far it
@@ -87,7 +92,7 @@ void ProposeLinks(const capsule::MirroredSet& graph, std::vector<Edit>& edits) {
 }
 
 std::vector<Edit> Additions(const BestFitObjective& objective, const GrowthOptions& options,
-                            const capsule::MirroredSet& graph) {
+                            const ThreadPool& pool, const capsule::MirroredSet& graph) {
   std::vector<Edit> edits;
   for (int e = 0; e < graph.capsule_count(); ++e) {
     if (graph.IsCapsuleRepresentative(e)) edits.push_back(EditOf(EditKind::kSplit, e));
@@ -98,7 +103,7 @@ std::vector<Edit> Additions(const BestFitObjective& objective, const GrowthOptio
     edits.push_back(EditOf(EditKind::kPart, v, 0));
     edits.push_back(EditOf(EditKind::kPart, v, 1));
   }
-  for (const Eigen::Vector3d& p : objective.WorstPoints(graph, options.worst_points)) {
+  for (const Eigen::Vector3d& p : objective.WorstPoints(graph, options.worst_points, pool)) {
     const std::vector<Edit> leaves = LeavesAt(graph, p);
     edits.insert(edits.end(), leaves.begin(), leaves.end());
     if (!leaves.empty()) {
@@ -133,7 +138,7 @@ std::vector<Candidate> TryAll(const BestFitObjective& objective, const capsule::
                               const std::vector<Edit>& edits, const ThreadPool& pool,
                               WorkMeter& meter, double until, double thorough_share,
                               const Admit& admit, const Score& score) {
-  const BestFitRound round = objective.StartRound(graph);
+  const BestFitRound round = objective.StartRound(graph, pool);
   std::vector<Candidate> candidates(edits.size());
   const auto attempt = [&](Trial trial) {
     pool.ForEach(candidates.size(), [&](std::size_t i) {
@@ -226,7 +231,7 @@ bool GrowOnce(const BestFitObjective& objective, const capsule::Budget& budget,
               const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
               capsule::MirroredSet& graph) {
   const std::vector<Candidate> candidates = TryAll(
-      objective, graph, Additions(objective, options, graph), pool, meter, options.until,
+      objective, graph, Additions(objective, options, pool, graph), pool, meter, options.until,
       options.thorough_share,
       [&](const capsule::MirroredSet& after) { return budget.Allows(after.count()); },
       [&](const capsule::MirroredSet& after, double gain) {
@@ -237,7 +242,7 @@ bool GrowOnce(const BestFitObjective& objective, const capsule::Budget& budget,
                                         std::max(options.batch_share * budget.Unused(graph.count()),
                                                  kLeastBatchShare * graph.primitive_count()));
   if (grown.primitive_count() == graph.primitive_count()) return false;
-  objective.Settle(Effort::kTouch, meter.observer(), grown);
+  objective.Settle(Effort::kTouch, pool, meter.observer(), grown);
   if (options.piece_cost > 0.0) MergeSwallowed(grown);
   RemoveSwallowed(grown);
   const bool grew = grown.primitive_count() > graph.primitive_count();
@@ -257,30 +262,48 @@ std::vector<Candidate> RankRemovals(const BestFitObjective& objective, const Gro
       });
 }
 
-// Without the candidate `first`, and where that is a capsule without other capsules elsewhere that
-// cost hardly more, up to `most` primitives or a little beyond.
+// The removal again on a graph that others have left smaller meanwhile. `index`: of each sphere of
+// `base` there; -1: gone.
+std::optional<EditedGraph> RemoveToo(const capsule::MirroredSet& base, const Edit& removal,
+                                     const std::vector<int>& index,
+                                     const capsule::MirroredSet& spared) {
+  Edit edit = removal;
+  if (edit.kind == EditKind::kUnlink) {
+    const auto [a, b] = base.ends(edit.first);
+    edit.first = spared.IndexOfCapsule(index[U(a)], index[U(b)]);
+  } else {
+    edit.first = index[U(edit.first)];
+  }
+  if (edit.first < 0) return std::nullopt;
+  EditedGraph result = Apply(spared, edit);
+  if (!result.possible) return std::nullopt;
+  return result;
+}
+
+// Without the candidate `first`, and without others elsewhere that cost no more than `worst`, up to
+// `most` primitives or a little beyond.
 capsule::MirroredSet TakeAway(const std::vector<Candidate>& candidates, std::size_t first, int most,
-                              const GrowthOptions& options, const capsule::MirroredSet& graph) {
+                              double worst, const GrowthOptions& options,
+                              const capsule::MirroredSet& graph) {
   const Candidate& chosen = candidates[first];
   capsule::MirroredSet spared = chosen.result.graph;
-  // Removing capsules keeps the indices of spheres, so that several may go at once.
-  if (chosen.edit.kind != EditKind::kUnlink) return spared;
+  std::vector<int> index = chosen.result.new_index;
   std::vector<char> locked(graph.spheres().size(), 0);
   LockSurroundings(graph, chosen, locked);
-  const double worst = kSpareShare * std::min(-kLeastLoss, chosen.score);
   for (const Candidate& c : candidates) {
     if (graph.primitive_count() - spared.primitive_count() >= most || c.score < worst) break;
-    if (c.edit.kind != EditKind::kUnlink || !LockSurroundings(graph, c, locked)) continue;
-    const capsule::CapsuleEnds& wanted = graph.ends(c.edit.first);
-    for (int e = 0; e < spared.capsule_count(); ++e) {
-      if (spared.ends(e)[0] != wanted[0] || spared.ends(e)[1] != wanted[1]) continue;
-      capsule::MirroredSet without = spared;
-      without.RemoveCapsule(e);
-      if (SavingOf(options, spared, without) > 0.0) spared = std::move(without);
-      break;
-    }
+    if (!LockSurroundings(graph, c, locked)) continue;
+    const std::optional<EditedGraph> less = RemoveToo(graph, c.edit, index, spared);
+    if (!less || SavingOf(options, spared, less->graph) <= 0.0) continue;
+    spared = less->graph;
+    for (int& v : index) v = v < 0 ? -1 : less->new_index[U(v)];
   }
   return spared;
+}
+
+// What costs hardly more than the candidate.
+double HardlyWorseThan(const Candidate& candidate) {
+  return kSpareShare * std::min(-kLeastLoss, candidate.score);
 }
 
 void Fill(const BestFitObjective& objective, const capsule::Budget& budget,
@@ -302,8 +325,8 @@ void Exchange(const BestFitObjective& objective, const capsule::Budget& budget,
               const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
               capsule::MirroredSet& graph) {
   if (meter.IsCancelled()) return;
-  objective.Settle(Effort::kTighten, meter.observer(), graph);
-  double value = objective.Value(graph);
+  objective.Settle(Effort::kTighten, pool, meter.observer(), graph);
+  double value = objective.Value(graph, pool);
   std::vector<Candidate> removals;
   std::size_t failures = 0;
   const double begin = meter.until();
@@ -312,11 +335,12 @@ void Exchange(const BestFitObjective& objective, const capsule::Budget& budget,
     if (failures == 0) removals = RankRemovals(objective, options, pool, meter, graph);
     if (failures >= removals.size()) return;
     const int most = std::max(2, static_cast<int>(kExchangeShare * graph.primitive_count()));
-    capsule::MirroredSet other = TakeAway(removals, failures, most, options, graph);
-    objective.Settle(Effort::kTouch, meter.observer(), other);
+    capsule::MirroredSet other =
+        TakeAway(removals, failures, most, HardlyWorseThan(removals[failures]), options, graph);
+    objective.Settle(Effort::kTouch, pool, meter.observer(), other);
     refill.until = begin + (i + 1.0) / options.exchanges * (options.until - begin);
     Fill(objective, budget, refill, pool, meter, other);
-    const double other_value = objective.Value(other);
+    const double other_value = objective.Value(other, pool);
     if (other_value < value) {
       graph = std::move(other);
       value = other_value;
@@ -334,17 +358,17 @@ double OutlineOfHalf(const capsule::MirroredSet& set, int half, double /*whole*/
 }  // namespace
 
 void SpendByCutting(const BestFitObjective& objective, const capsule::Budget& budget,
-                    WorkMeter& meter, capsule::MirroredSet& graph) {
+                    const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph) {
   if (meter.IsCancelled()) return;
-  double value = objective.Value(graph);
+  double value = objective.Value(graph, pool);
   for (int round = 0; round < kCuttingRounds && !meter.IsCancelled(); ++round) {
     capsule::MirroredSet cut = graph;
     capsule::CutWorthiest(budget, capsule::OutlineAreas(cut), OutlineOfHalf, cut);
     if (cut.primitive_count() == graph.primitive_count()) return;
-    objective.Settle(Effort::kFinish, meter.observer(), cut);
+    objective.Settle(Effort::kFinish, pool, meter.observer(), cut);
     MergeSwallowed(cut);
     RemoveSwallowed(cut);
-    const double cut_value = objective.Value(cut);
+    const double cut_value = objective.Value(cut, pool);
     if (cut_value >= value) return;
     graph = std::move(cut);
     value = cut_value;
@@ -358,8 +382,10 @@ void Spare(const BestFitObjective& objective, const capsule::Budget& budget,
     const int excess = budget.Excess(graph.count());
     const std::vector<Candidate> removals = RankRemovals(objective, options, pool, meter, graph);
     if (removals.empty()) return;
-    graph = TakeAway(removals, 0, excess, options, graph);
-    objective.Settle(Effort::kTouch, meter.observer(), graph);
+    const int most = std::max(kLeastSpared, static_cast<int>(kSparedAtOnce * excess));
+    graph = TakeAway(removals, 0, std::min(most, excess), -std::numeric_limits<double>::max(),
+                     options, graph);
+    objective.Settle(Effort::kTouch, pool, meter.observer(), graph);
   }
 }
 

@@ -34,7 +34,7 @@ void Grow(const BestFitObjective& objective, const capsule::Budget& budget,
 // Spends what growing left, where single edits gain too little to tell: cuts the capsules with most
 // surface in two and settles all; kept where the value falls.
 void SpendByCutting(const BestFitObjective& objective, const capsule::Budget& budget,
-                    WorkMeter& meter, capsule::MirroredSet& graph);
+                    const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph);
 
 }  // namespace capfit::refine
 

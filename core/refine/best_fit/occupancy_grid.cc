@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 
 #include "core/mesh/column_caster.h"
-#include "core/refine/graph/cone.h"
 #include "core/refine/internal.h"
 
 namespace capfit::refine {
@@ -17,8 +18,15 @@ constexpr int kColumnsPerCell = 2;  // in x and in y
 // Columns miss the vertices of regular meshes when they do not run through round coordinates.
 constexpr double kColumnShiftX = 0.5123;
 constexpr double kColumnShiftY = 0.4871;
-constexpr int kMargin = 2;  // cells around the body
-constexpr float kFullCost = 127.0f;
+constexpr int kAtOnce = 64;  // points whose costs are looked up
+constexpr int kMargin = 2;   // cells around the body
+constexpr float kFull = OccupancyGrid::kFull;
+
+// Rows of cells are whole registers.
+int InRegisters(int cells) {
+  constexpr int kWhole = OccupancyGrid::kRegister;
+  return (cells + kWhole - 1) / kWhole * kWhole;
+}
 
 OccupancyGrid EmptyGrid(const mesh::BodyMesh& mesh, double cell_m, bool folded) {
   OccupancyGrid grid;
@@ -33,8 +41,7 @@ OccupancyGrid EmptyGrid(const mesh::BodyMesh& mesh, double cell_m, bool folded) 
   grid.origin_m = (first * cell_m).cast<float>();
   grid.nx = static_cast<int>(count.x());
   grid.ny = static_cast<int>(count.y());
-  grid.nz = static_cast<int>(count.z());
-  grid.inside.assign(U(grid.nx) * U(grid.ny) * U(grid.nz), 0.0f);
+  grid.nz = InRegisters(static_cast<int>(count.z()));
   return grid;
 }
 
@@ -55,58 +62,67 @@ mesh::ColumnGrid ColumnsOf(const OccupancyGrid& grid, double side) {
   return columns;
 }
 
-// Adds signed steps along columns; Finish turns them into shares.
-class ColumnFiller {
+// One layer of cells: what columns enter and leave, and where, becomes shares.
+class LayerFiller {
  public:
-  explicit ColumnFiller(OccupancyGrid& grid)
-      : grid_(grid), steps_(grid.inside.size(), 0.0f), partial_(grid.inside.size(), 0.0f) {}
+  LayerFiller(const OccupancyGrid& grid, int y)
+      : grid_(grid), y_(y), steps_(U(grid.nx) * U(grid.nz), 0.0f), partial_(steps_) {}
 
   // What lies between where columns enter the body and leave it gains `weight`.
-  void Add(const mesh::BodyMesh& mesh, double side, float weight) {
-    const mesh::ColumnGrid columns = ColumnsOf(grid_, side);
-    const int last = static_cast<int>(columns.x.size()) - 1;
-    const mesh::ColumnCaster caster(mesh.vertices(), mesh.triangles(), columns, {0, 1, 2},
-                                    ThreadPool(1));
-    caster.ForEach([&](const mesh::ColumnCrossing& crossing) {
-      const int i = static_cast<int>(crossing.column);
-      Cross((side > 0.0 ? i : last - i) / kColumnsPerCell,
-            static_cast<int>(crossing.row) / kColumnsPerCell, crossing.along,
-            static_cast<float>(-crossing.turn) * weight);
-    });
+  void Add(const mesh::ColumnCaster& caster, double side, float weight) {
+    const int last = grid_.nx * kColumnsPerCell - 1;
+    for (int row = y_ * kColumnsPerCell; row < (y_ + 1) * kColumnsPerCell; ++row) {
+      caster.ForEachInRow(U(row), [&](const mesh::ColumnCrossing& crossing) {
+        const int i = static_cast<int>(crossing.column);
+        Cross((side > 0.0 ? i : last - i) / kColumnsPerCell, crossing.along,
+              static_cast<float>(-crossing.turn) * weight);
+      });
+    }
   }
 
-  void Finish() {
-    for (std::size_t column = 0; column < U(grid_.nx) * U(grid_.ny); ++column) {
+  void Finish(std::uint8_t* inside) const {
+    for (std::size_t from = 0; from < steps_.size(); from += U(grid_.nz)) {
       float above = 0.0f;
-      for (int k = grid_.nz - 1; k >= 0; --k) {
-        const std::size_t cell = column * U(grid_.nz) + U(k);
-        grid_.inside[cell] = std::clamp(above + partial_[cell], 0.0f, 1.0f);
+      for (std::size_t cell = from + U(grid_.nz); cell-- > from;) {
+        const float share = std::clamp(above + partial_[cell], 0.0f, 1.0f);
+        inside[cell] = static_cast<std::uint8_t>(kFull * share + 0.5f);
         above += steps_[cell];
       }
     }
   }
 
  private:
-  void Cross(int ix, int iy, double z, float sign) {
+  void Cross(int x, double z, float sign) {
     const double height = (z - grid_.origin_m.z()) / grid_.cell_m;
     const int k = static_cast<int>(height);
     if (height < 0.0 || k >= grid_.nz) return;
-    const std::size_t cell = grid_.ColumnOf(ix, iy) + U(k);
+    const std::size_t cell = U(x) * U(grid_.nz) + U(k);
     const float share = sign / (kColumnsPerCell * kColumnsPerCell);
     partial_[cell] += share * static_cast<float>(height - k);
     steps_[cell] += share;
   }
 
-  OccupancyGrid& grid_;
+  const OccupancyGrid& grid_;
+  int y_;
   std::vector<float> steps_;
   std::vector<float> partial_;
 };
 
-void FillInside(const mesh::BodyMesh& mesh, OccupancyGrid& grid) {
-  ColumnFiller filler(grid);
-  filler.Add(mesh, 1.0, grid.folded ? 0.5f : 1.0f);
-  if (grid.folded) filler.Add(mesh, -1.0, 0.5f);
-  filler.Finish();
+void FillInside(const mesh::BodyMesh& mesh, const ThreadPool& pool, OccupancyGrid& grid) {
+  const auto cast = [&](double side) {
+    return mesh::ColumnCaster(mesh.vertices(), mesh.triangles(), ColumnsOf(grid, side), {0, 1, 2},
+                              pool);
+  };
+  const mesh::ColumnCaster caster = cast(1.0);
+  const std::optional<mesh::ColumnCaster> mirrored =
+      grid.folded ? std::optional(cast(-1.0)) : std::nullopt;
+  grid.inside.resize(U(grid.nx) * U(grid.ny) * U(grid.nz));
+  pool.ForEach(U(grid.ny), [&](std::size_t y) {
+    LayerFiller filler(grid, static_cast<int>(y));
+    filler.Add(caster, 1.0, mirrored ? 0.5f : 1.0f);
+    if (mirrored) filler.Add(*mirrored, -1.0, 0.5f);
+    filler.Finish(grid.inside.data() + grid.ColumnOf(0, static_cast<int>(y)));
+  });
 }
 
 // Which of the cells inside the body belong to the selected parts: labels spread inward from the
@@ -134,7 +150,7 @@ std::vector<char> SelectedCells(const body::Body& body, const body::PartSelectio
         const auto cell = static_cast<std::ptrdiff_t>(front[next]) + step;
         if (cell < 0 || cell >= static_cast<std::ptrdiff_t>(label.size())) continue;
         const auto at = static_cast<std::size_t>(cell);
-        if (label[at] != kUnknown || grid.inside[at] == 0.0f) continue;
+        if (label[at] != kUnknown || grid.inside[at] == 0) continue;
         label[at] = label[front[next]];
         front.push_back(at);
       }
@@ -144,12 +160,36 @@ std::vector<char> SelectedCells(const body::Body& body, const body::PartSelectio
   return label;
 }
 
-void FillCost(OccupancyGrid& grid) {
+void FillCost(const ThreadPool& pool, OccupancyGrid& grid) {
+  const auto row = U(grid.nz), layer = row * U(grid.nx);
+  const std::uint8_t* fitted = grid.fitted_shares().data();
+  const std::uint8_t* inside = grid.inside.data();
+  const auto cost_of = [fitted, inside](std::size_t cell) {
+    return static_cast<std::uint32_t>((2 * OccupancyGrid::kFull - fitted[cell] - inside[cell]) / 2);
+  };
   grid.cost.resize(grid.inside.size());
-  for (std::size_t i = 0; i < grid.cost.size(); ++i) {
-    const float cost = 1.0f - grid.fitted[i] - grid.inside[i];
-    grid.cost[i] = static_cast<std::int8_t>(std::lround(kFullCost * cost));
+  // The last of a row, and the last layer, have nothing beyond: no point is sought there.
+  pool.ForEach(U(grid.ny) - 1, [&](std::size_t y) {
+    std::vector<std::uint32_t> along_y(layer + 1, 0);
+    const std::size_t first = y * layer;
+    for (std::size_t i = 0; i < layer; ++i) {
+      along_y[i] = cost_of(first + i) | cost_of(first + layer + i) << 16;
+    }
+    for (std::size_t i = 0; i < layer; ++i) {
+      grid.cost[first + i] = along_y[i] | along_y[i + 1] << 8;
+    }
+  });
+}
+
+double VolumeOf(const OccupancyGrid& grid) {
+  const std::vector<std::uint8_t>& fitted = grid.fitted_shares();
+  double sum = 0.0;
+  for (int y = 0; y < grid.ny; ++y) {
+    const auto layer = fitted.begin() + static_cast<std::ptrdiff_t>(grid.ColumnOf(0, y));
+    sum += std::accumulate(layer + grid.first_x * grid.nz, layer + grid.nx * grid.nz, 0);
   }
+  const double cell_m = grid.cell_m;
+  return (grid.folded ? 2.0 : 1.0) * sum / OccupancyGrid::kFull * cell_m * cell_m * cell_m;
 }
 
 bool LeavesOutSomething(const body::Body& body, const body::PartSelection& parts) {
@@ -157,141 +197,91 @@ bool LeavesOutSomething(const body::Body& body, const body::PartSelection& parts
                      [&](body::Segment s) { return !parts.Includes(body::PartOf(s)); });
 }
 
-// The cells of `box`, as index ranges [low, high).
-struct CellRange {
-  std::array<int, 3> low, high;
-};
-
-CellRange RangeOf(const OccupancyGrid& grid, const Box& box) {
-  CellRange range;
-  const std::array<int, 3> count = {grid.nx, grid.ny, grid.nz};
-  for (int k = 0; k < 3; ++k) {
-    const double origin = grid.origin_m[k];
-    range.low[U(k)] = std::clamp(static_cast<int>(std::floor((box[0][k] - origin) / grid.cell_m)),
-                                 0, count[U(k)]);
-    range.high[U(k)] = std::clamp(static_cast<int>(std::ceil((box[1][k] - origin) / grid.cell_m)),
-                                  range.low[U(k)], count[U(k)]);
-  }
-  range.low[0] = std::max(range.low[0], grid.first_x);
-  range.high[0] = std::max(range.high[0], range.low[0]);
-  return range;
+// Between four costs, along y and z.
+float Between(std::uint32_t costs, float along_y, float along_z) {
+  const auto cost = [costs](int byte) {
+    return static_cast<float>(static_cast<std::int32_t>(costs >> (8 * byte) & 0xff));
+  };
+  const float low = cost(0) + along_z * (cost(1) - cost(0));
+  const float high = cost(2) + along_z * (cost(3) - cost(2));
+  return low + along_y * (high - low);
 }
 
-// Share of each cell of a block that the union fills, softened over one cell.
-class SoftUnion {
- public:
-  SoftUnion(const Vec3& origin_m, std::array<int, 3> count, double cell_m)
-      : origin_(origin_m.cast<float>()),
-        count_(count),
-        cell_(static_cast<float>(cell_m)),
-        share_(U(count[0]) * U(count[1]) * U(count[2]), 0.0f) {}
-
-  void Add(const capsule::MirroredSet& graph) {
-    for (const Cone& cone : ConesOf(graph)) {
-      const geometry::Sphere& a = graph.sphere(cone.node_a);
-      const geometry::Sphere& b = graph.sphere(cone.is_sphere ? cone.node_a : cone.node_b);
-      std::array<int, 3> low, high;
-      bool empty = false;
-      for (int k = 0; k < 3; ++k) {
-        const double from =
-            std::min(a.center_m[k] - a.radius_m, b.center_m[k] - b.radius_m) - origin_[k];
-        const double to =
-            std::max(a.center_m[k] + a.radius_m, b.center_m[k] + b.radius_m) - origin_[k];
-        low[U(k)] = std::max(0, static_cast<int>(std::floor(from / cell_ - 1.0)));
-        high[U(k)] = std::min(count_[U(k)], static_cast<int>(std::ceil(to / cell_ + 1.0)));
-        empty |= low[U(k)] >= high[U(k)];
-      }
-      if (!empty) Raise(cone, low, high);
-    }
+// SampleCost at kAtOnce points at most. Loops over arrays of its own, so that they become vector
+// code.
+void SampleSome(const OccupancyGrid& grid, const std::array<const float*, 3>& points, int count,
+                float* cost) {
+  std::array<float, kAtOnce> fx, fy, fz;
+  std::array<int, kAtOnce> cell;
+  std::array<std::uint32_t, kAtOnce> here, beyond;  // at the lower x and at the higher
+  const float inverse = 1.0f / grid.cell_m;
+  const int row = grid.nz, layer = row * grid.nx;
+  // The outermost cells are empty, so that points off the grid may be moved onto them.
+  const float last_x = static_cast<float>(grid.nx) - 1.001f,
+              last_y = static_cast<float>(grid.ny) - 1.001f,
+              last_z = static_cast<float>(grid.nz) - 1.001f;
+  const float low_x = grid.origin_m.x(), low_y = grid.origin_m.y(), low_z = grid.origin_m.z();
+  const float lowest = grid.folded ? 0.0f : -std::numeric_limits<float>::max();
+  const auto clamped = [](float g, float last) {
+    g = g > 0.0f ? g : 0.0f;
+    return g < last ? g : last;
+  };
+  const float *xs = points[0], *ys = points[1], *zs = points[2];
+  for (std::size_t n = 0; n < U(count); ++n) {
+    const float x = xs[n] > lowest ? xs[n] : -xs[n];
+    const float gx = clamped((x - low_x) * inverse - 0.5f, last_x);
+    const float gy = clamped((ys[n] - low_y) * inverse - 0.5f, last_y);
+    const float gz = clamped((zs[n] - low_z) * inverse - 0.5f, last_z);
+    const int i = static_cast<int>(gx), j = static_cast<int>(gy), k = static_cast<int>(gz);
+    cell[n] = j * layer + i * row + k;
+    fx[n] = gx - static_cast<float>(i);
+    fy[n] = gy - static_cast<float>(j);
+    fz[n] = gz - static_cast<float>(k);
   }
-
-  // Capped at 1.
-  [[nodiscard]] float ShareAt(std::size_t cell) const { return std::min(1.0f, share_[cell]); }
-  [[nodiscard]] std::size_t RowOf(int ix, int iy) const {
-    return (U(iy) * U(count_[0]) + U(ix)) * U(count_[2]);
+  for (std::size_t n = 0; n < U(count); ++n) {
+    here[n] = grid.cost[U(cell[n])];
+    beyond[n] = grid.cost[U(cell[n] + row)];
   }
-
- private:
-  void Raise(const Cone& cone, const std::array<int, 3>& low, const std::array<int, 3>& high) {
-    const float inverse = 1.0f / cell_;
-    const float z0 = origin_.z() + 0.5f * cell_;
-    for (int j = low[1]; j < high[1]; ++j) {
-      const float y = origin_.y() + (static_cast<float>(j) + 0.5f) * cell_;
-      for (int i = low[0]; i < high[0]; ++i) {
-        const float x = origin_.x() + (static_cast<float>(i) + 0.5f) * cell_;
-        float* row = share_.data() + RowOf(i, j);
-        for (int k = low[2]; k < high[2]; ++k) {
-          const float z = z0 + static_cast<float>(k) * cell_;
-          const float share = 0.5f - cone.SignedDistance(x, y, z) * inverse;
-          row[k] = row[k] > share ? row[k] : share;
-        }
-      }
-    }
+  for (std::size_t n = 0; n < U(count); ++n) {
+    const float near = Between(here[n], fy[n], fz[n]), far = Between(beyond[n], fy[n], fz[n]);
+    cost[n] = (near + fx[n] * (far - near) - 0.5f * kFull) * (2.0f / kFull);
   }
-
-  Eigen::Vector3f origin_;
-  std::array<int, 3> count_;
-  float cell_;
-  std::vector<float> share_;
-};
-
-// What one cell of the grid stands for, its image included.
-double CellVolume(const OccupancyGrid& grid) {
-  const double cell_m = grid.cell_m;
-  return (grid.folded ? 2.0 : 1.0) * cell_m * cell_m * cell_m;
 }
 
-Box WholeBox(const OccupancyGrid& grid) {
-  const Vec3 low = grid.origin_m.cast<double>();
-  return {low, low + grid.cell_m * Vec3(grid.nx, grid.ny, grid.nz)};
-}
-
-// Calls take(index of the first cell, errors of the cells) for each row along z of the range.
-template <class Take>
-void ForRowsOfError(const OccupancyGrid& grid, const capsule::MirroredSet& graph,
-                    const CellRange& range, const Take& take) {
-  const std::array<int, 3> count = {range.high[0] - range.low[0], range.high[1] - range.low[1],
-                                    range.high[2] - range.low[2]};
-  const Vec3 corner =
-      grid.origin_m.cast<double>() + grid.cell_m * Vec3(range.low[0], range.low[1], range.low[2]);
-  SoftUnion filled(corner, count, grid.cell_m);
-  filled.Add(graph);
-  std::vector<float> row(U(count[2]));
-  for (int j = 0; j < count[1]; ++j) {
-    for (int i = 0; i < count[0]; ++i) {
-      const std::size_t from = filled.RowOf(i, j);
-      const std::size_t to = grid.ColumnOf(range.low[0] + i, range.low[1] + j) + U(range.low[2]);
-      for (std::size_t k = 0; k < row.size(); ++k) {
-        const float share = filled.ShareAt(from + k);
-        row[k] = std::max(0.0f, share - grid.inside[to + k]) +
-                 std::max(0.0f, grid.fitted[to + k] - share);
-      }
-      take(to, row);
+// Of eight cells each.
+std::vector<std::uint8_t> MeansOf(const OccupancyGrid& grid,
+                                  const std::vector<std::uint8_t>& shares,
+                                  const OccupancyGrid& coarse) {
+  std::vector<int> sums(U(coarse.nx) * U(coarse.ny) * U(coarse.nz), 0);
+  for (int j = 0; j < grid.ny; ++j) {
+    for (int i = 0; i < grid.nx; ++i) {
+      const std::uint8_t* from = shares.data() + grid.ColumnOf(i, j);
+      int* to = sums.data() + coarse.ColumnOf(i / 2, j / 2);
+      for (int k = 0; k < grid.nz / 2; ++k) to[k] += from[2 * k] + from[2 * k + 1];
     }
   }
+  std::vector<std::uint8_t> means(sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    means[i] = static_cast<std::uint8_t>((sums[i] + 4) / 8);
+  }
+  return means;
 }
 
 }  // namespace
 
 OccupancyGrid MakeOccupancyGrid(const body::Body& body, const body::PartSelection& parts,
-                                double cell_m, bool folded) {
+                                double cell_m, bool folded, const ThreadPool& pool) {
   OccupancyGrid grid = EmptyGrid(body.mesh, cell_m, folded);
-  FillInside(body.mesh, grid);
-  grid.fitted = grid.inside;
+  FillInside(body.mesh, pool, grid);
   if (LeavesOutSomething(body, parts)) {
+    grid.fitted = grid.inside;
     const std::vector<char> selected = SelectedCells(body, parts, grid);
     for (std::size_t i = 0; i < selected.size(); ++i) {
-      if (!selected[i]) grid.fitted[i] = 0.0f;
+      if (!selected[i]) grid.fitted[i] = 0;
     }
   }
-  FillCost(grid);
-  double cells = 0.0;
-  for (int j = 0; j < grid.ny; ++j) {
-    for (int i = grid.first_x; i < grid.nx; ++i) {
-      for (int k = 0; k < grid.nz; ++k) cells += grid.fitted[grid.ColumnOf(i, j) + U(k)];
-    }
-  }
-  grid.volume_m3 = cells * (folded ? 2.0 : 1.0) * cell_m * cell_m * cell_m;
+  FillCost(pool, grid);
+  grid.volume_m3 = VolumeOf(grid);
   return grid;
 }
 
@@ -300,88 +290,22 @@ OccupancyGrid CoarserGrid(const OccupancyGrid& grid) {
   coarse.cell_m = 2.0f * grid.cell_m;
   coarse.nx = (grid.nx + 1) / 2;
   coarse.ny = (grid.ny + 1) / 2;
-  coarse.nz = (grid.nz + 1) / 2;
+  coarse.nz = InRegisters(grid.nz / 2);
   coarse.origin_m = grid.origin_m;
   coarse.folded = grid.folded;
   coarse.first_x = grid.first_x / 2;
   coarse.volume_m3 = grid.volume_m3;
-  const std::size_t cells = U(coarse.nx) * U(coarse.ny) * U(coarse.nz);
-  coarse.fitted.assign(cells, 0.0f);
-  coarse.inside.assign(cells, 0.0f);
-  for (int j = 0; j < grid.ny; ++j) {
-    for (int i = 0; i < grid.nx; ++i) {
-      const std::size_t from = grid.ColumnOf(i, j), to = coarse.ColumnOf(i / 2, j / 2);
-      for (std::size_t k = 0; k < U(grid.nz); ++k) {
-        coarse.fitted[to + k / 2] += 0.125f * grid.fitted[from + k];
-        coarse.inside[to + k / 2] += 0.125f * grid.inside[from + k];
-      }
-    }
-  }
-  FillCost(coarse);
+  coarse.inside = MeansOf(grid, grid.inside, coarse);
+  if (!grid.fitted.empty()) coarse.fitted = MeansOf(grid, grid.fitted, coarse);
   return coarse;
 }
 
 void SampleCost(const OccupancyGrid& grid, const float* x, const float* y, const float* z,
                 int count, float* cost) {
-  const float inverse = 1.0f / grid.cell_m;
-  const std::ptrdiff_t row = grid.nz, layer = row * grid.nx;
-  // The outermost cells are empty, so that points off the grid may be moved onto them.
-  const float last_x = static_cast<float>(grid.nx) - 1.001f,
-              last_y = static_cast<float>(grid.ny) - 1.001f,
-              last_z = static_cast<float>(grid.nz) - 1.001f;
-  const auto clamped = [](float g, float last) { return std::min(std::max(g, 0.0f), last); };
-  for (int n = 0; n < count; ++n) {
-    const float px = grid.folded ? std::abs(x[n]) : x[n];
-    const float gx = clamped((px - grid.origin_m.x()) * inverse - 0.5f, last_x);
-    const float gy = clamped((y[n] - grid.origin_m.y()) * inverse - 0.5f, last_y);
-    const float gz = clamped((z[n] - grid.origin_m.z()) * inverse - 0.5f, last_z);
-    const int i = static_cast<int>(gx), j = static_cast<int>(gy), k = static_cast<int>(gz);
-    const float fx = gx - static_cast<float>(i), fy = gy - static_cast<float>(j),
-                fz = gz - static_cast<float>(k);
-    const std::int8_t* p = grid.cost.data() + j * layer + i * row + k;
-    const auto along_z = [fz](const std::int8_t* q) {
-      return static_cast<float>(q[0]) + fz * static_cast<float>(q[1] - q[0]);
-    };
-    const float v00 = along_z(p), v10 = along_z(p + row);
-    const float v01 = along_z(p + layer), v11 = along_z(p + layer + row);
-    const float v0 = v00 + fx * (v10 - v00), v1 = v01 + fx * (v11 - v01);
-    cost[n] = (v0 + fy * (v1 - v0)) * (1.0f / kFullCost);
+  for (int first = 0; first < count; first += kAtOnce) {
+    const int some = std::min(kAtOnce, count - first);
+    SampleSome(grid, {x + first, y + first, z + first}, some, cost + first);
   }
-}
-
-double FillError(const OccupancyGrid& grid, const capsule::MirroredSet& graph, const Box& box) {
-  double cells = 0.0;
-  ForRowsOfError(grid, graph, RangeOf(grid, box), [&](std::size_t, const std::vector<float>& row) {
-    cells += std::accumulate(row.begin(), row.end(), 0.0f);
-  });
-  return cells * CellVolume(grid);
-}
-
-FillErrorMap::FillErrorMap(const OccupancyGrid& grid, const capsule::MirroredSet& graph)
-    : grid_(grid), errors_(grid.inside.size(), 0.0f) {
-  ForRowsOfError(grid, graph, RangeOf(grid, WholeBox(grid)),
-                 [&](std::size_t at, const std::vector<float>& row) {
-                   std::copy(row.begin(), row.end(),
-                             errors_.begin() + static_cast<std::ptrdiff_t>(at));
-                 });
-}
-
-double FillErrorMap::Over(const Box& box) const {
-  const CellRange range = RangeOf(grid_, box);
-  double cells = 0.0;
-  for (int j = range.low[1]; j < range.high[1]; ++j) {
-    for (int i = range.low[0]; i < range.high[0]; ++i) {
-      const std::size_t column = grid_.ColumnOf(i, j);
-      float row = 0.0f;
-      for (int k = range.low[2]; k < range.high[2]; ++k) row += errors_[column + U(k)];
-      cells += row;
-    }
-  }
-  return cells * CellVolume(grid_);
-}
-
-double GridError(const OccupancyGrid& grid, const capsule::MirroredSet& graph) {
-  return FillError(grid, graph, WholeBox(grid)) / std::max(1e-12, grid.volume_m3);
 }
 
 }  // namespace capfit::refine

@@ -47,6 +47,12 @@ Cone MakeCone(const capsule::MirroredSet& graph, int a, int b) {
 
 std::vector<Cone> ConesOf(const capsule::MirroredSet& graph) {
   std::vector<Cone> cones;
+  FindCones(graph, cones);
+  return cones;
+}
+
+void FindCones(const capsule::MirroredSet& graph, std::vector<Cone>& cones) {
+  cones.clear();
   std::vector<char> used(graph.spheres().size(), 0);
   for (const capsule::CapsuleEnds& e : graph.capsules()) {
     cones.push_back(MakeCone(graph, e[0], e[1]));
@@ -55,7 +61,6 @@ std::vector<Cone> ConesOf(const capsule::MirroredSet& graph) {
   for (int v = 0; v < graph.sphere_count(); ++v) {
     if (!used[static_cast<std::size_t>(v)]) cones.push_back(MakeCone(graph, v, v));
   }
-  return cones;
 }
 
 ConeFoot Locate(const Cone& cone, const Eigen::Vector3d& point_m) {

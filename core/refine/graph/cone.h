@@ -23,6 +23,8 @@ struct Cone : tighten::FloatKernel {
 
 // One cone for each edge, in order, then one for each node without an edge.
 [[nodiscard]] std::vector<Cone> ConesOf(const capsule::MirroredSet& graph);
+// The same, in place of what is there.
+void FindCones(const capsule::MirroredSet& graph, std::vector<Cone>& cones);
 
 // The gradient of the distance, and the cone's radius at the foot of the point.
 struct ConeFoot {

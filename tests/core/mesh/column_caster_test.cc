@@ -105,10 +105,12 @@ TEST(ColumnCasterTest, SameBitsForAnyNumberOfThreads) {
     const ThreadPool pool(threads);
     const ColumnCaster caster(ball.vertices(), ball.triangles(), grid, {0, 1, 2}, pool);
     std::vector<double> numbers;
-    caster.ForEach([&](const ColumnCrossing& crossing) {
-      numbers.insert(numbers.end(), {crossing.along, 1.0 * crossing.triangle, 1.0 * crossing.row,
-                                     1.0 * crossing.column, 1.0 * crossing.turn});
-    });
+    for (std::size_t row = 0; row < grid.y.size(); ++row) {
+      caster.ForEachInRow(row, [&](const ColumnCrossing& crossing) {
+        numbers.insert(numbers.end(), {crossing.along, 1.0 * crossing.triangle, 1.0 * crossing.row,
+                                       1.0 * crossing.column, 1.0 * crossing.turn});
+      });
+    }
     return numbers;
   };
   const std::vector<double> one = all(1);

@@ -10,6 +10,7 @@
 #include "core/coverage/cover_body.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
+#include "core/refine/best_fit/fill_error.h"
 #include "core/refine/best_fit/occupancy_grid.h"
 #include "core/refine/graph/graph_edit.h"
 
@@ -65,7 +66,8 @@ double FurthestVertex(const body::Body& body, const capsule::PrimitiveSet& set) 
 double ErrorOf(const body::Body& body, const capsule::PrimitiveSet& set) {
   body::PartSelection all;
   all.head = all.hands = all.feet = true;
-  return GridError(MakeOccupancyGrid(body, all, 0.008, false), capsule::MirroredSet(set, false));
+  return GridError(MakeOccupancyGrid(body, all, 0.008, false, ThreadPool(1)),
+                   capsule::MirroredSet(set, false), ThreadPool(1));
 }
 
 // What the pipeline makes of it: an enclosing set covers.

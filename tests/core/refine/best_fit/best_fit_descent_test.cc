@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/refine/best_fit/fill_error.h"
 #include "tests/core/refine/ball_body.h"
 #include "tests/core/refine/graphs.h"
 
@@ -12,8 +13,8 @@ const Eigen::Vector3d kBodyCenter(0.0, 0.3, 0.05);
 constexpr double kBodyRadius = 0.2;
 
 const OccupancyGrid& Grid() {
-  static const OccupancyGrid grid =
-      MakeOccupancyGrid(BallBody(kBodyCenter, kBodyRadius), AllParts(), 0.008, /*folded=*/true);
+  static const OccupancyGrid grid = MakeOccupancyGrid(
+      BallBody(kBodyCenter, kBodyRadius), AllParts(), 0.008, /*folded=*/true, ThreadPool(1));
   return grid;
 }
 
@@ -35,19 +36,19 @@ TEST(BestFitDescentTest, FindsTheBallFromBesideIt) {
     capsule::MirroredSet graph = Off(is_mirrored);
     BestFitOptions options;
     options.steps = 150;
-    DescendBestFit(Grid(), options, NullObserver(), graph);
+    DescendBestFit(Grid(), options, ThreadPool(1), NullObserver(), graph);
     EXPECT_LT((graph.sphere(0).center_m - kBodyCenter).norm(), 0.003);
     EXPECT_NEAR(graph.sphere(0).radius_m, kBodyRadius, 0.003);
-    EXPECT_LT(GridError(Grid(), graph), 0.03);
+    EXPECT_LT(GridError(Grid(), graph, ThreadPool(1)), 0.03);
   }
 }
 
 TEST(BestFitDescentTest, APairStaysExactAndTheErrorFalls) {
   capsule::MirroredSet graph = Pair();
-  const double before = GridError(Grid(), graph);
-  DescendBestFit(Grid(), {}, NullObserver(), graph);
+  const double before = GridError(Grid(), graph, ThreadPool(1));
+  DescendBestFit(Grid(), {}, ThreadPool(1), NullObserver(), graph);
   EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
-  EXPECT_LT(GridError(Grid(), graph), 0.5 * before);
+  EXPECT_LT(GridError(Grid(), graph, ThreadPool(1)), 0.5 * before);
 }
 
 TEST(BestFitDescentTest, OnlyActiveSpheresMove) {
@@ -58,7 +59,7 @@ TEST(BestFitDescentTest, OnlyActiveSpheresMove) {
   const capsule::MirroredSet before = graph;
   BestFitOptions options;
   options.active = &active;
-  DescendBestFit(Grid(), options, NullObserver(), graph);
+  DescendBestFit(Grid(), options, ThreadPool(1), NullObserver(), graph);
   EXPECT_EQ(graph.sphere(still).center_m, before.sphere(still).center_m);
   EXPECT_EQ(graph.sphere(still).radius_m, before.sphere(still).radius_m);
   EXPECT_NE(graph.sphere(0).radius_m, before.sphere(0).radius_m);
@@ -70,7 +71,7 @@ TEST(BestFitDescentTest, SameSeedSameBits) {
     graphs.push_back(Pair());
     BestFitOptions options;
     options.seed = seed;
-    DescendBestFit(Grid(), options, NullObserver(), graphs.back());
+    DescendBestFit(Grid(), options, ThreadPool(1), NullObserver(), graphs.back());
   }
   EXPECT_EQ(graphs[0].sphere(0).center_m, graphs[1].sphere(0).center_m);
   EXPECT_NE(graphs[0].sphere(0).center_m, graphs[2].sphere(0).center_m);

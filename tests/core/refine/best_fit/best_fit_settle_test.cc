@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/refine/best_fit/fill_error.h"
 #include "tests/core/capsule/mirrored.h"
 #include "tests/core/refine/ball_body.h"
 
@@ -30,7 +31,8 @@ TEST(SettleBestFitTest, KeepsOriginsAndSymmetryAndLowersTheError) {
   }
   const capsule::MirroredSet mirrored(after, true);
   EXPECT_TRUE(capsule::IsExactlyMirrored(mirrored));
-  EXPECT_LT(GridError(grid, mirrored), 0.5 * GridError(grid, {before, true}));
+  EXPECT_LT(GridError(grid, mirrored, ThreadPool(1)),
+            0.5 * GridError(grid, {before, true}, ThreadPool(1)));
 }
 
 TEST(SettleBestFitTest, WhatOthersSwallowGoes) {

@@ -37,7 +37,7 @@ double VolumeOf(const capsule::MirroredSet& graph) {
 TEST(BoundaryIntegralTest, ABallGrowsByItsSurfaceAndDoesNotCareWhereItIs) {
   capsule::MirroredSet graph;
   graph.AddSphere({{0.1, 0.2, 0.3}, 0.1}, false);
-  const BoundaryIntegral b = IntegrateBoundary(graph, ConesOf(graph), {0.01, 0.3});
+  const BoundaryIntegral b = IntegrateBoundary(graph, {0.01}, 0.3);
   const double surface = 4.0 * std::numbers::pi * 0.01;
   EXPECT_NEAR(b.area_m2[0], surface, 1e-9);
   EXPECT_NEAR(b.gradient_m2[0][3], surface, 1e-6);
@@ -47,7 +47,7 @@ TEST(BoundaryIntegralTest, ABallGrowsByItsSurfaceAndDoesNotCareWhereItIs) {
 TEST(BoundaryIntegralTest, AHiddenBallHasNoGradient) {
   capsule::MirroredSet graph = LeggedGraph(false);
   graph.AddSphere({{0.0, 1.2, 0.01}, 0.05}, false);
-  const BoundaryIntegral b = IntegrateBoundary(graph, ConesOf(graph), {});
+  const BoundaryIntegral b = IntegrateBoundary(graph, {}, 0.5);
   EXPECT_EQ(b.area_m2.back(), 0.0);
 }
 
@@ -59,7 +59,7 @@ TEST(BoundaryIntegralTest, GradientMatchesFiniteDifferencesOfVolume) {
     constexpr int kDraws = 40;
     for (int k = 0; k < kDraws; ++k) {
       const double phase = (k + 0.5) / kDraws;
-      const BoundaryIntegral b = IntegrateBoundary(graph, ConesOf(graph), {0.006, phase});
+      const BoundaryIntegral b = IntegrateBoundary(graph, {0.006}, phase);
       for (std::size_t v = 0; v < mean.size(); ++v) mean[v] += b.gradient_m2[v] / kDraws;
     }
     for (int v = 0; v < graph.sphere_count(); ++v) {
@@ -88,8 +88,8 @@ TEST(BoundaryIntegralTest, OnlyActiveNodesAreSampled) {
   active[3] = 1;
   BoundaryOptions options;
   options.active = &active;
-  const BoundaryIntegral some = IntegrateBoundary(graph, ConesOf(graph), options);
-  const BoundaryIntegral all = IntegrateBoundary(graph, ConesOf(graph), {});
+  const BoundaryIntegral some = IntegrateBoundary(graph, options, 0.5);
+  const BoundaryIntegral all = IntegrateBoundary(graph, {}, 0.5);
   EXPECT_EQ(some.gradient_m2[3], all.gradient_m2[3]);
   EXPECT_EQ(some.area_m2[0], 0.0);
 }

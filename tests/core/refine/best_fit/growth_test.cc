@@ -19,9 +19,10 @@ const body::Body& Ball() {
 const BestFitObjective& Objective() {
   static const BestFitObjective objective = [] {
     const std::span<const Eigen::Vector3d> vertices = Ball().mesh.vertices();
-    return BestFitObjective(MakeOccupancyGrid(Ball(), AllParts(), 0.01, /*folded=*/true),
-                            {tighten::PointGrid(vertices, tighten::PointGrid::Fold::kToPositiveX)},
-                            /*seed=*/1);
+    return BestFitObjective(
+        MakeOccupancyGrid(Ball(), AllParts(), 0.01, /*folded=*/true, ThreadPool(1)),
+        {tighten::PointGrid(vertices, tighten::PointGrid::Fold::kToPositiveX)},
+        /*seed=*/1);
   }();
   return objective;
 }
@@ -52,7 +53,7 @@ capsule::MirroredSet Grown(int primitives, int threads) {
 TEST(BestFitRoundTest, TheGainIsTheFallOfTheObjective) {
   capsule::MirroredSet graph = Small();
   graph.sphere(0).radius_m = graph.sphere(1).radius_m = 0.14;
-  const BestFitRound round = Objective().StartRound(graph);
+  const BestFitRound round = Objective().StartRound(graph, ThreadPool(1));
   const Edit ball{EditKind::kBall, -1, -1, kBallCenter + Eigen::Vector3d(0.1, 0, 0), 0.06};
   for (const Edit& edit : {ball, EditOf(EditKind::kSplit, 0), EditOf(EditKind::kUnlink, 0)}) {
     for (const Trial trial : {Trial::kGlance, Trial::kThorough}) {
@@ -60,14 +61,17 @@ TEST(BestFitRoundTest, TheGainIsTheFallOfTheObjective) {
       ASSERT_TRUE(edited.possible);
       const double gain = round.Try(trial, edited);
       EXPECT_TRUE(capsule::IsExactlyMirrored(edited.graph));
-      EXPECT_NEAR(gain, Objective().Value(graph) - Objective().Value(edited.graph), 0.02);
+      EXPECT_NEAR(
+          gain,
+          Objective().Value(graph, ThreadPool(1)) - Objective().Value(edited.graph, ThreadPool(1)),
+          0.02);
     }
   }
 }
 
 TEST(BestFitObjectiveTest, SettlingLowersTheValueAndWorstPointsAreOutsideAndApart) {
   capsule::MirroredSet graph = Small();
-  const std::vector<Eigen::Vector3d> worst = Objective().WorstPoints(graph, 8);
+  const std::vector<Eigen::Vector3d> worst = Objective().WorstPoints(graph, 8, ThreadPool(1));
   ASSERT_EQ(worst.size(), 8U);
   for (std::size_t i = 0; i < worst.size(); ++i) {
     EXPECT_GE(worst[i].x(), 0.0);
@@ -76,20 +80,21 @@ TEST(BestFitObjectiveTest, SettlingLowersTheValueAndWorstPointsAreOutsideAndApar
     EXPECT_LE(UnionDistance(graph, worst[i]), UnionDistance(graph, worst[before_i]) + 1e-5f);
     for (std::size_t k = 0; k < i; ++k) EXPECT_GE((worst[i] - worst[k]).norm(), 0.04);
   }
-  const double before = Objective().Value(graph);
-  Objective().Settle(Effort::kRough, NullObserver(), graph);
-  EXPECT_LT(Objective().Value(graph), 0.2 * before);
+  const double before = Objective().Value(graph, ThreadPool(1));
+  Objective().Settle(Effort::kRough, ThreadPool(1), NullObserver(), graph);
+  EXPECT_LT(Objective().Value(graph, ThreadPool(1)), 0.2 * before);
 }
 
 TEST(GrowthTest, KeepsToTheBudgetStaysMirroredAndDoesNotLose) {
   capsule::MirroredSet settled = Small();
-  Objective().Settle(Effort::kTighten, NullObserver(), settled);
+  Objective().Settle(Effort::kTighten, ThreadPool(1), NullObserver(), settled);
   for (const int primitives : {5, 9}) {
     const capsule::MirroredSet graph = Grown(primitives, 1);
     EXPECT_LE(graph.primitive_count(), primitives);
     EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
-    EXPECT_LT(Objective().Value(graph), Objective().Value(Small()));
-    EXPECT_LT(Objective().Value(graph), Objective().Value(settled) + 0.01);
+    EXPECT_LT(Objective().Value(graph, ThreadPool(1)), Objective().Value(Small(), ThreadPool(1)));
+    EXPECT_LT(Objective().Value(graph, ThreadPool(1)),
+              Objective().Value(settled, ThreadPool(1)) + 0.01);
   }
 }
 
@@ -125,10 +130,11 @@ TEST(GrowthTest, CuttingIsKeptOnlyWhereItPays) {
   NullObserver observer;
   WorkMeter meter(observer);
   capsule::MirroredSet graph = Small();
-  Objective().Settle(Effort::kFinish, NullObserver(), graph);
-  const double before = Objective().Value(graph);
-  SpendByCutting(Objective(), {7, capsule::kNoLimit, capsule::kNoLimit}, meter, graph);
-  EXPECT_LE(Objective().Value(graph), before);
+  Objective().Settle(Effort::kFinish, ThreadPool(1), NullObserver(), graph);
+  const double before = Objective().Value(graph, ThreadPool(1));
+  SpendByCutting(Objective(), {7, capsule::kNoLimit, capsule::kNoLimit}, ThreadPool(1), meter,
+                 graph);
+  EXPECT_LE(Objective().Value(graph, ThreadPool(1)), before);
   EXPECT_LE(graph.primitive_count(), 7);
 }
 

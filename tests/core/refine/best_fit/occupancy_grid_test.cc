@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/refine/best_fit/fill_error.h"
 #include "tests/core/refine/ball_body.h"
 
 namespace capfit::refine {
@@ -22,13 +23,13 @@ class OccupancyGridTest : public testing::TestWithParam<bool> {};
 TEST_P(OccupancyGridTest, VolumeIsThatOfTheMesh) {
   const body::Body body = BallBody({0.0, 0.3, 0.05}, 0.2);
   ASSERT_GT(body.mesh.volume(), 0.0);
-  const OccupancyGrid grid = MakeOccupancyGrid(body, AllParts(), 0.008, GetParam());
+  const OccupancyGrid grid = MakeOccupancyGrid(body, AllParts(), 0.008, GetParam(), ThreadPool(1));
   EXPECT_NEAR(grid.volume_m3, body.mesh.volume(), 0.005 * body.mesh.volume());
 }
 
 TEST_P(OccupancyGridTest, CostIsOneOutsideMinusOneInsideAndZeroOnTheSurface) {
-  const OccupancyGrid grid =
-      MakeOccupancyGrid(BallBody({0.0, 0.3, 0.05}, 0.2), AllParts(), 0.008, GetParam());
+  const OccupancyGrid grid = MakeOccupancyGrid(BallBody({0.0, 0.3, 0.05}, 0.2), AllParts(), 0.008,
+                                               GetParam(), ThreadPool(1));
   const float x[] = {0.0f, 0.0f, 0.0f, 5.0f}, y[] = {0.3f, 0.53f, 0.5f, 0.0f},
               z[] = {0.05f, 0.05f, 0.05f, 0.0f};
   float cost[4];
@@ -42,34 +43,35 @@ TEST_P(OccupancyGridTest, CostIsOneOutsideMinusOneInsideAndZeroOnTheSurface) {
 TEST_P(OccupancyGridTest, ACoarserGridHoldsTheSame) {
   const Eigen::Vector3d center(0.0, 0.3, 0.05);
   const OccupancyGrid grid =
-      MakeOccupancyGrid(BallBody(center, 0.2), AllParts(), 0.008, GetParam());
+      MakeOccupancyGrid(BallBody(center, 0.2), AllParts(), 0.008, GetParam(), ThreadPool(1));
   const OccupancyGrid coarse = CoarserGrid(grid);
   EXPECT_EQ(coarse.volume_m3, grid.volume_m3);
   EXPECT_FLOAT_EQ(coarse.cell_m, 0.016f);
   double fine_cells = 0.0, coarse_cells = 0.0;
-  for (const float share : grid.inside) fine_cells += share;
-  for (const float share : coarse.inside) coarse_cells += share;
+  for (const int share : grid.inside) fine_cells += share;
+  for (const int share : coarse.inside) coarse_cells += share;
   EXPECT_NEAR(coarse_cells, fine_cells / 8.0, 1e-3 * fine_cells);
   capsule::MirroredSet less = Ball(center, 0.16, GetParam());
-  EXPECT_NEAR(GridError(coarse, less), 1.0 - std::pow(0.8, 3), 0.02);
+  EXPECT_NEAR(GridError(coarse, less, ThreadPool(1)), 1.0 - std::pow(0.8, 3), 0.02);
 }
 
 TEST_P(OccupancyGridTest, ErrorIsNothingForTheBallItselfAndExactForOthers) {
   const Eigen::Vector3d center(0.0, 0.3, 0.05);
   const OccupancyGrid grid =
-      MakeOccupancyGrid(BallBody(center, 0.2), AllParts(), 0.008, GetParam());
+      MakeOccupancyGrid(BallBody(center, 0.2), AllParts(), 0.008, GetParam(), ThreadPool(1));
   const capsule::MirroredSet same = Ball(center, 0.2, GetParam());
   const capsule::MirroredSet less = Ball(center, 0.16, GetParam());
   const capsule::MirroredSet more = Ball(center, 0.22, GetParam());
-  EXPECT_LT(GridError(grid, same), 0.02);
-  EXPECT_NEAR(GridError(grid, less), 1.0 - std::pow(0.8, 3), 0.015);
-  EXPECT_NEAR(GridError(grid, more), std::pow(1.1, 3) - 1.0, 0.015);
+  EXPECT_LT(GridError(grid, same, ThreadPool(1)), 0.02);
+  EXPECT_NEAR(GridError(grid, less, ThreadPool(1)), 1.0 - std::pow(0.8, 3), 0.015);
+  EXPECT_NEAR(GridError(grid, more, ThreadPool(1)), std::pow(1.1, 3) - 1.0, 0.015);
 }
 
 TEST_P(OccupancyGridTest, PartsLeftOutCostNothingToFillAndNothingToLeave) {
   body::PartSelection no_feet;
   const Eigen::Vector3d center(0.0, 0.3, 0.05);
-  const OccupancyGrid grid = MakeOccupancyGrid(BallBody(center, 0.2), no_feet, 0.008, GetParam());
+  const OccupancyGrid grid =
+      MakeOccupancyGrid(BallBody(center, 0.2), no_feet, 0.008, GetParam(), ThreadPool(1));
   const double whole = 4.0 / 3.0 * std::numbers::pi * 0.008;
   EXPECT_NEAR(grid.volume_m3, 0.5 * whole, 0.05 * whole);
   const float x = 0.0f, y = 0.2f, z = 0.05f;
@@ -77,7 +79,7 @@ TEST_P(OccupancyGridTest, PartsLeftOutCostNothingToFillAndNothingToLeave) {
   SampleCost(grid, &x, &y, &z, 1, &cost);
   EXPECT_FLOAT_EQ(cost, 0.0f);
   capsule::MirroredSet same = Ball(center, 0.2, GetParam());
-  EXPECT_LT(GridError(grid, same), 0.03);
+  EXPECT_LT(GridError(grid, same, ThreadPool(1)), 0.03);
 }
 
 INSTANTIATE_TEST_SUITE_P(Folding, OccupancyGridTest, testing::Bool(),
