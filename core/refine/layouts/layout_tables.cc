@@ -137,6 +137,106 @@ constexpr auto kBestFull64Edges = std::to_array<LayoutEdge>({{0, 3, false},
                                                              {5, 18, false},
                                                              {13, 13, true}});
 
+// 128 for the best fit, with head, hands and feet.
+constexpr auto kBestFull128Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.19, 0.0, 0.6}, 0.8, false},      // 0
+    {BoneId::kChest, {0.96, 0.0, -0.3}, 0.7, false},     // 1
+    {BoneId::kUpperArm, {0.89, 0.0, -0.0}, 0.9, true},   // 2
+    {BoneId::kBelly, {0.97, 0.8, -0.1}, 0.9, true},      // 3
+    {BoneId::kThigh, {0.95, -0.0, 0.0}, 0.8, true},      // 4
+    {BoneId::kShin, {1.82, 0.0, 0.0}, 0.5, true},        // 5
+    {BoneId::kHand, {0.95, -0.3, 0.3}, 0.4, true},       // 6
+    {BoneId::kFoot, {0.96, -1.0, 0.4}, 0.6, true},       // 7
+    {BoneId::kBelly, {0.18, 0.2, 0.5}, 0.7, true},       // 8
+    {BoneId::kHead, {0.20, 0.0, 0.3}, 0.9, false},       // 9
+    {BoneId::kHead, {0.70, 0.0, 0.1}, 1.4, false},       // 10
+    {BoneId::kShin, {0.35, -0.0, -0.4}, 0.8, true},      // 11
+    {BoneId::kClavicle, {0.44, -0.4, -0.1}, 1.4, true},  // 12
+    {BoneId::kThigh, {0.28, -0.1, 0.3}, 1.2, true},      // 13
+    {BoneId::kHead, {0.70, 0.0, -0.4}, 1.2, false},      // 14
+    {BoneId::kUpperArm, {0.11, -0.1, -0.0}, 1.3, true},  // 15
+    {BoneId::kRibs, {0.99, 0.7, 0.5}, 0.9, true},        // 16
+    {BoneId::kHeel, {0.53, 0.0, -0.6}, 1.4, true},       // 17
+    {BoneId::kHand, {0.36, -0.1, 1.1}, 0.6, true},       // 18
+    {BoneId::kFoot, {0.19, -0.1, -0.0}, 1.1, true},      // 19
+    {BoneId::kThigh, {0.46, -0.1, 0.3}, 1.2, true},      // 20
+    {BoneId::kPelvis, {0.77, -0.1, -0.4}, 1.0, true},    // 21
+    {BoneId::kShin, {0.05, 0.0, 0.3}, 0.8, true},        // 22
+    {BoneId::kPelvis, {0.66, 0.4, -0.1}, 1.4, true},     // 23
+    {BoneId::kShin, {2.06, 0.0, -0.1}, 0.1, true},       // 24
+    {BoneId::kBelly, {0.21, 0.4, -0.1}, 1.2, true},      // 25
+    {BoneId::kHand, {0.16, -0.1, -0.6}, 0.7, true},      // 26
+    {BoneId::kHand, {0.87, -0.3, -0.6}, 0.5, true},      // 27
+    {BoneId::kThigh, {0.29, -0.1, 0.1}, 1.2, true},      // 28
+    {BoneId::kFoot, {0.98, -0.0, 0.6}, 0.7, true},       // 29
+    {BoneId::kThigh, {0.30, -0.2, 0.8}, 0.7, true},      // 30
+    {BoneId::kBelly, {0.44, 0.8, -0.0}, 1.0, true},      // 31
+    {BoneId::kHead, {0.71, 0.0, 0.6}, 1.2, false},       // 32
+    {BoneId::kForearm, {0.35, -0.0, -0.1}, 1.0, true},   // 33
+    {BoneId::kChest, {0.64, 0.5, -0.3}, 1.0, true},      // 34
+    {BoneId::kHead, {0.38, 0.0, 1.2}, 0.9, false},       // 35
+    {BoneId::kHand, {0.62, -0.4, 2.6}, 0.3, true},       // 36
+    {BoneId::kFoot, {0.97, 1.0, 0.4}, 0.6, true},        // 37
+});
+constexpr auto kBestFull128Edges = std::to_array<LayoutEdge>({
+    {0, 3, false},  {4, 5, false},   {0, 1, false},   {4, 11, false},  {1, 12, false},
+    {8, 12, false}, {3, 13, false},  {1, 15, false},  {2, 15, false},  {12, 16, false},
+    {7, 17, false}, {6, 18, false},  {13, 20, false}, {20, 22, false}, {13, 21, false},
+    {0, 25, false}, {26, 27, false}, {11, 24, false}, {17, 29, false}, {8, 30, false},
+    {4, 28, false}, {30, 31, false}, {10, 32, false}, {2, 33, false},  {6, 33, false},
+    {1, 9, false},  {12, 12, true},  {9, 10, false},  {8, 34, false},  {32, 35, false},
+    {9, 14, false}, {18, 36, false}, {17, 37, false},
+});
+
+// 128 for the best fit.
+constexpr auto kBest128Nodes = std::to_array<LayoutNode>({
+    {BoneId::kRibs, {0.37, 0.0, 0.0}, 0.9, false},       // 0
+    {BoneId::kChest, {0.08, 0.0, -0.2}, 1.3, false},     // 1
+    {BoneId::kChest, {0.80, 0.0, -0.5}, 0.8, false},     // 2
+    {BoneId::kUpperArm, {0.19, 0.2, 0.0}, 1.0, true},    // 3
+    {BoneId::kForearm, {0.90, -0.1, -0.1}, 0.7, true},   // 4
+    {BoneId::kShin, {0.12, -0.0, 0.2}, 0.9, true},       // 5
+    {BoneId::kShin, {0.92, -0.1, -0.0}, 0.6, true},      // 6
+    {BoneId::kPelvis, {0.66, 0.2, -0.0}, 1.4, true},     // 7
+    {BoneId::kBelly, {0.90, 0.6, -0.0}, 0.7, true},      // 8
+    {BoneId::kRibs, {1.00, 0.2, 0.2}, 0.8, true},        // 9
+    {BoneId::kClavicle, {0.35, -0.9, -0.2}, 1.7, true},  // 10
+    {BoneId::kUpperArm, {1.05, -0.0, -0.0}, 0.8, true},  // 11
+    {BoneId::kRibs, {1.10, 0.5, -0.1}, 1.2, true},       // 12
+    {BoneId::kRibs, {1.02, 0.8, 0.6}, 0.7, true},        // 13
+    {BoneId::kPelvis, {0.93, 0.3, 0.2}, 1.2, true},      // 14
+    {BoneId::kThigh, {0.62, -0.0, 0.3}, 0.8, true},      // 15
+    {BoneId::kThigh, {0.37, -0.1, 0.3}, 1.2, true},      // 16
+    {BoneId::kShin, {0.51, -0.1, -0.6}, 0.8, true},      // 17
+    {BoneId::kShin, {0.44, -0.1, -0.6}, 0.9, true},      // 18
+    {BoneId::kThigh, {0.41, -0.0, 0.1}, 1.1, true},      // 19
+    {BoneId::kBelly, {0.10, 0.3, 0.4}, 0.8, true},       // 20
+    {BoneId::kChest, {0.82, 0.3, -0.3}, 0.9, true},      // 21
+    {BoneId::kThigh, {0.18, -0.4, 0.6}, 0.8, true},      // 22
+    {BoneId::kPelvis, {0.95, 0.6, -0.3}, 1.0, true},     // 23
+    {BoneId::kPelvis, {0.80, 0.4, -0.0}, 1.4, true},     // 24
+    {BoneId::kPelvis, {0.84, 0.5, 0.1}, 1.2, true},      // 25
+    {BoneId::kForearm, {0.46, -0.0, -0.1}, 1.0, true},   // 26
+    {BoneId::kBelly, {0.62, 0.4, 0.1}, 1.0, true},       // 27
+    {BoneId::kClavicle, {1.08, -0.6, 0.1}, 1.1, true},   // 28
+    {BoneId::kClavicle, {0.48, 0.4, -0.4}, 1.0, true},   // 29
+    {BoneId::kUpperArm, {0.15, -0.0, -0.1}, 1.2, true},  // 30
+    {BoneId::kShin, {0.19, -0.0, -0.0}, 1.0, true},      // 31
+    {BoneId::kShin, {0.48, -0.1, -0.2}, 1.0, true},      // 32
+    {BoneId::kChest, {0.37, 0.0, -0.3}, 1.5, false},     // 33
+    {BoneId::kClavicle, {0.43, -0.4, -0.3}, 1.2, true},  // 34
+    {BoneId::kShin, {0.93, -0.1, -0.3}, 0.5, true},      // 35
+});
+constexpr auto kBest128Edges = std::to_array<LayoutEdge>({
+    {0, 1, false},   {0, 9, false},   {10, 13, false}, {9, 14, false},  {5, 16, false},
+    {6, 17, false},  {15, 18, false}, {0, 20, false},  {14, 23, false}, {19, 23, false},
+    {0, 25, false},  {4, 26, false},  {11, 26, false}, {7, 27, false},  {8, 12, false},
+    {2, 29, false},  {3, 29, false},  {2, 10, false},  {24, 27, true},  {11, 30, false},
+    {19, 31, false}, {6, 32, false},  {15, 32, false}, {27, 27, true},  {10, 33, false},
+    {8, 24, false},  {14, 16, false}, {28, 34, false}, {29, 34, false}, {3, 11, false},
+    {17, 35, false},
+});
+
 // The fewest that enclose: 10 + 5, a capsule each for trunk and limbs. By hand.
 constexpr auto kPlainestNodes = std::to_array<LayoutNode>({
     {BoneId::kBelly, {0.30, 0.0, 0.0}, 1.5, false},
@@ -858,9 +958,10 @@ constexpr auto kShell500Edges = std::to_array<LayoutEdge>({
 }  // namespace
 
 std::span<const NamedLayout> Layouts() {
-  static constexpr std::array<NamedLayout, 17> kLayouts = {{
+  static constexpr std::array<NamedLayout, 19> kLayouts = {{
       {"best fit, 32", FitKind::kBestFit, 32, false, {kBest32Nodes, kBest32Edges}},
       {"best fit, 64", FitKind::kBestFit, 64, false, {kBest64Nodes, kBest64Edges}},
+      {"best fit, 128", FitKind::kBestFit, 128, false, {kBest128Nodes, kBest128Edges}},
       {"best fit, whole body, 32",
        FitKind::kBestFit,
        32,
@@ -871,6 +972,11 @@ std::span<const NamedLayout> Layouts() {
        64,
        true,
        {kBestFull64Nodes, kBestFull64Edges}},
+      {"best fit, whole body, 128",
+       FitKind::kBestFit,
+       128,
+       true,
+       {kBestFull128Nodes, kBestFull128Edges}},
       {"shell, 15", FitKind::kEnclose, 15, false, {kPlainestNodes, kPlainestEdges}},
       {"shell, 32", FitKind::kEnclose, 32, false, {kShell32Nodes, kShell32Edges}},
       {"shell, 64", FitKind::kEnclose, 64, false, {kShell64Nodes, kShell64Edges}},

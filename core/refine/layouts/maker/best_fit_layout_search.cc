@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -10,6 +11,8 @@
 #include "core/refine/best_fit/best_fit_descent.h"
 #include "core/refine/internal.h"
 #include "core/refine/layouts/layout.h"
+#include "core/refine/layouts/maker/hung_layout.h"
+#include "core/refine/refine.h"
 
 namespace capfit::refine {
 namespace {
@@ -41,14 +44,15 @@ class BestFitLayoutSearch {
       : task_(task), subjects_(subjects), budget_(BudgetOf(task)), random_(task.seed) {}
 
   Graphs Run() {
-    Graphs now;
-    for (const Subject& s : subjects_) now.push_back(HangStick(s, task_));
-    Settle(100, 0.006, now);
-    for (capsule::MirroredSet& graph : now) RemoveSwallowed(graph);
-    while (!budget_.Allows(now[0].count()) && SpareOne(now)) {
-    }
+    Graphs now = Start();
     double value = ValueOf(now);
+    double said = CpuSeconds();
     while (CpuSeconds() < task_.cpu_seconds) {
+      if (CpuSeconds() > said + 30.0) {
+        said = CpuSeconds();
+        std::fprintf(stderr, "%5.0f s  %d + %d, %.4f (best %.4f)\n", said, now[0].sphere_count(),
+                     now[0].capsule_count(), value, best_value_);
+      }
       Graphs next = Changed(now);
       Settle(40, 0.004, next);
       double next_value = ValueOf(next);
@@ -71,6 +75,47 @@ class BestFitLayoutSearch {
   }
 
  private:
+  // The stick, or what the search of quality tight makes of one of the mannequins, if that serves
+  // all of them better.
+  Graphs Start() {
+    Graphs best;
+    for (const Subject& s : subjects_) best.push_back(HangStick(s, task_));
+    double least = Begin(best);
+    for (std::size_t k = 0; k < subjects_.size(); ++k) {
+      const HungLayout layout = SearchedOn(k);
+      Graphs hung;
+      for (const Subject& s : subjects_) {
+        hung.push_back(HangLayout(layout.view(), s.body, s.parts, true));
+      }
+      const double value = Begin(hung);
+      std::fprintf(stderr, "searched on mannequin %zu: %d, in %d pieces, %.4f\n", k,
+                   hung[0].primitive_count(), ComponentCount(hung[0]), value);
+      if (value < least) least = value, best = std::move(hung);
+    }
+    return best;
+  }
+
+  // Finds places and keeps to the budget; what that comes to.
+  double Begin(Graphs& graphs) {
+    Settle(100, 0.006, graphs);
+    while (!budget_.Allows(graphs[0].count()) && SpareOne(graphs)) {
+    }
+    return ValueOf(graphs);
+  }
+
+  // What quality tight finds for one of the mannequins.
+  HungLayout SearchedOn(std::size_t k) {
+    const Subject& s = subjects_[k];
+    RefineOptions options;
+    options.enclose = false;
+    options.budget = budget_;
+    options.parts = s.parts;
+    NullObserver observer;
+    const capsule::PrimitiveSet set =
+        RefineSet(s.body, tighten::TargetOf(s.body, s.parts), options, alone_, observer);
+    return LayoutOf({&subjects_[k], 1}, {capsule::MirroredSet(set, true)});
+  }
+
   int Below(int count) {
     return static_cast<int>(random_.NextBelow(static_cast<std::uint64_t>(count)));
   }
@@ -79,9 +124,10 @@ class BestFitLayoutSearch {
     double sum = 0.0;
     for (std::size_t k = 0; k < graphs.size(); ++k) {
       const Subject& s = subjects_[k];
-      sum += s.objective->Value(graphs[k]);
+      sum += s.objective->Value(graphs[k], alone_);
       double sum_m = 0.0;
-      for (const double excess : ExcessOf(s.points, graphs[k])) sum_m += std::max(0.0, excess);
+      for (const double excess : ExcessOf(s.points, graphs[k], alone_))
+        sum_m += std::max(0.0, excess);
       const double mean_m = sum_m / static_cast<double>(s.points.grid.size());
       // About half of the surface lies outside of a best fit.
       sum += kDistanceWeight * 100.0 * 2.0 * mean_m / (kDiagonalsPerHeight * s.body.height_m);
@@ -96,16 +142,16 @@ class BestFitLayoutSearch {
       options.steps = steps;
       options.first_rate_m = rate_m;
       options.seed = random_.NextBelow(1'000'000);
-      DescendBestFit(s.grid, options, NullObserver(), graphs[k]);
+      DescendBestFit(s.grid, options, alone_, NullObserver(), graphs[k]);
     }
   }
 
-  // Without falling apart.
+  // Without falling into more pieces.
   static bool ApplyLinked(const Edit& edit, Graphs& graphs) {
     Graphs next = graphs;
     if (!ApplyToAll(edit, next)) return false;
-    for (const capsule::MirroredSet& graph : next) {
-      if (ComponentCount(graph) > 1) return false;
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      if (ComponentCount(next[k]) > ComponentCount(graphs[k])) return false;
     }
     graphs = std::move(next);
     return true;
@@ -149,7 +195,8 @@ class BestFitLayoutSearch {
       ApplyLinked(EditOf(edge ? EditKind::kUnlink : EditKind::kDissolve, i), next);
       --left;
     }
-    const std::vector<Eigen::Vector3d> worst = subjects_[0].objective->WorstPoints(next[0], 24);
+    const std::vector<Eigen::Vector3d> worst =
+        subjects_[0].objective->WorstPoints(next[0], 24, alone_);
     int added = 0;
     for (int i = 0; i < kMostTries; ++i) {
       const int room = task_.primitives - next[0].primitive_count();
@@ -194,6 +241,7 @@ class BestFitLayoutSearch {
   const LayoutTask& task_;
   const std::vector<Subject>& subjects_;
   capsule::Budget budget_;
+  ThreadPool alone_{1};
   Random random_;
   Graphs best_;
   double best_value_ = std::numeric_limits<double>::max();

@@ -70,7 +70,7 @@ std::optional<Subject> MakeSubject(const Figure& figure, const LayoutTask& task)
   Subject subject{*std::move(found), skeleton, {}, {}, {tighten::PointGrid(thinned)},
                   nullptr,           nullptr};
   subject.parts.head = subject.parts.hands = subject.parts.feet = task.full;
-  subject.grid = MakeOccupancyGrid(subject.body, subject.parts, kGridCellM, true);
+  subject.grid = MakeOccupancyGrid(subject.body, subject.parts, kGridCellM, true, ThreadPool(1));
   if (task.enclose) {
     subject.enclosing = std::make_unique<EnclosingTask>(
         tighten::TargetOf(subject.body, subject.parts), /*symmetric=*/true, 0.0,

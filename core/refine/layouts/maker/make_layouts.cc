@@ -3,9 +3,10 @@
 //
 //   make_layouts best|enclose[-women] cut|full PRIMITIVES CPU_SECONDS [SEED [FROM_PRIMITIVES]]
 //
-// Those for the best fit hang together: no sphere without a capsule, all in one piece. Those that
-// enclose go on from the stored layout for FROM_PRIMITIVES, by default the largest that fits, or
-// from what quality tight finds for one of the mannequins, whichever serves all three better.
+// Those for the best fit go on from a stick figure, in one piece, or from what quality tight finds
+// for one of the mannequins, and never fall into more pieces. Those that enclose go on from the
+// stored layout for FROM_PRIMITIVES, by default the largest that fits, or from what quality tight
+// finds, whichever serves all three mannequins better.
 //
 // Prints nodes and edges as they stand in the table, to be copied. Two minutes or so each.
 #include <cstdio>
