@@ -57,7 +57,7 @@ constexpr int kHungSteps = 8;      // for a layout that is kept
 constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
 // Of an enclosing search: rounds of giving up and spending anew, one for so many primitives (where
 // there are more of them, more can be placed better), and how much of the time it takes.
-constexpr int kPrimitivesPerRound = 40;
+constexpr int kPrimitivesPerRound = 50;
 constexpr int kLeastRounds = 2;
 constexpr int kMostRounds = 6;
 constexpr int kQuickRounds = 1;

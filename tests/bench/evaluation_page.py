@@ -251,7 +251,7 @@ tests/bench/evaluation.sh            # CAPFIT_BODIES names the folder of bodies;
   `capfit approximate BODY -o RESULT.json --local --threads 2 --parts all --max-primitives N
   --quality paper|balanced|tight --fit enclose|best`: PAPER is the paper's pipeline with a better
   last step (it tightens while it covers), TIGHT the joint optimisation of places, radii and
-  topology, BALANCED the same with an eighth of its search; *as published* is PAPER with the paper's
+  topology, BALANCED the same with less of its search; *as published* is PAPER with the paper's
   own last step, which grows until all is covered (`tests/bench/published_fit`). ENCLOSE leaves
   nothing of the body outside, BEST_FIT asks for the least $E_r$.
 * **Measured** by {judge}. $E_r$: volume in the set but not in the body or the other way round, over
