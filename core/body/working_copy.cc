@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <span>
 #include <utility>
 
@@ -83,24 +82,13 @@ using TriangleCorner = std::uint32_t;
 TriangleCorner CornerOf(std::uint32_t triangle, std::uint32_t corner) {
   return 4 * triangle + corner;
 }
-// The sum of two corners' numbers as a corner again. Which corner it is is as good as chance: no
-// branch.
-std::uint32_t Wrapped(std::uint32_t corner) {
-  constexpr std::array<std::uint8_t, 6> kCorner = {0, 1, 2, 0, 1, 2};
-  return kCorner[corner];
-}
+// The sum of two corners' numbers as a corner again.
+std::uint32_t Wrapped(std::uint32_t corner) { return corner < 3 ? corner : corner - 3; }
 
-std::uint32_t LowestCorner(const mesh::Triangle& t) {
-  // By what is lower than what: bit 0 tells of corners 0 and 1, bit 1 of 1 and 2, bit 2 of 2 and 0.
-  constexpr std::array<std::uint8_t, 8> kLowest = {0, 0, 1, 0, 2, 2, 1, 0};
-  return kLowest[static_cast<std::uint32_t>(t[0] < t[1]) |
-                 static_cast<std::uint32_t>(t[1] < t[2]) << 1 |
-                 static_cast<std::uint32_t>(t[2] < t[0]) << 2];
-}
-
-// A triangle of the working copy, and the mesh's corner that comes first in it.
+// A triangle of the working copy whose lowest corner is known: the next two in one number, and the
+// mesh's corner that comes first.
 struct RenamedTriangle {
-  mesh::Triangle corners;
+  std::uint64_t next_corners;
   TriangleCorner source;
 };
 
@@ -112,14 +100,11 @@ class TriangleSorter {
 
   void Run() {
     const std::size_t count = mesh_.triangles().size();
-    Sort();
+    Deal();
     copy_.triangles.resize(count);
     gone_to_.resize(count);
-    ForEachOf(count, [this](std::uint32_t i) {
-      copy_.triangles[i] = renamed_[i].corners;
-      const TriangleCorner source = renamed_[i].source;
-      gone_to_[source / 4] = CornerOf(i, Wrapped(3 - source % 4));
-    });
+    pool_.ForChunks(rank_.size(), kMeshChunk,
+                    [this](std::size_t begin, std::size_t end) { SortAround(begin, end); });
     copy_.mates.resize(3 * count);
     ForEachOf(count, [this](std::uint32_t i) { CopyMates(i); });
   }
@@ -132,39 +117,60 @@ class TriangleSorter {
     });
   }
 
-  // Their lowest corners' numbers come first in the new order, then those that follow them: no two
-  // triangles have both in common, and two passes of counting leave nothing to compare.
-  void Sort() {
+  // Deals the triangles to their lowest corners: those of vertex v are sources_[first_[v]] up to
+  // that of v + 1.
+  void Deal() {
     const std::span<const mesh::Triangle> triangles = mesh_.triangles();
     rank_.resize(copy_.mesh_vertex.size());
     ForEachOf(rank_.size(), [this](std::uint32_t i) { rank_[copy_.mesh_vertex[i]] = i; });
-    renamed_ = std::make_unique_for_overwrite<RenamedTriangle[]>(triangles.size());
+    std::vector<std::uint32_t> lowest(triangles.size());
     ForEachOf(triangles.size(), [&](std::uint32_t i) {
       const mesh::Triangle& t = triangles[i];
-      const mesh::Triangle ranks = {rank_[t[0]], rank_[t[1]], rank_[t[2]]};
-      const std::uint32_t k = LowestCorner(ranks);
-      renamed_[i] = {{ranks[k], ranks[Wrapped(k + 1)], ranks[Wrapped(k + 2)]}, CornerOf(i, k)};
+      lowest[i] = std::min({rank_[t[0]], rank_[t[1]], rank_[t[2]]});
     });
-    auto other = std::make_unique_for_overwrite<RenamedTriangle[]>(triangles.size());
-    for (const std::size_t corner : {1, 0}) {
-      Deal(corner, {renamed_.get(), triangles.size()}, other.get());
-      renamed_.swap(other);
+    first_.assign(rank_.size() + 1, 0);
+    for (const std::uint32_t v : lowest) ++first_[v];
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    sources_.resize(triangles.size());
+    // From the back, so that the ends become the starts.
+    for (std::uint32_t i = 0; i < lowest.size(); ++i) sources_[--first_[lowest[i]]] = i;
+  }
+
+  [[nodiscard]] RenamedTriangle Renamed(std::uint32_t triangle, std::uint32_t lowest) const {
+    const mesh::Triangle& t = mesh_.triangles()[triangle];
+    const mesh::Triangle ranks = {rank_[t[0]], rank_[t[1]], rank_[t[2]]};
+    const std::uint32_t k = (ranks[1] == lowest ? 1 : 0) + (ranks[2] == lowest ? 2 : 0);
+    return {(std::uint64_t{ranks[Wrapped(k + 1)]} << 32) | ranks[Wrapped(k + 2)],
+            CornerOf(triangle, k)};
+  }
+
+  // Those at the vertices in [begin, end).
+  void SortAround(std::size_t begin, std::size_t end) {
+    const auto comes_first = [](const RenamedTriangle& a, const RenamedTriangle& b) {
+      return a.next_corners < b.next_corners;
+    };
+    std::vector<RenamedTriangle> around;
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      around.clear();
+      for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+        around.push_back(Renamed(sources_[i], v));
+      }
+      std::sort(around.begin(), around.end(), comes_first);
+      std::uint32_t i = first_[v];
+      for (const RenamedTriangle& t : around) {
+        copy_.triangles[i] = {v, static_cast<std::uint32_t>(t.next_corners >> 32),
+                              static_cast<std::uint32_t>(t.next_corners)};
+        sources_[i] = t.source;
+        gone_to_[t.source / 4] = CornerOf(i, Wrapped(3 - t.source % 4));
+        ++i;
+      }
     }
   }
 
-  // By the corner, those with the same one in the order in which they came.
-  void Deal(std::size_t corner, std::span<const RenamedTriangle> from, RenamedTriangle* to) const {
-    std::vector<std::uint32_t> next(rank_.size() + 1, 0);
-    for (const RenamedTriangle& t : from) ++next[t.corners[corner] + 1];
-    for (std::size_t v = 1; v < next.size(); ++v) next[v] += next[v - 1];
-    for (const RenamedTriangle& t : from) to[next[t.corners[corner]]++] = t;
-  }
-
   void CopyMates(std::uint32_t i) {
-    const TriangleCorner source = renamed_[i].source;
-    const mesh::HalfEdge* const mates = mesh_.mates().data() + 3 * std::size_t{source / 4};
+    const mesh::HalfEdge* const mates = mesh_.mates().data() + 3 * std::size_t{sources_[i] / 4};
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const mesh::HalfEdge mate = mates[Wrapped(source % 4 + k)];
+      const mesh::HalfEdge mate = mates[Wrapped(sources_[i] % 4 + k)];
       const TriangleCorner first = mate == mesh::kNoMate ? 0 : gone_to_[mate / 3];
       const mesh::HalfEdge here = 3 * (first / 4) + Wrapped(first % 4 + mate % 3);
       copy_.mates[3 * i + k] = mate == mesh::kNoMate ? mate : here;
@@ -175,7 +181,8 @@ class TriangleSorter {
   const ThreadPool& pool_;
   WorkingCopy& copy_;
   std::vector<std::uint32_t> rank_;  // of the mesh's vertices
-  std::unique_ptr<RenamedTriangle[]> renamed_;
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> sources_;  // triangles, then their corners that come first
   // Where the first corner of each of the mesh's triangles has gone; the others follow it round.
   std::vector<TriangleCorner> gone_to_;
 };
