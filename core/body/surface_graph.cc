@@ -58,6 +58,7 @@ SurfaceGraph::SurfaceGraph(std::span<const Eigen::Vector3d> points,
         static_cast<std::uint8_t>((points[v].x() < 0.0 ? 1 : 0) + (points[v].y() < 0.0 ? 2 : 0));
     region_links_[region_[v]] += offsets_[v + 1] - offsets_[v];
   }
+  if (observer.IsCancelled()) return;
   next_.resize(offsets_.back());
   links_.resize(offsets_.back());
   // Half-edge h starts at a corner; what leads over the edge after it goes out from there too.
@@ -67,6 +68,7 @@ SurfaceGraph::SurfaceGraph(std::span<const Eigen::Vector3d> points,
   for (const mesh::Triangle& t : triangles) {
     for (const std::uint32_t corner : t) slot[h++] = free_slot[corner]++;
   }
+  if (observer.IsCancelled()) return;
   const Surface surface = {points, triangles, mates, slot};
   const double length =
       SumOverChunks(pool, triangles.size(), 0.0, [&](std::size_t begin, std::size_t end) {
