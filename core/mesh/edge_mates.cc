@@ -56,8 +56,9 @@ class MateFinder {
     mate_.assign(3 * triangles.size(), kNoMate);
   }
 
-  EdgeMates Run() {
+  EdgeMates Run(const FitObserver& observer) {
     Deal();
+    if (observer.IsCancelled()) return {};
     pool_.ForEach(drawer_count_, [this](std::size_t d) { PairWithin(d); });
     EdgeMates mates;
     mates.mate = std::move(mate_);
@@ -162,8 +163,8 @@ class MateFinder {
 }  // namespace
 
 EdgeMates FindEdgeMates(std::span<const Triangle> triangles, std::size_t vertex_count,
-                        const ThreadPool& pool) {
-  return MateFinder(triangles, vertex_count, pool).Run();
+                        const ThreadPool& pool, const FitObserver& observer) {
+  return MateFinder(triangles, vertex_count, pool).Run(observer);
 }
 
 }  // namespace capfit::mesh

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 
 namespace capfit::mesh {
@@ -44,8 +45,10 @@ struct EdgeMates {
 
 // Pairs the half-edges of `triangles`, whose corners are all below `vertex_count` and differ from
 // each other within a triangle. O(triangles + vertices); the order of triangles decides no ties.
+// Empty once the observer cancels.
 [[nodiscard]] EdgeMates FindEdgeMates(std::span<const Triangle> triangles, std::size_t vertex_count,
-                                      const ThreadPool& pool = ThreadPool(1));
+                                      const ThreadPool& pool = ThreadPool(1),
+                                      const FitObserver& observer = NullObserver());
 
 }  // namespace capfit::mesh
 

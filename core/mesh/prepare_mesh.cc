@@ -67,7 +67,7 @@ class MeshMender {
 
   absl::StatusOr<PreparedMesh> Run() {
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
-    EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size(), pool_);
+    EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size(), pool_, observer_);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     if (degenerate_ == 0 && !mates.mate.empty() && mates.IsClosedAndOriented()) {
       if (std::optional<PreparedMesh> prepared = TakeAsItCame(mates)) return *std::move(prepared);
