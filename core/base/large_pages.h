@@ -1,9 +1,9 @@
 // How programs that fit bodies get their memory from the system.
 //
-// A fit fills fresh arrays of some megabytes again and again. Page by page the kernel takes a third of
-// the time of a first fit of 64,000 triangles that way, and more on virtual machines. Large pages
-// (2 MB, where the kernel has transparent ones for those who ask) and freed memory that is kept for
-// the next array spare most of it.
+// A fit fills fresh arrays of some megabytes again and again. Page by page the kernel takes a third
+// of the time of a first fit of 64,000 triangles that way, and more on virtual machines. Large
+// pages (2 MB, where the kernel has transparent ones for those who ask) and freed memory that is
+// kept for the next array spare most of it.
 #ifndef CAPFIT_CORE_BASE_LARGE_PAGES_H_
 #define CAPFIT_CORE_BASE_LARGE_PAGES_H_
 
@@ -14,9 +14,9 @@ namespace capfit {
 // Once, before there are other threads.
 void UseLargePages();
 
-// For programs that fit on other threads, whose heaps only GLIBC_TUNABLES in the environment reaches,
-// and that only when a program starts: starts this one anew, the same process with the same
-// arguments, for some tens of milliseconds. The first thing in main. Does nothing where
+// For programs that fit on other threads, whose heaps only GLIBC_TUNABLES in the environment
+// reaches, and that only when a program starts: starts this one anew, the same process with the
+// same arguments, for some tens of milliseconds. The first thing in main. Does nothing where
 // GLIBC_TUNABLES is set already, be it by this or by the operator, whose word counts, and returns
 // where the program cannot be started anew.
 void RestartWithLargePages(char* const* argv);
