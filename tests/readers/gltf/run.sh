@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Exports of avatars and bodies, read by the Khronos glTF validator, three.js, three-vrm and TinyUSDZ.
+# Exports of avatars and bodies (see which_samples.sh), read by the Khronos glTF validator, three.js,
+# three-vrm and TinyUSDZ.
 #
 #   run.sh EXPORT_SAMPLES
 #
@@ -7,6 +8,7 @@
 # installed into a scratch folder. Exit code 77: no npm, no packages, or no bodies, said loudly.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$here/../which_samples.sh"
 root=$(cd "$here/../../.." && pwd)
 export_samples=$(realpath "$1")
 avatars=$(realpath -m "${CAPFIT_AVATARS:-$root/../shared/avatars}")
@@ -40,7 +42,8 @@ samples() {
 }
 
 run collider_schema_test.mjs
-for body in "$avatars"/*.glb; do
+mapfile -t files < <(which_samples "$avatars" glb)
+for body in "${files[@]}"; do
   samples "$body" all
   kind=$(node -p 'require(process.argv[1]).joints.length > 0 ? "rigged" : "still"' \
     "$out/expected.json")
@@ -51,15 +54,14 @@ for body in "$avatars"/*.glb; do
   run check_meshes.mjs "$out/${name}_hulls" "$out/expected.json" hulls
   run check_meshes.mjs "$out/${name}_union" "$out/expected.json" union
 done
-for body in "$bodies"/*.obj; do
+mapfile -t files < <(which_samples "$bodies" obj)
+for body in "${files[@]}"; do
   samples "$body" all
   run check_gltf.mjs "$out/${name}_colliders.glb" "$out/expected.json" - upright
   run check_usd.mjs "$out/${name}_colliders.usda" "$out/expected.json" tapered
-  case $name in female_average_rest | male_heavy_rest | child_rest | male_muscular_tpose)
-    run check_gltf.mjs "$out/preview.glb" "$out/expected.json" - upright
-    run check_meshes.mjs "$out/${name}_hulls" "$out/expected.json" hulls
-    run check_meshes.mjs "$out/${name}_union" "$out/expected.json" union ;;
-  esac
+  run check_gltf.mjs "$out/preview.glb" "$out/expected.json" - upright
+  run check_meshes.mjs "$out/${name}_hulls" "$out/expected.json" hulls
+  run check_meshes.mjs "$out/${name}_union" "$out/expected.json" union
 done
 # Text with its buffer inside comes back as a GLB.
 run make_text.mjs "$avatars/armour_man.glb" "$scratch/in/text.gltf"
