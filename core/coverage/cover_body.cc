@@ -86,9 +86,12 @@ class Coverer {
         set_(set),
         variables_(set),
         fold_(variables_.is_symmetric() ? tighten::PointGrid::Fold::kToPositiveX
-                                        : tighten::PointGrid::Fold::kNone),
-        grid_(target.points_m, fold_),
-        size_(tighten::SizeOf(target)) {}
+                                        : tighten::PointGrid::Fold::kNone) {
+    pool_.ForEach(2, [this](std::size_t half) {
+      if (half == 0) grid_ = tighten::PointGrid(target_.points_m, fold_);
+      if (half == 1) Survey();
+    });
+  }
 
   CoverReport Run() {
     if (options_.tighten) {
@@ -111,6 +114,15 @@ class Coverer {
   }
 
  private:
+  // The size, and the few points that the shape is found by.
+  void Survey() {
+    size_ = tighten::SizeOf(target_);
+    if (!options_.tighten || !options_.loosen || meter_.IsCancelled()) return;
+    const std::vector<double> weights = tighten::AreaWeights(target_);
+    if (meter_.IsCancelled()) return;
+    coarse_ = tighten::MakeSparse(FoldedPoints(), weights, SparseSpacing() * size_);
+  }
+
   // What an end sphere swallows is that sphere, which stays.
   void RemoveSwallowed() {
     std::erase_if(set_.capsules, [this](const capsule::CapsuleEnds& ends) {
@@ -158,15 +170,10 @@ class Coverer {
   double Volume() const { return VolumeOf(set_); }
 
   void Tighten() {
-    if (options_.loosen) {
-      if (meter_.IsCancelled()) return;
-      const std::vector<double> weights = tighten::AreaWeights(target_);
-      if (meter_.IsCancelled()) return;
-      const tighten::SparsePoints coarse =
-          tighten::MakeSparse(FoldedPoints(), weights, SparseSpacing() * size_);
-      const tighten::PointGrid grid(coarse.points_m);
+    if (options_.loosen && !meter_.IsCancelled()) {
+      const tighten::PointGrid grid(coarse_.points_m);
       meter_.Expect(kLooseUntil, std::int64_t{kLoosePhase.steps} * set_.primitive_count());
-      RunPhase(kLoosePhase, {{grid, AllowedAtVertices(), coarse.weights}}, /*seed=*/1);
+      RunPhase(kLoosePhase, {{grid, AllowedAtVertices(), coarse_.weights}}, /*seed=*/1);
     }
     // What sticks out between vertices shows only where the vertices are in, and asking for it
     // moves the set on to other such places: looked at before each step, little is left to growing.
@@ -288,8 +295,9 @@ class Coverer {
   capsule::PrimitiveSet& set_;
   tighten::SetVariables variables_;
   tighten::PointGrid::Fold fold_;
-  tighten::PointGrid grid_;
-  double size_;
+  tighten::PointGrid grid_{{}};
+  double size_ = 0.0;
+  tighten::SparsePoints coarse_;
   std::vector<Eigen::Vector3d> between_;  // points inside triangles that had to be asked for
   // The target's points as AtVertices saw them last, and the spheres then.
   std::vector<geometry::Sphere> measured_;
