@@ -42,9 +42,10 @@ double SizeOf(const CoverTarget& target) {
 }
 
 std::vector<double> AreaWeights(const CoverTarget& target) {
-  const double size = SizeOf(target);
-  std::vector<double> weights(target.points_m.size(), 1e-9 * size * size);
-  mesh::AddVertexAreas(target.points_m, target.triangles, weights);
+  std::vector<double> weights(target.points_m.size(), 0.0);
+  const double area = mesh::AddVertexAreas(target.points_m, target.triangles, weights);
+  const double size = area > 0.0 ? std::sqrt(area) : SizeOf(target);
+  for (double& weight : weights) weight += 1e-9 * size * size;
   return weights;
 }
 

@@ -18,6 +18,9 @@ namespace {
 constexpr double kStepBack = 0.99;
 // Programmes that may be left so far from solved are reckoned in floats, twice as many at a time.
 constexpr double kFloatGap = 0.01;
+// First complementarity, relative to the most that a variable can win.
+constexpr double kFirstShare = 0.1;
+constexpr double kFirstShareToCentre = 0.02;
 
 // The longest step in [0, 1] for the largest of -change / value.
 double StepFor(double worst) { return worst > 1.0 ? 1.0 / worst : 1.0; }
@@ -33,8 +36,9 @@ double WorstRatio(const Eigen::ArrayXd& value, const Eigen::ArrayXd& change) {
 template <typename Real>
 class InteriorPoint {
  public:
-  explicit InteriorPoint(const PenaltyProgram& program)
+  InteriorPoint(const PenaltyProgram& program, const SolveTo& to)
       : program_(program),
+        to_(to),
         variables_(program.gradient.size()),
         rows_(program),
         matrix_(variables_, TiedGroups()) {
@@ -48,8 +52,8 @@ class InteriorPoint {
     Start();
   }
 
-  Eigen::VectorXd Run(const SolveTo& to) {
-    for (int i = 0; i < to.most_iterations && !IsDone(to.relative_gap); ++i) Iterate();
+  Eigen::VectorXd Run() {
+    for (int i = 0; i < to_.most_iterations && !IsDone(); ++i) Iterate();
     return d_;
   }
 
@@ -80,8 +84,9 @@ class InteriorPoint {
   // d = 0 satisfies the bounds, and slacks satisfy the rows: only the duals have to be found.
   void Start() {
     d_ = Eigen::VectorXd::Zero(variables_);
-    // First complementarity: a tenth of what the gradient can win.
-    const double mu = 0.1 * std::max(1e-12, program_.gradient.cwiseAbs().maxCoeff()) * width_;
+    const double most = std::max(1e-12, program_.gradient.cwiseAbs().maxCoeff()) * width_;
+    const double mu = (to_.centrality > 0.0 ? kFirstShareToCentre : kFirstShare) * most;
+    least_mu_ = to_.centrality * most;
     s_ = rows_.value.max(Real{0}) + static_cast<Real>(0.25 * width_);
     t_ = s_ - rows_.value;
     row_ = (static_cast<Real>(mu) / t_).min(Real{0.5} * rows_.penalty);
@@ -103,11 +108,12 @@ class InteriorPoint {
     return row_complementarity_ + (LowGap() * low_).sum() + (HighGap() * high_).sum();
   }
 
-  bool IsDone(double relative_gap) const {
+  bool IsDone() const {
+    if (to_.centrality > 0.0) return false;
     const double won = start_excess_ - excess_ - program_.gradient.dot(d_) -
                        0.5 * d_.dot(program_.hessian.cwiseProduct(d_));
     const double floor = 1e-9 * program_.gradient.cwiseAbs().maxCoeff() * width_;
-    const double allowed = relative_gap * std::max(won, 0.0) + floor;
+    const double allowed = to_.relative_gap * std::max(won, 0.0) + floor;
     return Complementarity() <= allowed && residual_.cwiseAbs().sum() * width_ <= allowed;
   }
 
@@ -285,7 +291,7 @@ class InteriorPoint {
                         ((HighGap() - p * affine.d.array()) * (high_ + q * affine.high)).sum();
     const double ratio = std::max(0.0, then / now);
     const double products = static_cast<double>(2 * (rows_.count + variables_));
-    Step step = Correct(ratio * ratio * ratio * now / products, affine);
+    Step step = Correct(std::max(ratio * ratio * ratio * now / products, least_mu_), affine);
     step.primal *= kStepBack;
     step.dual *= kStepBack;
     Advance(step);
@@ -322,6 +328,7 @@ class InteriorPoint {
   }
 
   const PenaltyProgram& program_;
+  const SolveTo& to_;
   Eigen::Index variables_;
   RowTable<Real> rows_;
   NormalMatrix matrix_;
@@ -330,6 +337,7 @@ class InteriorPoint {
   Eigen::ArrayXd low_, high_;
   Array t_, s_, row_;
   Array weight_, inverse_row_, inverse_slack_, s_target_, shift_, dt_, ds_, drow_;
+  double least_mu_ = 0.0;  // complementarity that is kept
   double start_excess_ = 0.0;
   double row_complementarity_ = 0.0;
   double excess_ = 0.0;  // what the rows' slacks cost
@@ -338,8 +346,8 @@ class InteriorPoint {
 }  // namespace
 
 Eigen::VectorXd Solve(const PenaltyProgram& program, const SolveTo& to) {
-  return to.relative_gap >= kFloatGap ? InteriorPoint<float>(program).Run(to)
-                                      : InteriorPoint<double>(program).Run(to);
+  return to.relative_gap >= kFloatGap ? InteriorPoint<float>(program, to).Run()
+                                      : InteriorPoint<double>(program, to).Run();
 }
 
 }  // namespace capfit::tighten

@@ -31,6 +31,10 @@ struct PenaltyProgram {
 struct SolveTo {
   double relative_gap = 1e-8;  // of the decrease won
   int most_iterations = 40;    // whatever the gap is then
+  // Above 0: to the point of the central path where each product of a slack and its multiplier is
+  // this share of the most that a variable can win, in most_iterations and no fewer. That point
+  // follows the programme more smoothly than the optimum, and is near after half as many.
+  double centrality = 0.0;
 };
 
 // Primal-dual interior point with predictor and corrector (Mehrotra 1992); the rows' slacks are

@@ -138,5 +138,22 @@ TEST(PenaltyProgramTest, FewIterationsFollowSmallChangesOfTheRows) {
   }
 }
 
+// It is as near to the optimum as its products say, and more iterations do not lead on from it.
+TEST(PenaltyProgramTest, APointOfTheCentralPathIsReachedAndKept) {
+  Random random(65);
+  for (int round = 0; round < 100; ++round) {
+    const PenaltyProgram program = RandomProgram(random);
+    const double least = Objective(program, Solve(program, {.relative_gap = 1e-7}));
+    const double most = 2.0 * program.gradient.cwiseAbs().maxCoeff();  // bounds are 2 apart
+    const auto products = 2.0 * static_cast<double>(program.rows.size() + program.gradient.size());
+    for (const double share : {1e-2, 1e-4}) {
+      const Eigen::VectorXd d = Solve(program, {.most_iterations = 16, .centrality = share});
+      const Eigen::VectorXd on = Solve(program, {.most_iterations = 32, .centrality = share});
+      EXPECT_LT((on - d).cwiseAbs().maxCoeff(), 1e-6);
+      EXPECT_LE(Objective(program, d) - least, share * most * products + 1e-6);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace capfit::tighten
