@@ -37,13 +37,14 @@ constexpr double kThinnedCellM = 0.03;
 // piece is what users want, but it costs a twentieth to a tenth of the error.
 constexpr double kPieceCost = 0.45;
 constexpr int kFewOfBestFit = 40;  // primitives: up to here each matters much
-// Rounds that give up primitives of a best fit and spend them elsewhere. After sparing hardly any
-// pays.
+// Rounds that give up primitives of a best fit and spend them elsewhere. The more there was to spare
+// the less they pay: nothing where a start had three quarters of the budget too much.
 struct Exchanges {
-  int of_few, of_spared, of_others;
+  int of_few, of_much_spared, of_spared, of_others;
 };
-constexpr Exchanges kExchanges = {8, 1, 2};
-constexpr Exchanges kQuickExchanges = {1, 0, 1};
+constexpr Exchanges kExchanges = {8, 0, 1, 2};
+constexpr Exchanges kQuickExchanges = {1, 0, 0, 1};
+constexpr double kMuchSpared = 0.75;
 // Points of the enclosing search are this far apart over the root of the number of primitives,
 // relative to the body's size; the second for the last steps.
 constexpr double kSpacing = 0.216;
@@ -87,16 +88,20 @@ bool IsOfFew(const capsule::Budget& budget) {
   return std::min(budget.max_primitives, budget.max_spheres) <= kFewOfBestFit;
 }
 
-// How best fits are grown: their edits show late what they are worth, and exchanges pay where
-// primitives are few or nothing has been chosen for this body by sparing.
-GrowthOptions PlanGrowth(const RefineOptions& options, bool spares) {
+// Of a start that has `excess` primitives too many.
+int ExchangesFor(const RefineOptions& options, int excess) {
+  const Exchanges& exchanges = options.thorough ? kExchanges : kQuickExchanges;
+  if (IsOfFew(options.budget)) return exchanges.of_few;
+  if (excess >= kMuchSpared * options.budget.UsualPrimitives()) return exchanges.of_much_spared;
+  return excess > 0 ? exchanges.of_spared : exchanges.of_others;
+}
+
+// How best fits are grown: their edits show late what they are worth.
+GrowthOptions PlanGrowth(const RefineOptions& options, int excess) {
   GrowthOptions plan;
   plan.piece_cost = kPieceCost;
   plan.thorough_share = 0.15;
-  const Exchanges& exchanges = options.thorough ? kExchanges : kQuickExchanges;
-  plan.exchanges = IsOfFew(options.budget) ? exchanges.of_few
-                   : spares                ? exchanges.of_spared
-                                           : exchanges.of_others;
+  plan.exchanges = ExchangesFor(options, excess);
   return plan;
 }
 
@@ -112,7 +117,7 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const RefineOpti
   const capsule::Budget& budget = options.budget;
   const double begin = meter.until();
   const auto at = [&](double share) { return begin + share * (until - begin); };
-  GrowthOptions plan = PlanGrowth(options, budget.Excess(graph.count()) > 0);
+  GrowthOptions plan = PlanGrowth(options, budget.Excess(graph.count()));
   GrowthOptions at_first = plan;
   at_first.exchanges = 0;
   at_first.until = at(kGrown);
