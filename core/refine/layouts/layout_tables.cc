@@ -331,87 +331,6 @@ constexpr auto kBestFull250Edges = std::to_array<LayoutEdge>({
     {9, 73, false},  {31, 73, false},
 });
 
-// 113 + 137 for the best fit. Only ever spared from.
-constexpr auto kBest250Nodes = std::to_array<LayoutNode>({
-    {BoneId::kRibs, {0.63, 0.0, 0.2}, 0.8, false},       // 0
-    {BoneId::kChest, {0.52, 0.0, -0.4}, 1.3, false},     // 1
-    {BoneId::kUpperArm, {0.19, -0.0, 0.1}, 1.1, true},   // 2
-    {BoneId::kForearm, {0.91, -0.1, -0.3}, 0.6, true},   // 3
-    {BoneId::kShin, {0.12, -0.0, 0.3}, 0.9, true},       // 4
-    {BoneId::kShin, {0.91, -0.1, 0.0}, 0.7, true},       // 5
-    {BoneId::kBelly, {0.62, 0.8, -0.0}, 0.8, true},      // 6
-    {BoneId::kRibs, {0.90, -0.1, -0.1}, 0.8, true},      // 7
-    {BoneId::kClavicle, {0.36, -0.8, -0.2}, 1.7, true},  // 8
-    {BoneId::kForearm, {0.04, -0.0, -0.0}, 1.1, true},   // 9
-    {BoneId::kRibs, {1.05, 0.5, -0.1}, 1.2, true},       // 10
-    {BoneId::kRibs, {0.94, 0.8, 0.6}, 0.6, true},        // 11
-    {BoneId::kThigh, {-0.44, -0.1, 0.2}, 1.2, true},     // 12
-    {BoneId::kThigh, {0.51, -0.0, 0.1}, 0.9, true},      // 13
-    {BoneId::kThigh, {0.43, -0.1, 0.3}, 1.2, true},      // 14
-    {BoneId::kShin, {0.51, -0.0, -0.5}, 0.7, true},      // 15
-    {BoneId::kShin, {0.44, -0.1, -0.5}, 0.8, true},      // 16
-    {BoneId::kThigh, {0.27, -0.1, 0.0}, 1.2, true},      // 17
-    {BoneId::kBelly, {0.29, 0.4, -0.1}, 0.9, true},      // 18
-    {BoneId::kChest, {0.83, 0.4, -0.3}, 0.8, true},      // 19
-    {BoneId::kBelly, {0.14, 0.3, 0.5}, 0.6, true},       // 20
-    {BoneId::kPelvis, {0.85, 0.5, -0.5}, 1.1, true},     // 21
-    {BoneId::kPelvis, {0.71, 0.5, 0.1}, 1.5, true},      // 22
-    {BoneId::kForearm, {0.41, -0.0, -0.1}, 1.1, true},   // 23
-    {BoneId::kBelly, {0.49, 0.3, 0.1}, 0.8, true},       // 24
-    {BoneId::kUpperArm, {0.15, -0.1, 0.3}, 0.5, true},   // 25
-    {BoneId::kClavicle, {0.57, 0.3, -0.3}, 1.0, true},   // 26
-    {BoneId::kClavicle, {0.95, -0.2, 0.1}, 0.8, true},   // 27
-    {BoneId::kShin, {0.27, -0.0, 0.0}, 0.9, true},       // 28
-    {BoneId::kShin, {0.46, -0.1, -0.2}, 1.0, true},      // 29
-    {BoneId::kClavicle, {0.51, -0.6, -0.1}, 1.5, true},  // 30
-    {BoneId::kShin, {0.92, -0.1, -0.3}, 0.4, true},      // 31
-    {BoneId::kRibs, {0.21, 0.6, -0.0}, 0.9, true},       // 32
-    {BoneId::kClavicle, {1.03, 0.1, -0.2}, 0.7, true},   // 33
-    {BoneId::kThigh, {0.34, -0.1, 0.4}, 1.1, true},      // 34
-    {BoneId::kChest, {1.12, 0.2, -0.6}, 0.2, true},      // 35
-    {BoneId::kChest, {0.89, 0.2, 0.5}, 0.3, true},       // 36
-    {BoneId::kPelvis, {0.77, 0.2, -0.2}, 1.0, true},     // 37
-    {BoneId::kClavicle, {0.35, 0.5, -0.4}, 1.0, true},   // 38
-    {BoneId::kChest, {0.23, 0.0, -0.2}, 1.7, false},     // 39
-    {BoneId::kUpperArm, {0.57, -0.0, -0.2}, 1.0, true},  // 40
-    {BoneId::kBelly, {0.24, 0.1, 0.0}, 0.8, true},       // 41
-    {BoneId::kForearm, {0.88, -0.1, -0.2}, 0.3, true},   // 42
-    {BoneId::kForearm, {0.88, -0.1, 0.1}, 0.6, true},    // 43
-    {BoneId::kThigh, {1.02, -0.0, -0.1}, 0.7, true},     // 44
-    {BoneId::kUpperArm, {0.17, -0.0, -0.1}, 1.2, true},  // 45
-    {BoneId::kBelly, {0.31, 0.3, 0.1}, 1.1, true},       // 46
-    {BoneId::kRibs, {0.47, 0.2, -0.4}, 0.4, true},       // 47
-    {BoneId::kChest, {0.89, 0.5, -0.2}, 0.1, true},      // 48
-    {BoneId::kThigh, {0.16, -0.4, 0.7}, 0.9, true},      // 49
-    {BoneId::kBelly, {0.93, 0.6, 0.0}, 0.7, true},       // 50
-    {BoneId::kBelly, {0.58, 0.2, 0.0}, 1.0, true},       // 51
-    {BoneId::kBelly, {0.50, 0.5, 0.0}, 1.1, true},       // 52
-    {BoneId::kShin, {0.02, -0.0, 0.0}, 1.0, true},       // 53
-    {BoneId::kRibs, {0.85, 0.0, -0.0}, 0.9, false},      // 54
-    {BoneId::kThigh, {-0.25, -0.2, -0.3}, 0.5, true},    // 55
-    {BoneId::kBelly, {0.49, 0.0, -0.5}, 0.4, false},     // 56
-    {BoneId::kBelly, {0.33, 0.0, -0.1}, 0.9, false},     // 57
-    {BoneId::kBelly, {0.68, 0.0, 0.5}, 0.3, false},      // 58
-    {BoneId::kRibs, {1.20, 0.7, 0.2}, 0.8, true},        // 59
-});
-constexpr auto kBest250Edges = std::to_array<LayoutEdge>({
-    {0, 7, false},   {4, 14, false},  {5, 15, false},  {12, 21, false}, {17, 21, false},
-    {3, 23, false},  {9, 23, false},  {2, 26, false},  {1, 8, false},   {5, 29, false},
-    {12, 14, false}, {25, 30, false}, {2, 9, false},   {15, 31, false}, {20, 21, false},
-    {8, 26, false},  {6, 32, false},  {10, 32, false}, {2, 27, false},  {30, 32, false},
-    {6, 18, false},  {1, 38, false},  {26, 38, false}, {26, 33, false}, {8, 39, false},
-    {38, 38, true},  {10, 11, false}, {32, 32, true},  {1, 35, false},  {9, 40, false},
-    {10, 10, true},  {24, 41, true},  {35, 35, true},  {3, 42, false},  {19, 38, true},
-    {1, 39, false},  {23, 43, false}, {13, 44, false}, {16, 44, false}, {19, 36, false},
-    {36, 36, true},  {27, 45, false}, {40, 45, false}, {18, 46, false}, {24, 46, false},
-    {20, 20, true},  {46, 46, true},  {19, 35, false}, {32, 47, false}, {10, 30, false},
-    {38, 48, true},  {20, 49, false}, {34, 49, false}, {6, 6, true},    {32, 39, false},
-    {10, 39, false}, {7, 50, true},   {12, 50, false}, {0, 51, false},  {18, 51, false},
-    {0, 52, false},  {22, 52, false}, {13, 53, false}, {29, 53, false}, {0, 54, false},
-    {39, 54, false}, {22, 55, false}, {17, 28, false}, {1, 30, false},  {18, 56, false},
-    {18, 57, false}, {0, 58, false},  {18, 18, true},  {8, 59, false},  {11, 59, false},
-});
-
 // The fewest that enclose: 10 + 5, a capsule each for trunk and limbs. By hand.
 constexpr auto kPlainestNodes = std::to_array<LayoutNode>({
     {BoneId::kBelly, {0.30, 0.0, 0.0}, 1.5, false},
@@ -1133,11 +1052,10 @@ constexpr auto kShell500Edges = std::to_array<LayoutEdge>({
 }  // namespace
 
 std::span<const NamedLayout> Layouts() {
-  static constexpr std::array<NamedLayout, 21> kLayouts = {{
+  static constexpr std::array<NamedLayout, 20> kLayouts = {{
       {"best fit, 32", FitKind::kBestFit, 32, false, {kBest32Nodes, kBest32Edges}},
       {"best fit, 64", FitKind::kBestFit, 64, false, {kBest64Nodes, kBest64Edges}},
       {"best fit, 128", FitKind::kBestFit, 128, false, {kBest128Nodes, kBest128Edges}},
-      {"best fit, 250", FitKind::kBestFit, 250, false, {kBest250Nodes, kBest250Edges}},
       {"best fit, whole body, 32",
        FitKind::kBestFit,
        32,

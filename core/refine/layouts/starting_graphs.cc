@@ -26,6 +26,7 @@ std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body&
   const bool with_ends = HasEnds(body, parts);
   std::vector<capsule::MirroredSet> fitting;  // those of the largest size that does
   std::vector<capsule::MirroredSet> beyond;
+  std::vector<capsule::MirroredSet> near;  // the largest of those beyond with little to spare
   int last = 0;
   int first_beyond = 0;
   for (const NamedLayout& named : Layouts()) {
@@ -34,7 +35,10 @@ std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body&
     capsule::MirroredSet graph = HangLayout(named.layout, body, parts, body.is_symmetric);
     const int excess = budget.Excess(graph.count());
     if (excess > 0) {
-      if (excess < sizes.least_spared) continue;
+      if (excess < sizes.least_spared) {
+        if (named.primitives <= sizes.largest_grown) near.assign(1, std::move(graph));
+        continue;
+      }
       first_beyond = named.primitives;
       if (excess <= sizes.most_spared || fitting.empty()) beyond.push_back(std::move(graph));
       continue;
@@ -44,6 +48,7 @@ std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body&
     last = named.primitives;
     fitting.push_back(std::move(graph));
   }
+  if (beyond.empty()) beyond = std::move(near);
   std::move(fitting.begin(), fitting.end(), std::back_inserter(beyond));
   return beyond;
 }

@@ -12,10 +12,10 @@ namespace capfit::refine {
 
 // Which layouts are worth starting from, by primitives.
 struct StartSizes {
-  // Of what has to go of a layout beyond the budget.
+  // Of what has to go of a layout beyond the budget; less only where none has so much.
   int least_spared = 1;
   int most_spared = capsule::kNoLimit;
-  int largest_grown = capsule::kNoLimit;  // of a layout that fits
+  int largest_grown = capsule::kNoLimit;  // of a layout that fits, or has less to spare
 };
 
 // At least one graph: the next layouts beyond the budget, where so much of them has to go, then
