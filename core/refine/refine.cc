@@ -170,12 +170,13 @@ BestFitObjective MakeBestFitObjective(const body::Body& body, const RefineOption
 
 // Of the larger layouts and those that fit. What is left of a much larger one serves the single
 // body better than what a smaller one grows to, by a tenth at half its size; only of few primitives
-// either may end better, and of the next larger one.
+// either may end better, and much larger ones fall into more pieces.
 std::vector<capsule::MirroredSet> BestFitStarts(const body::Body& body,
                                                 const RefineOptions& options) {
-  const StartSizes sizes{
-      .least_spared = static_cast<int>(kMuchSpared * options.budget.UsualPrimitives()),
-      .largest_grown = kLargestGrown};
+  StartSizes sizes{.largest_grown = kLargestGrown};
+  if (!IsOfFew(options.budget)) {
+    sizes.least_spared = static_cast<int>(kMuchSpared * options.budget.UsualPrimitives());
+  }
   std::vector<capsule::MirroredSet> starts =
       StartingGraphs(FitKind::kBestFit, body, options.parts, options.budget, sizes);
   if (!IsOfFew(options.budget)) starts.resize(1);
