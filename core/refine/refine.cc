@@ -37,13 +37,17 @@ constexpr double kThinnedCellM = 0.03;
 // piece is what users want, but it costs a twentieth to a tenth of the error.
 constexpr double kPieceCost = 0.45;
 constexpr int kFewOfBestFit = 40;  // primitives: up to here each matters much
-// Rounds that give up primitives of a best fit and spend them elsewhere. After sparing hardly any
-// pays.
+// Rounds that give up primitives of a best fit and spend them elsewhere. The more there was to
+// spare the less they pay: nothing where a start had three quarters of the budget too much.
 struct Exchanges {
-  int of_few, of_spared, of_others;
+  int of_few, of_much_spared, of_spared, of_others;
 };
-constexpr Exchanges kExchanges = {8, 1, 2};
-constexpr Exchanges kQuickExchanges = {1, 0, 1};
+constexpr Exchanges kExchanges = {8, 0, 1, 2};
+constexpr Exchanges kQuickExchanges = {1, 0, 0, 1};
+constexpr double kMuchSpared = 0.75;  // of the budget
+// Primitives: a best fit beyond grows from a layout of this size, which ends better than what the
+// next one, made on mannequins alone, leads to.
+constexpr int kLargestGrown = 128;
 // Points of the enclosing search are this far apart over the root of the number of primitives,
 // relative to the body's size; the second for the last steps.
 constexpr double kSpacing = 0.216;
@@ -56,8 +60,11 @@ constexpr int kFineTakeInSteps = 2;
 constexpr int kHungSteps = 8;      // for a layout that is kept
 constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
 // Of an enclosing search: rounds of giving up and spending anew, one for so many primitives (where
-// there are more of them, more can be placed better), and how much of the time it takes.
+// there are more of them, more can be placed better; of few a round costs little), and how much of
+// the time it takes.
 constexpr int kPrimitivesPerRound = 50;
+constexpr int kFewOfEnclosing = 60;
+constexpr int kRoundsOfFew = 4;
 constexpr int kLeastRounds = 2;
 constexpr int kMostRounds = 6;
 constexpr int kQuickRounds = 1;
@@ -87,16 +94,20 @@ bool IsOfFew(const capsule::Budget& budget) {
   return std::min(budget.max_primitives, budget.max_spheres) <= kFewOfBestFit;
 }
 
-// How best fits are grown: their edits show late what they are worth, and exchanges pay where
-// primitives are few or nothing has been chosen for this body by sparing.
-GrowthOptions PlanGrowth(const RefineOptions& options, bool spares) {
+// Of a start that has `excess` primitives too many.
+int ExchangesFor(const RefineOptions& options, int excess) {
+  const Exchanges& exchanges = options.thorough ? kExchanges : kQuickExchanges;
+  if (IsOfFew(options.budget)) return exchanges.of_few;
+  if (excess >= kMuchSpared * options.budget.UsualPrimitives()) return exchanges.of_much_spared;
+  return excess > 0 ? exchanges.of_spared : exchanges.of_others;
+}
+
+// How best fits are grown: their edits show late what they are worth.
+GrowthOptions PlanGrowth(const RefineOptions& options, int excess) {
   GrowthOptions plan;
   plan.piece_cost = kPieceCost;
   plan.thorough_share = 0.15;
-  const Exchanges& exchanges = options.thorough ? kExchanges : kQuickExchanges;
-  plan.exchanges = IsOfFew(options.budget) ? exchanges.of_few
-                   : spares                ? exchanges.of_spared
-                                           : exchanges.of_others;
+  plan.exchanges = ExchangesFor(options, excess);
   return plan;
 }
 
@@ -112,7 +123,7 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const RefineOpti
   const capsule::Budget& budget = options.budget;
   const double begin = meter.until();
   const auto at = [&](double share) { return begin + share * (until - begin); };
-  GrowthOptions plan = PlanGrowth(options, budget.Excess(graph.count()) > 0);
+  GrowthOptions plan = PlanGrowth(options, budget.Excess(graph.count()));
   GrowthOptions at_first = plan;
   at_first.exchanges = 0;
   at_first.until = at(kGrown);
@@ -157,13 +168,17 @@ BestFitObjective MakeBestFitObjective(const body::Body& body, const RefineOption
   return {std::move(grid), std::move(points), options.seed};
 }
 
-// Of the larger layouts and those that fit. What is left of a larger one serves the single body
-// better than what a smaller one grows to, by a tenth at half its size; only of few primitives
-// either may end better.
+// Of the larger layouts and those that fit. What is left of a much larger one serves the single
+// body better than what a smaller one grows to, by a tenth at half its size; only of few primitives
+// either may end better, and much larger ones fall into more pieces.
 std::vector<capsule::MirroredSet> BestFitStarts(const body::Body& body,
                                                 const RefineOptions& options) {
-  std::vector<capsule::MirroredSet> starts = StartingGraphs(
-      FitKind::kBestFit, body, options.parts, options.budget, /*most_spared=*/capsule::kNoLimit);
+  StartSizes sizes{.largest_grown = kLargestGrown};
+  if (!IsOfFew(options.budget)) {
+    sizes.least_spared = static_cast<int>(kMuchSpared * options.budget.UsualPrimitives());
+  }
+  std::vector<capsule::MirroredSet> starts =
+      StartingGraphs(FitKind::kBestFit, body, options.parts, options.budget, sizes);
   if (!IsOfFew(options.budget)) starts.resize(1);
   return starts;
 }
@@ -202,13 +217,21 @@ Spacings SpacingsFor(int primitives) {
   return {kMostSpacing, usual, std::clamp(kFineSpacing * share, kLeastSpacing, usual)};
 }
 
-// Standard layouts that fill the budget. They were chosen for how well they serve many bodies, and
-// a short search seldom comes to them by itself.
+int RoundsFor(int primitives) {
+  if (primitives <= kFewOfEnclosing) return kRoundsOfFew;
+  return std::clamp(primitives / kPrimitivesPerRound, kLeastRounds, kMostRounds);
+}
+
+// No more than this is spared where a standard layout serves, beyond the budget.
+int MostSparedBeside(int primitives) { return primitives / 2; }
+
+// Standard layouts that fill the budget or have little to spare. They were chosen for how well they
+// serve many bodies, and a short search seldom comes to them by itself.
 std::vector<capsule::MirroredSet> StandardStarts(const body::Body& body,
                                                  const RefineOptions& options, int primitives) {
   std::vector<capsule::MirroredSet> starts;
   for (const KeptLayout& layout : StandardLayouts()) {
-    const bool fills = options.budget.Allows(layout.count()) &&
+    const bool fills = options.budget.Excess(layout.count()) <= MostSparedBeside(primitives) &&
                        static_cast<double>(layout.count().total()) >= kFillingShare * primitives;
     if (!fills || layout.parts() != options.parts) continue;
     absl::StatusOr<capsule::MirroredSet> graph = HangLayout(layout, body);
@@ -223,9 +246,9 @@ std::vector<capsule::MirroredSet> StartsOf(const body::Body& body, const RefineO
   std::vector<capsule::MirroredSet> standard = StandardStarts(body, options, primitives);
   // What is spared in a larger layout leaves a better one than growth finds, but takes long and is
   // no better than a standard layout.
-  std::vector<capsule::MirroredSet> starts =
-      StartingGraphs(FitKind::kEnclose, body, options.parts, options.budget,
-                     standard.empty() ? capsule::kNoLimit : primitives / 2);
+  std::vector<capsule::MirroredSet> starts = StartingGraphs(
+      FitKind::kEnclose, body, options.parts, options.budget,
+      {.most_spared = standard.empty() ? capsule::kNoLimit : MostSparedBeside(primitives)});
   std::move(standard.begin(), standard.end(), std::back_inserter(starts));
   return starts;
 }
@@ -242,9 +265,7 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
   pool.ForEach(spacings.rough > spacings.usual ? 3 : 2, [&](std::size_t i) {
     task_of[i].first->emplace(target, body.is_symmetric, options.tolerance_m, task_of[i].second);
   });
-  const int rounds = options.thorough
-                         ? std::clamp(primitives / kPrimitivesPerRound, kLeastRounds, kMostRounds)
-                         : kQuickRounds;
+  const int rounds = options.thorough ? RoundsFor(primitives) : kQuickRounds;
   capsule::MirroredSet graph =
       FindEnclosingGraph(rough ? *rough : *usual, *usual, options.budget,
                          StartsOf(body, options, primitives), rounds, kSearched, pool, meter);

@@ -237,6 +237,100 @@ constexpr auto kBest128Edges = std::to_array<LayoutEdge>({
     {17, 35, false},
 });
 
+// 131 + 119 for the best fit, with head, hands and feet. Only ever spared from.
+constexpr auto kBestFull250Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.22, 0.1, 0.6}, 0.7, true},       // 0
+    {BoneId::kChest, {1.05, 0.0, -0.3}, 0.6, false},     // 1
+    {BoneId::kUpperArm, {0.92, 0.0, -0.0}, 0.8, true},   // 2
+    {BoneId::kRibs, {0.80, 0.6, -0.2}, 0.8, true},       // 3
+    {BoneId::kThigh, {0.96, -0.0, -0.0}, 0.8, true},     // 4
+    {BoneId::kShin, {1.72, 0.0, 0.5}, 0.5, true},        // 5
+    {BoneId::kHand, {0.91, -0.3, -0.2}, 0.5, true},      // 6
+    {BoneId::kFoot, {0.96, -0.9, 0.5}, 0.6, true},       // 7
+    {BoneId::kBelly, {0.28, 0.5, 0.5}, 0.5, true},       // 8
+    {BoneId::kHead, {0.11, 0.0, 0.1}, 0.8, false},       // 9
+    {BoneId::kHead, {0.60, 0.0, 0.1}, 1.2, false},       // 10
+    {BoneId::kShin, {0.34, -0.0, -0.5}, 0.8, true},      // 11
+    {BoneId::kClavicle, {0.43, -0.4, -0.1}, 1.4, true},  // 12
+    {BoneId::kThigh, {0.27, -0.1, 0.0}, 1.0, true},      // 13
+    {BoneId::kHead, {0.69, 0.0, -0.3}, 1.0, false},      // 14
+    {BoneId::kUpperArm, {0.13, -0.0, -0.0}, 1.3, true},  // 15
+    {BoneId::kRibs, {0.98, 0.7, 0.4}, 0.9, true},        // 16
+    {BoneId::kHeel, {0.63, 0.1, -0.6}, 1.2, true},       // 17
+    {BoneId::kHand, {0.23, -0.1, 0.4}, 0.7, true},       // 18
+    {BoneId::kThigh, {0.43, -0.1, 0.3}, 1.2, true},      // 19
+    {BoneId::kPelvis, {0.71, 0.2, -0.4}, 1.2, true},     // 20
+    {BoneId::kShin, {0.07, 0.0, 0.2}, 0.8, true},        // 21
+    {BoneId::kPelvis, {0.67, 0.6, -0.0}, 1.4, true},     // 22
+    {BoneId::kShin, {1.92, 0.0, 0.1}, 0.3, true},        // 23
+    {BoneId::kBelly, {0.28, 0.3, -0.0}, 1.2, true},      // 24
+    {BoneId::kHand, {0.22, -0.1, -0.7}, 0.6, true},      // 25
+    {BoneId::kHand, {0.82, -0.3, -1.0}, 0.4, true},      // 26
+    {BoneId::kThigh, {0.30, -0.1, 0.1}, 1.2, true},      // 27
+    {BoneId::kFoot, {1.03, 0.2, 0.5}, 0.6, true},        // 28
+    {BoneId::kThigh, {0.33, -0.1, 0.3}, 1.2, true},      // 29
+    {BoneId::kThigh, {-0.44, -0.2, 0.2}, 1.3, true},     // 30
+    {BoneId::kHead, {0.66, 0.0, 0.6}, 1.2, false},       // 31
+    {BoneId::kForearm, {0.37, -0.0, -0.0}, 1.0, true},   // 32
+    {BoneId::kHead, {0.35, 0.0, 1.2}, 0.8, false},       // 33
+    {BoneId::kHand, {0.46, -0.2, 1.6}, 0.4, true},       // 34
+    {BoneId::kFoot, {0.95, 1.1, 0.4}, 0.6, true},        // 35
+    {BoneId::kShin, {0.83, 0.0, -0.0}, 0.5, true},       // 36
+    {BoneId::kBelly, {0.84, 0.5, 0.0}, 0.8, true},       // 37
+    {BoneId::kClavicle, {0.86, -0.4, 0.0}, 0.7, true},   // 38
+    {BoneId::kHead, {0.47, 0.0, 2.0}, 0.3, false},       // 39
+    {BoneId::kClavicle, {0.46, 0.2, -0.3}, 0.7, true},   // 40
+    {BoneId::kClavicle, {0.51, 0.3, -0.7}, 0.7, true},   // 41
+    {BoneId::kHand, {0.92, -0.2, 0.5}, 0.4, true},       // 42
+    {BoneId::kFoot, {0.58, -0.1, -0.2}, 0.3, true},      // 43
+    {BoneId::kShin, {0.38, 0.0, -0.1}, 0.9, true},       // 44
+    {BoneId::kShin, {0.90, 0.0, 0.2}, 0.5, true},        // 45
+    {BoneId::kHead, {0.73, 0.0, 0.9}, 0.9, false},       // 46
+    {BoneId::kFoot, {0.93, -0.6, 0.4}, 0.2, true},       // 47
+    {BoneId::kFoot, {0.28, -0.1, -0.7}, 1.3, true},      // 48
+    {BoneId::kPelvis, {0.90, 0.7, 0.2}, 1.4, true},      // 49
+    {BoneId::kBelly, {0.20, 0.0, 0.5}, 0.7, true},       // 50
+    {BoneId::kHand, {0.43, -0.1, 0.6}, 0.3, true},       // 51
+    {BoneId::kForearm, {0.90, -0.0, -0.2}, 0.5, true},   // 52
+    {BoneId::kHand, {0.56, -0.1, 1.0}, 0.5, true},       // 53
+    {BoneId::kClavicle, {0.34, -0.5, -0.1}, 1.3, true},  // 54
+    {BoneId::kRibs, {0.67, 0.0, -0.1}, 0.6, false},      // 55
+    {BoneId::kRibs, {0.68, 0.4, -0.1}, 1.0, true},       // 56
+    {BoneId::kForearm, {1.28, 0.1, 0.2}, 0.2, true},     // 57
+    {BoneId::kBelly, {-0.07, 0.5, 0.5}, 0.4, true},      // 58
+    {BoneId::kHand, {0.60, -0.5, 2.6}, 0.3, true},       // 59
+    {BoneId::kRibs, {0.04, 0.2, 0.1}, 0.7, true},        // 60
+    {BoneId::kHead, {0.52, 0.0, -0.2}, 0.9, false},      // 61
+    {BoneId::kPelvis, {0.73, 0.0, 0.3}, 1.0, true},      // 62
+    {BoneId::kFoot, {0.37, -0.7, -1.0}, 0.9, true},      // 63
+    {BoneId::kBelly, {0.88, 0.6, 0.0}, 0.9, true},       // 64
+    {BoneId::kHead, {0.69, 0.0, -0.1}, 1.1, false},      // 65
+    {BoneId::kHead, {0.65, 0.0, 0.2}, 1.0, false},       // 66
+    {BoneId::kHead, {0.46, 0.0, 1.9}, 0.2, false},       // 67
+    {BoneId::kChest, {0.60, 0.0, -0.3}, 0.9, false},     // 68
+    {BoneId::kRibs, {0.89, 0.4, -0.1}, 1.1, true},       // 69
+    {BoneId::kRibs, {0.04, 0.0, 0.1}, 0.7, false},       // 70
+    {BoneId::kClavicle, {0.31, 0.1, 0.1}, 0.5, true},    // 71
+    {BoneId::kHead, {0.49, 0.0, 1.9}, 0.1, false},       // 72
+    {BoneId::kHead, {0.40, 0.0, 0.5}, 1.0, false},       // 73
+});
+constexpr auto kBestFull250Edges = std::to_array<LayoutEdge>({
+    {4, 11, false},  {1, 12, false},  {8, 12, false},  {1, 15, false},  {2, 15, false},
+    {12, 16, false}, {6, 18, false},  {13, 19, false}, {19, 21, false}, {13, 20, false},
+    {25, 26, false}, {11, 23, false}, {8, 29, false},  {4, 27, false},  {29, 30, false},
+    {2, 32, false},  {1, 9, false},   {12, 12, true},  {9, 10, false},  {31, 33, false},
+    {17, 35, false}, {5, 36, false},  {33, 39, false}, {9, 41, false},  {17, 36, false},
+    {4, 44, false},  {5, 45, false},  {44, 45, false}, {28, 48, false}, {32, 51, false},
+    {6, 52, false},  {32, 52, false}, {18, 53, false}, {42, 53, false}, {39, 46, false},
+    {18, 57, false}, {34, 57, false}, {54, 56, true},  {7, 28, false},  {34, 59, false},
+    {54, 56, false}, {37, 55, false}, {0, 1, false},   {0, 24, false},  {14, 61, false},
+    {13, 62, false}, {49, 62, false}, {7, 63, false},  {17, 63, false}, {8, 50, false},
+    {50, 58, true},  {3, 64, false},  {49, 64, false}, {10, 65, false}, {14, 65, false},
+    {10, 66, false}, {31, 66, false}, {3, 60, false},  {41, 68, false}, {12, 69, false},
+    {37, 69, false}, {60, 70, false}, {54, 71, false}, {39, 72, false}, {67, 72, false},
+    {9, 73, false},  {31, 73, false},
+});
+
 // The fewest that enclose: 10 + 5, a capsule each for trunk and limbs. By hand.
 constexpr auto kPlainestNodes = std::to_array<LayoutNode>({
     {BoneId::kBelly, {0.30, 0.0, 0.0}, 1.5, false},
@@ -958,7 +1052,7 @@ constexpr auto kShell500Edges = std::to_array<LayoutEdge>({
 }  // namespace
 
 std::span<const NamedLayout> Layouts() {
-  static constexpr std::array<NamedLayout, 19> kLayouts = {{
+  static constexpr std::array<NamedLayout, 20> kLayouts = {{
       {"best fit, 32", FitKind::kBestFit, 32, false, {kBest32Nodes, kBest32Edges}},
       {"best fit, 64", FitKind::kBestFit, 64, false, {kBest64Nodes, kBest64Edges}},
       {"best fit, 128", FitKind::kBestFit, 128, false, {kBest128Nodes, kBest128Edges}},
@@ -977,6 +1071,11 @@ std::span<const NamedLayout> Layouts() {
        128,
        true,
        {kBestFull128Nodes, kBestFull128Edges}},
+      {"best fit, whole body, 250",
+       FitKind::kBestFit,
+       250,
+       true,
+       {kBestFull250Nodes, kBestFull250Edges}},
       {"shell, 15", FitKind::kEnclose, 15, false, {kPlainestNodes, kPlainestEdges}},
       {"shell, 32", FitKind::kEnclose, 32, false, {kShell32Nodes, kShell32Edges}},
       {"shell, 64", FitKind::kEnclose, 64, false, {kShell64Nodes, kShell64Edges}},

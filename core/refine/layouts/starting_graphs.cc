@@ -21,10 +21,12 @@ bool HasEnds(const body::Body& body, const body::PartSelection& parts) {
 
 std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body& body,
                                                  const body::PartSelection& parts,
-                                                 const capsule::Budget& budget, int most_spared) {
+                                                 const capsule::Budget& budget,
+                                                 const StartSizes& sizes) {
   const bool with_ends = HasEnds(body, parts);
   std::vector<capsule::MirroredSet> fitting;  // those of the largest size that does
   std::vector<capsule::MirroredSet> beyond;
+  std::vector<capsule::MirroredSet> near;  // the largest of those beyond with little to spare
   int last = 0;
   int first_beyond = 0;
   for (const NamedLayout& named : Layouts()) {
@@ -33,14 +35,20 @@ std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body&
     capsule::MirroredSet graph = HangLayout(named.layout, body, parts, body.is_symmetric);
     const int excess = budget.Excess(graph.count());
     if (excess > 0) {
+      if (excess < sizes.least_spared) {
+        if (named.primitives <= sizes.largest_grown) near.assign(1, std::move(graph));
+        continue;
+      }
       first_beyond = named.primitives;
-      if (excess <= most_spared || fitting.empty()) beyond.push_back(std::move(graph));
+      if (excess <= sizes.most_spared || fitting.empty()) beyond.push_back(std::move(graph));
       continue;
     }
+    if (named.primitives > sizes.largest_grown) continue;
     if (named.primitives > last) fitting.clear();
     last = named.primitives;
     fitting.push_back(std::move(graph));
   }
+  if (beyond.empty()) beyond = std::move(near);
   std::move(fitting.begin(), fitting.end(), std::back_inserter(beyond));
   return beyond;
 }

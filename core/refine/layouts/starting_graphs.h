@@ -10,13 +10,21 @@
 
 namespace capfit::refine {
 
-// At least one graph: the next layouts beyond the budget, where no more than `most_spared`
-// primitives of them have to go, then those of the largest number of primitives that fits. Layouts
-// with spheres for head, hands and feet where any of these parts is selected and present.
+// Which layouts are worth starting from, by primitives.
+struct StartSizes {
+  // Of what has to go of a layout beyond the budget; less only where none has so much.
+  int least_spared = 1;
+  int most_spared = capsule::kNoLimit;
+  int largest_grown = capsule::kNoLimit;  // of a layout that fits, or has less to spare
+};
+
+// At least one graph: the next layouts beyond the budget, where so much of them has to go, then
+// those of the largest number of primitives that fits. Layouts with spheres for head, hands and
+// feet where any of these parts is selected and present.
 [[nodiscard]] std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body& body,
                                                                const body::PartSelection& parts,
                                                                const capsule::Budget& budget,
-                                                               int most_spared);
+                                                               const StartSizes& sizes);
 
 }  // namespace capfit::refine
 

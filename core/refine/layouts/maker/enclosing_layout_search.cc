@@ -6,12 +6,16 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
 #include "core/base/random.h"
 #include "core/refine/internal.h"
 #include "core/refine/layouts/layout.h"
 #include "core/refine/layouts/maker/hung_layout.h"
+#include "core/refine/layouts/standard_layouts.h"
 #include "core/refine/layouts/starting_graphs.h"
 #include "core/refine/refine.h"
 
@@ -74,30 +78,45 @@ class EnclosingLayoutSearch {
     double value = std::numeric_limits<double>::max();
   };
 
-  // The stored layout, or what the search of quality tight makes of one of the mannequins, if that
-  // serves all of them better.
+  // The stored layout, a standard one, or what the search of quality tight makes of one of the
+  // mannequins: what serves all of them best.
   Attempt Start() {
     LayoutTask first = task_;
     if (task_.first_primitives > 0) first.primitives = task_.first_primitives;
     Graphs stored;
     for (const Subject& s : subjects_) {
-      stored.push_back(StartingGraphs(FitKind::kEnclose, s.body, s.parts, BudgetOf(first),
-                                      /*most_spared=*/0)
-                           .front());
+      stored.push_back(
+          StartingGraphs(FitKind::kEnclose, s.body, s.parts, BudgetOf(first), {.most_spared = 0})
+              .front());
     }
     Attempt best = Begun(std::move(stored));
+    const auto compare = [&](const std::string& name, Graphs graphs) {
+      Attempt start = Begun(std::move(graphs));
+      std::fprintf(stderr, "%s: %d + %d, %.4f\n", name.c_str(), start.graphs[0].sphere_count(),
+                   start.graphs[0].capsule_count(), start.value);
+      if (start.value < best.value) best = std::move(start);
+    };
+    for (const KeptLayout& layout : StandardLayouts()) {
+      if (task_.full && budget_.Allows(layout.count())) compare(layout.name, Hung(layout));
+    }
     for (std::size_t k = 0; k < subjects_.size(); ++k) {
       const HungLayout layout = SearchedOn(k);
       Graphs hung;
       for (const Subject& s : subjects_) {
         hung.push_back(HangLayout(layout.view(), s.body, s.parts, s.body.is_symmetric));
       }
-      Attempt start = Begun(std::move(hung));
-      std::fprintf(stderr, "searched on mannequin %zu: %d + %d, %.4f\n", k,
-                   start.graphs[0].sphere_count(), start.graphs[0].capsule_count(), start.value);
-      if (start.value < best.value) best = std::move(start);
+      compare(absl::StrCat("searched on mannequin ", k), std::move(hung));
     }
     return best;
+  }
+
+  [[nodiscard]] Graphs Hung(const KeptLayout& layout) const {
+    Graphs hung;
+    for (const Subject& s : subjects_) {
+      absl::StatusOr<capsule::MirroredSet> graph = HangLayout(layout, s.body);
+      if (graph.ok()) hung.push_back(*std::move(graph));
+    }
+    return hung;
   }
 
   Attempt Begun(Graphs graphs) {

@@ -31,7 +31,8 @@ std::vector<Figure> FiguresFor(Figures figures) {
   if (figures == Figures::kWomen) {
     return {{kFemale, 0.9, 1.66, 1.0}, {kFemale, 1.45, 1.72, 1.05}, {kFemale, 0.7, 1.62, 1.15}};
   }
-  return {{kFemale, 0.9, 1.66, 1.0}, {kMale, 1.45, 1.80, 1.0}, {kFemale, 0.7, 1.62, 1.15}};
+  return {{kFemale, 0.9, 1.66, 1.0}, {kMale, 1.45, 1.80, 1.0},   {kFemale, 0.7, 1.62, 1.15},
+          {kMale, 0.8, 1.76, 1.12},  {kFemale, 1.3, 1.70, 0.94}, {kMale, 0.95, 1.72, 0.95}};
 }
 
 int FacesFor(const LayoutTask& task) {

@@ -42,7 +42,7 @@ struct Subject {
   std::unique_ptr<EnclosingTask> enclosing;
 };
 
-// Three of the figures asked for, usual and heavy; empty where one could not be made.
+// Some of the figures asked for, slim, usual and heavy; empty where one could not be made.
 [[nodiscard]] std::vector<Subject> MakeSubjects(const LayoutTask& task);
 
 // The same topology on all mannequins: graphs whose nodes and edges correspond by index.

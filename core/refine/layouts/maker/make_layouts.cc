@@ -1,12 +1,12 @@
 // Makes the tables of core/refine/layouts/layout_tables.cc: random searches for the topologies that
-// serve three mannequins at once.
+// serve several mannequins at once.
 //
 //   make_layouts best|enclose[-women] cut|full PRIMITIVES CPU_SECONDS [SEED [FROM_PRIMITIVES]]
 //
 // Those for the best fit go on from a stick figure, in one piece, or from what quality tight finds
 // for one of the mannequins, and never fall into more pieces. Those that enclose go on from the
 // stored layout for FROM_PRIMITIVES, by default the largest that fits, or from what quality tight
-// finds, whichever serves all three mannequins better.
+// finds, whichever serves all mannequins better; or from a standard layout.
 //
 // Prints nodes and edges as they stand in the table, to be copied. Two minutes or so each.
 #include <cstdio>
