@@ -125,6 +125,7 @@ bool StandsOn(std::span<const Eigen::Vector3d> points, const Extremities& extrem
 // Up, if the body (centroid at the origin) is put down on its soles and left to itself: across the
 // edge of the underside that the centroid stands over.
 std::optional<Eigen::Vector3d> UpAtRest(std::span<const Eigen::Vector3d> points,
+                                        const CoarseSurface& coarse,
                                         const Extremities& extremities, const Eigen::Vector3d& up,
                                         const Eigen::Vector3d& forward) {
   double lowest = std::numeric_limits<double>::infinity();
@@ -140,7 +141,7 @@ std::optional<Eigen::Vector3d> UpAtRest(std::span<const Eigen::Vector3d> points,
     const Eigen::Vector3d normal = (edge.x() * up - edge.y() * forward).normalized();
     if (normal.dot(up) < kMinCosineToTrunk) continue;
     const double ground = normal.dot(hull[i].x() * forward + hull[i].y() * up);
-    if (StandsOn(points, extremities, normal, ground)) return normal;
+    if (StandsOn(coarse.points, extremities, normal, ground)) return normal;
   }
   return std::nullopt;
 }
@@ -175,17 +176,17 @@ IntrinsicFrame TurnedAbout(const IntrinsicFrame& frame) {
   return turned;
 }
 
-IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
-                                  std::span<const double> vertex_areas,
+IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy, const CoarseSurface& coarse,
                                   const Extremities& extremities,
                                   const std::optional<Eigen::Vector3d>& up,
                                   const std::optional<RigEnds>& rig) {
+  const std::span<const Eigen::Vector3d> points = coarse.points;
   const std::vector<char> is_limb = LimbMask(points.size(), extremities);
-  const Rings rings = RingsOf(points, vertex_areas, extremities, is_limb);
+  const Rings rings = RingsOf(points, coarse.areas, extremities, is_limb);
   MirrorPlane plane = SymmetryPlane(rings);
   IntrinsicFrame frame;
   const Eigen::Vector3d trunk = TrunkAxis(rings, rig);
-  const TrunkWidth width = MeasureTrunk(points, vertex_areas, is_limb, trunk);
+  const TrunkWidth width = MeasureTrunk(points, coarse.areas, is_limb, trunk);
   const Eigen::Vector3d across = (plane.normal - plane.normal.dot(trunk) * trunk).normalized();
   if (width.ratio > kClearlyWide && std::abs(width.direction.dot(across)) < kMinCosineToWidth) {
     // Limbs in stride can mirror each other in a plane that is turned against the trunk.
@@ -201,7 +202,8 @@ IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
     frame.left = (plane.normal - plane.normal.dot(*up) * *up).normalized();
   } else {
     frame.up = (trunk - trunk.dot(frame.left) * frame.left).normalized();
-    const auto at_rest = UpAtRest(points, extremities, frame.up, frame.left.cross(frame.up));
+    const auto at_rest =
+        UpAtRest(copy.points, coarse, extremities, frame.up, frame.left.cross(frame.up));
     if (at_rest) frame.up = *at_rest;
   }
   frame.forward = frame.left.cross(frame.up);

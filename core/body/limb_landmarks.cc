@@ -197,10 +197,9 @@ void FindAnkle(Shape& shape, int side, Landmarks& landmarks) {
   // The heel: farthest from the toe along the foot, below the ankle.
   const Eigen::Vector3d back = Eigen::Vector3d(ankle.x() - toe.x(), 0, ankle.z() - toe.z());
   Eigen::Vector3d heel(ankle.x(), 0.0, ankle.z());
-  for (const std::uint32_t v : shape.legs[side]->vertices) {
-    const Eigen::Vector3d& p = shape.points[v];
+  VisitVertices(shape, *shape.legs[side], [&](const Eigen::Vector3d& p) {
     if (p.y() < kHeelHeight * stature && back.dot(p) > back.dot(heel)) heel = p;
-  }
+  });
   Put(landmarks, Sided(LandmarkId::kLeftHeel, side), heel, 0.8);
 }
 

@@ -246,9 +246,9 @@ void FindNeck(Shape& shape, Landmarks& landmarks) {
   Put(landmarks, Index(LandmarkId::kNeck), base ? base->centroid : *shape.neck_middle_m, 0.8);
   shape.neck_base_m = landmarks[Index(LandmarkId::kNeck)]->position_m;
   Eigen::Vector3d top = Eigen::Vector3d::Zero();
-  for (const std::uint32_t v : shape.head->vertices) {
-    if (shape.points[v].y() > top.y()) top = shape.points[v];
-  }
+  VisitVertices(shape, *shape.head, [&](const Eigen::Vector3d& p) {
+    if (p.y() > top.y()) top = p;
+  });
   Put(landmarks, Index(LandmarkId::kHeadTop), top, 0.95);
 }
 

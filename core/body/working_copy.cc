@@ -11,7 +11,6 @@
 
 #include "core/base/chunk_sums.h"
 #include "core/body/snap.h"
-#include "core/mesh/surface_sums.h"
 
 namespace capfit::body {
 namespace {
@@ -117,8 +116,8 @@ class TriangleSorter {
     });
   }
 
-  // Deals the triangles to their lowest corners: those of vertex v are sources_[first_[v]] up to
-  // that of v + 1.
+  // Deals the triangles to their lowest corners: those of vertex v are
+  // sources_[first_triangle[v]] up to that of v + 1.
   void Deal() {
     const std::span<const mesh::Triangle> triangles = mesh_.triangles();
     rank_.resize(copy_.mesh_vertex.size());
@@ -128,12 +127,12 @@ class TriangleSorter {
       const mesh::Triangle& t = triangles[i];
       lowest[i] = std::min({rank_[t[0]], rank_[t[1]], rank_[t[2]]});
     });
-    first_.assign(rank_.size() + 1, 0);
-    for (const std::uint32_t v : lowest) ++first_[v];
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    copy_.first_triangle.assign(rank_.size() + 1, 0);
+    for (const std::uint32_t v : lowest) ++copy_.first_triangle[v];
+    for (std::size_t v = 1; v < copy_.first_triangle.size(); ++v) copy_.first_triangle[v] += copy_.first_triangle[v - 1];
     sources_.resize(triangles.size());
     // From the back, so that the ends become the starts.
-    for (std::uint32_t i = 0; i < lowest.size(); ++i) sources_[--first_[lowest[i]]] = i;
+    for (std::uint32_t i = 0; i < lowest.size(); ++i) sources_[--copy_.first_triangle[lowest[i]]] = i;
   }
 
   [[nodiscard]] RenamedTriangle Renamed(std::uint32_t triangle, std::uint32_t lowest) const {
@@ -152,11 +151,11 @@ class TriangleSorter {
     std::vector<RenamedTriangle> around;
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
       around.clear();
-      for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+      for (std::uint32_t i = copy_.first_triangle[v]; i < copy_.first_triangle[v + 1]; ++i) {
         around.push_back(Renamed(sources_[i], v));
       }
       std::sort(around.begin(), around.end(), comes_first);
-      std::uint32_t i = first_[v];
+      std::uint32_t i = copy_.first_triangle[v];
       for (const RenamedTriangle& t : around) {
         copy_.triangles[i] = {v, static_cast<std::uint32_t>(t.next_corners >> 32),
                               static_cast<std::uint32_t>(t.next_corners)};
@@ -181,7 +180,6 @@ class TriangleSorter {
   const ThreadPool& pool_;
   WorkingCopy& copy_;
   std::vector<std::uint32_t> rank_;  // of the mesh's vertices
-  std::vector<std::uint32_t> first_;
   std::vector<std::uint32_t> sources_;  // triangles, then their corners that come first
   // Where the first corner of each of the mesh's triangles has gone; the others follow it round.
   std::vector<TriangleCorner> gone_to_;
@@ -255,22 +253,6 @@ Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points, const Thr
   return axes;
 }
 
-void AddAreas(const ThreadPool& pool, WorkingCopy& copy) {
-  std::vector<double> thirds(copy.triangles.size());
-  pool.ForChunks(thirds.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      thirds[i] = mesh::Area(copy.points, copy.triangles[i]) / 3.0;
-    }
-  });
-  copy.vertex_areas.assign(copy.points.size(), 0.0);
-  double area = 0.0;
-  for (std::size_t i = 0; i < thirds.size(); ++i) {
-    area += 3.0 * thirds[i];
-    for (const std::uint32_t v : copy.triangles[i]) copy.vertex_areas[v] += thirds[i];
-  }
-  for (double& a : copy.vertex_areas) a /= area;
-}
-
 }  // namespace
 
 WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool,
@@ -296,7 +278,6 @@ WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool,
   if (observer.IsCancelled()) return copy;
   copy.points.resize(count);
   for_each_vertex([&](std::size_t v) { copy.points[v] = points[copy.mesh_vertex[v]]; });
-  AddAreas(pool, copy);
   return copy;
 }
 

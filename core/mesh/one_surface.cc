@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/chunk_sums.h"
+#include "core/mesh/follow_links.h"
 
 namespace capfit::mesh {
 namespace {
@@ -27,12 +28,6 @@ Ring WalkRing(std::span<const Triangle> triangles, std::span<const HalfEdge> mat
     h = mates[before];
   } while (h != corner);
   return ring;
-}
-
-// Follows the links to where they end, and shortens them on the way.
-std::uint32_t FollowLinks(std::vector<std::uint32_t>& link, std::uint32_t v) {
-  while (link[v] != v) v = link[v] = link[link[v]];
-  return v;
 }
 
 // `link` leads from each vertex to its lowest neighbour, or to itself where there is no lower one.
