@@ -319,14 +319,19 @@ absl::Status CheckRequired(const Body& body, const PartSelection& required) {
 class Anatomist {
  public:
   Anatomist(const BodyOptions& options, const Rig& rig, const SurfaceGraph& graph,
-            const CoarseSurface& coarse, const Extremities& extremities, const ThreadPool& pool,
-            const FitObserver& observer, Body& body)
+            const CoarseSurface& coarse, std::span<const std::uint32_t> first_triangle,
+            const Extremities& extremities, const ThreadPool& pool, const FitObserver& observer,
+            Body& body)
       : options_(options),
         rig_(rig),
         extremities_(extremities),
         body_(body),
-        surface_(coarse.points, coarse.triangles, pool) {
+        surface_(coarse.points, coarse.triangles, pool),
+        mesh_surface_(body.mesh.vertices(), body.mesh.triangles(), pool) {
     shape_.vertices = body.mesh.vertices();
+    shape_.mesh_triangles = body.mesh.triangles();
+    shape_.first_triangle = first_triangle;
+    shape_.mesh_surface = &mesh_surface_;
     shape_.coarse = &coarse;
     shape_.points = coarse.points;
     shape_.triangles = coarse.triangles;
@@ -379,6 +384,7 @@ class Anatomist {
   const Extremities& extremities_;
   Body& body_;
   CutSurface surface_;
+  CutSurface mesh_surface_;
   Shape shape_;
 };
 
@@ -411,6 +417,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                         "front and back look alike; a left or right landmark would tell them", 0});
   }
   for (Eigen::Vector3d& p : coarse.points) p = ways.from_copy.Apply(p);
+  const std::vector<std::uint32_t> first_triangle = std::move(copy.first_triangle);
   Body body = {MeshInBodyFrame(mesh, std::move(copy), ways.from_copy, pool),
                ways.from_caller,
                0.0,
@@ -421,7 +428,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                std::move(warnings)};
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
-  Anatomist anatomist(options, rig, graph, coarse, extremities, pool, observer, body);
+  Anatomist anatomist(options, rig, graph, coarse, first_triangle, extremities, pool, observer, body);
   CAPFIT_RETURN_IF_ERROR(anatomist.Run(frame, ways.stature_m));
   return body;
 }

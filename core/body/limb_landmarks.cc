@@ -230,10 +230,10 @@ std::optional<Armpit> FindArmpit(const Shape& shape, int side, const Landmarks& 
     const Eigen::Vector3d flank =
         root + Eigen::Vector3d(-kFlankInside * SideSign(side), -below, 0.0) * stature;
     const auto cleft =
-        FindCleft(shape.points, *shape.graph, on_arm, NearestVertex(shape, in_arm, false, flank),
+        FindCleft(shape, on_arm, NearestVertex(shape, in_arm, false, flank),
                   outward, {root, kArmpitRegion * stature});
     if (!cleft) continue;
-    armpit.position_m = shape.points[*cleft];
+    armpit.position_m = *cleft;
     return armpit;
   }
   return std::nullopt;
@@ -250,7 +250,7 @@ ShoulderCut CutShoulder(const Shape& shape, const Armpit& armpit) {
   const Eigen::Vector3d above = armpit.position_m + Eigen::Vector3d(0, 0.03 * shape.stature_m, 0);
   ShoulderCut cut = {above.y(), above.z()};
   double nearest = std::numeric_limits<double>::infinity();
-  for (const SectionLoop& loop : shape.surface->Cut(plane)) {
+  for (const SectionLoop& loop : shape.mesh_surface->Cut(plane)) {
     const double distance = (loop.centroid - above).norm();
     if (!loop.is_closed || distance >= nearest) continue;
     nearest = distance;

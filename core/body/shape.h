@@ -28,9 +28,12 @@ inline constexpr int kRight = 1;
 
 // Body frame, metres. The spans outlive the shape.
 struct Shape {
-  std::span<const Eigen::Vector3d> vertices;  // of the whole mesh
+  std::span<const Eigen::Vector3d> vertices;     // of the whole mesh
+  std::span<const mesh::Triangle> mesh_triangles;
+  std::span<const std::uint32_t> first_triangle;  // as the working copy's
+  const CutSurface* mesh_surface = nullptr;
   const CoarseSurface* coarse = nullptr;
-  std::span<const Eigen::Vector3d> points;    // its nodes: what is searched and cut
+  std::span<const Eigen::Vector3d> points;    // its nodes: what is searched, and cut in many places
   std::span<const mesh::Triangle> triangles;  // of nodes
   const SurfaceGraph* graph = nullptr;        // of nodes
   const CutSurface* surface = nullptr;        // of nodes
