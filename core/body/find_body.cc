@@ -149,16 +149,32 @@ struct WaysToBody {
   double stature_m = 0.0;  // a first guess; of the whole body, where there are no legs
 };
 
+// Around the centroid.
+struct Extent {
+  double low = 0.0;
+  double high = 0.0;
+
+  Extent& operator+=(const Extent& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+    return *this;
+  }
+};
+
 absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const WorkingCopy& copy,
                                           const IntrinsicFrame& frame,
                                           const Extremities& extremities,
+                                          const ThreadPool& pool,
                                           std::vector<Warning>& warnings) {
-  double low = 0.0;
-  double high = 0.0;
-  for (const Eigen::Vector3d& p : copy.points) {
-    low = std::min(low, frame.up.dot(p));
-    high = std::max(high, frame.up.dot(p));
-  }
+  const auto extent_of = [&](std::size_t begin, std::size_t end) {
+    Extent extent;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double height = frame.up.dot(copy.points[i]);
+      extent += {height, height};
+    }
+    return extent;
+  };
+  const auto [low, high] = SumOverChunks(pool, copy.points.size(), Extent{}, extent_of);
   const bool has_legs = extremities.limb(Tip::kFootA) || extremities.limb(Tip::kFootB);
   const double stature =
       std::max(has_legs ? 0.0 : StatureWithoutLegs(extremities), high - low) * copy.unit;
@@ -233,10 +249,10 @@ std::string NearestAxis(const WorkingCopy& copy, const Eigen::Vector3d& directio
 // axis. A body that stands along another axis may lie in truth: its own frame serves there
 // too.
 absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const Found& found,
-                                             std::vector<Warning>& warnings) {
+                                             const ThreadPool& pool, std::vector<Warning>& warnings) {
   const WorkingCopy& copy = found.copy;
   const Eigen::Vector3d up = Snap(copy.axes * told, kFineGrid).normalized();
-  IntrinsicFrame own = FindIntrinsicFrame(copy, found.coarse, found.extremities,
+  IntrinsicFrame own = FindIntrinsicFrame(copy, found.coarse, found.extremities, pool,
                                           std::nullopt, found.rig_ends);
   const double cosine = own.up.dot(up);
   const std::string axis = NearestAxis(copy, up);
@@ -257,11 +273,11 @@ absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const 
          0});
   }
   if (cosine < kTakenCosine) return own;
-  return FindIntrinsicFrame(copy, found.coarse, found.extremities, up, found.rig_ends);
+  return FindIntrinsicFrame(copy, found.coarse, found.extremities, pool, up, found.rig_ends);
 }
 
 absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Found& found,
-                                         std::vector<Warning>& warnings) {
+                                         const ThreadPool& pool, std::vector<Warning>& warnings) {
   const WorkingCopy& copy = found.copy;
   const Extremities& extremities = found.extremities;
   if (extremities.found() < kMinExtremities) {
@@ -272,9 +288,9 @@ absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Found
   const std::optional<Eigen::Vector3d> told = UpDirection(options.up);
   IntrinsicFrame frame;
   if (told) {
-    CAPFIT_ASSIGN_OR_RETURN(frame, FrameWithTold(*told, found, warnings));
+    CAPFIT_ASSIGN_OR_RETURN(frame, FrameWithTold(*told, found, pool, warnings));
   } else {
-    frame = FindIntrinsicFrame(copy, found.coarse, extremities, std::nullopt,
+    frame = FindIntrinsicFrame(copy, found.coarse, extremities, pool, std::nullopt,
                                found.rig_ends);
   }
   TurnToToldSides(options, found, frame);
@@ -408,10 +424,10 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   PutTipsAtVertices(copy, graph, extremities, coarse);
   std::vector<Warning> warnings;
   CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame,
-                          FindFrame(options, Found{copy, coarse, extremities, rig, rig_ends}, warnings));
+                          FindFrame(options, Found{copy, coarse, extremities, rig, rig_ends}, pool, warnings));
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   CAPFIT_ASSIGN_OR_RETURN(const WaysToBody ways,
-                          FindWaysToBody(options, copy, frame, extremities, warnings));
+                          FindWaysToBody(options, copy, frame, extremities, pool, warnings));
   if (frame.facing_trust < kFacingTrust) {
     warnings.push_back({"FACING_UNSURE",
                         "front and back look alike; a left or right landmark would tell them", 0});

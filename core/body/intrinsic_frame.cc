@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/chunk_sums.h"
 #include "core/body/facing.h"
 #include "core/body/rings.h"
 #include "core/body/symmetry_plane.h"
@@ -108,6 +109,24 @@ std::vector<Profile> Underside(std::vector<Profile> points) {
   return hull;
 }
 
+struct Lowest {
+  double height = std::numeric_limits<double>::infinity();
+
+  Lowest& operator+=(const Lowest& other) {
+    height = std::min(height, other.height);
+    return *this;
+  }
+};
+
+struct Profiles {
+  std::vector<Profile> list;
+
+  Profiles& operator+=(const Profiles& more) {
+    list.insert(list.end(), more.list.begin(), more.list.end());
+    return *this;
+  }
+};
+
 // Whether both legs reach down to the ground, so that no foot is in the air.
 bool StandsOn(std::span<const Eigen::Vector3d> points, const Extremities& extremities,
               const Eigen::Vector3d& up, double ground) {
@@ -126,15 +145,24 @@ bool StandsOn(std::span<const Eigen::Vector3d> points, const Extremities& extrem
 // edge of the underside that the centroid stands over.
 std::optional<Eigen::Vector3d> UpAtRest(std::span<const Eigen::Vector3d> points,
                                         const CoarseSurface& coarse,
-                                        const Extremities& extremities, const Eigen::Vector3d& up,
-                                        const Eigen::Vector3d& forward) {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& p : points) lowest = std::min(lowest, up.dot(p));
-  std::vector<Profile> low;
-  for (const Eigen::Vector3d& p : points) {
-    if (up.dot(p) < lowest + kSoleSlice) low.emplace_back(forward.dot(p), up.dot(p));
-  }
-  const std::vector<Profile> hull = Underside(std::move(low));
+                                        const Extremities& extremities, const ThreadPool& pool,
+                                        const Eigen::Vector3d& up, const Eigen::Vector3d& forward) {
+  const auto lowest_of = [&](std::size_t begin, std::size_t end) {
+    Lowest lowest;
+    for (std::size_t i = begin; i < end; ++i) lowest += {up.dot(points[i])};
+    return lowest;
+  };
+  const double lowest = SumOverChunks(pool, points.size(), Lowest{}, lowest_of).height;
+  // Only what is on the underside of its chunk can be on that of all.
+  const auto underside_of = [&](std::size_t begin, std::size_t end) {
+    std::vector<Profile> low;
+    for (const Eigen::Vector3d& p : points.subspan(begin, end - begin)) {
+      if (up.dot(p) < lowest + kSoleSlice) low.emplace_back(forward.dot(p), up.dot(p));
+    }
+    return Profiles{Underside(std::move(low))};
+  };
+  const std::vector<Profile> hull =
+      Underside(SumOverChunks(pool, points.size(), Profiles{}, underside_of).list);
   for (std::size_t i = 0; i + 1 < hull.size(); ++i) {
     const Profile edge = hull[i + 1] - hull[i];
     if (edge.dot(hull[i]) > 0.0 || edge.dot(hull[i + 1]) < 0.0) continue;  // centroid not over it
@@ -177,7 +205,7 @@ IntrinsicFrame TurnedAbout(const IntrinsicFrame& frame) {
 }
 
 IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy, const CoarseSurface& coarse,
-                                  const Extremities& extremities,
+                                  const Extremities& extremities, const ThreadPool& pool,
                                   const std::optional<Eigen::Vector3d>& up,
                                   const std::optional<RigEnds>& rig) {
   const std::span<const Eigen::Vector3d> points = coarse.points;
@@ -203,7 +231,7 @@ IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy, const CoarseSurface& 
   } else {
     frame.up = (trunk - trunk.dot(frame.left) * frame.left).normalized();
     const auto at_rest =
-        UpAtRest(copy.points, coarse, extremities, frame.up, frame.left.cross(frame.up));
+        UpAtRest(copy.points, coarse, extremities, pool, frame.up, frame.left.cross(frame.up));
     if (at_rest) frame.up = *at_rest;
   }
   frame.forward = frame.left.cross(frame.up);

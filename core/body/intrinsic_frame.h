@@ -35,6 +35,7 @@ struct IntrinsicFrame {
 [[nodiscard]] IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy,
                                                 const CoarseSurface& coarse,
                                                 const Extremities& extremities,
+                                                const ThreadPool& pool,
                                                 const std::optional<Eigen::Vector3d>& up,
                                                 const std::optional<RigEnds>& rig = std::nullopt);
 

@@ -56,7 +56,10 @@ bool HangsTogether(std::span<const Triangle> triangles, std::vector<std::uint32_
 bool IsOneSurface(std::span<const Triangle> triangles, std::span<const HalfEdge> mates,
                   std::size_t vertex_count, const ThreadPool& pool) {
   std::vector<HalfEdge> corner(vertex_count, kNoMate);
-  for (HalfEdge h = 0; h < mates.size(); ++h) corner[StartOf(triangles, h)] = h;
+  HalfEdge h = 0;
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t) corner[v] = h++;
+  }
   std::vector<std::uint32_t> lowest_around(vertex_count);
   const auto walk = [&](std::size_t begin, std::size_t end) {
     std::size_t corners = 0;
