@@ -60,7 +60,8 @@ std::optional<Way> OutermostWay(std::span<const Eigen::Vector3d> points,
 // The vertices of the nodes within a sphere, and which of them share an edge.
 class Patch {
  public:
-  Patch(const Shape& shape, const geometry::Sphere& sphere) : place_(shape.vertices.size(), kNowhere) {
+  Patch(const Shape& shape, const geometry::Sphere& sphere)
+      : place_(shape.vertices.size(), kNowhere) {
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t node = 0; node < shape.points.size(); ++node) {
       if (geometry::SignedDistance(sphere, shape.points[node]) > 0.0) continue;
@@ -74,9 +75,8 @@ class Patch {
     VisitEdges(shape, vertices, [&](std::uint32_t from, std::uint32_t) { ++first_[from + 2]; });
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     next_.resize(first_.back());
-    VisitEdges(shape, vertices, [&](std::uint32_t from, std::uint32_t to) {
-      next_[first_[from + 1]++] = to;
-    });
+    VisitEdges(shape, vertices,
+               [&](std::uint32_t from, std::uint32_t to) { next_[first_[from + 1]++] = to; });
   }
 
   [[nodiscard]] std::uint32_t PlaceOf(std::uint32_t vertex) const { return place_[vertex]; }

@@ -163,8 +163,7 @@ struct Extent {
 
 absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const WorkingCopy& copy,
                                           const IntrinsicFrame& frame,
-                                          const Extremities& extremities,
-                                          const ThreadPool& pool,
+                                          const Extremities& extremities, const ThreadPool& pool,
                                           std::vector<Warning>& warnings) {
   const auto extent_of = [&](std::size_t begin, std::size_t end) {
     Extent extent;
@@ -249,11 +248,12 @@ std::string NearestAxis(const WorkingCopy& copy, const Eigen::Vector3d& directio
 // axis. A body that stands along another axis may lie in truth: its own frame serves there
 // too.
 absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const Found& found,
-                                             const ThreadPool& pool, std::vector<Warning>& warnings) {
+                                             const ThreadPool& pool,
+                                             std::vector<Warning>& warnings) {
   const WorkingCopy& copy = found.copy;
   const Eigen::Vector3d up = Snap(copy.axes * told, kFineGrid).normalized();
-  IntrinsicFrame own = FindIntrinsicFrame(copy, found.coarse, found.extremities, pool,
-                                          std::nullopt, found.rig_ends);
+  IntrinsicFrame own =
+      FindIntrinsicFrame(copy, found.coarse, found.extremities, pool, std::nullopt, found.rig_ends);
   const double cosine = own.up.dot(up);
   const std::string axis = NearestAxis(copy, up);
   const std::string own_axis = NearestAxis(copy, own.up);
@@ -290,8 +290,7 @@ absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Found
   if (told) {
     CAPFIT_ASSIGN_OR_RETURN(frame, FrameWithTold(*told, found, pool, warnings));
   } else {
-    frame = FindIntrinsicFrame(copy, found.coarse, extremities, pool, std::nullopt,
-                               found.rig_ends);
+    frame = FindIntrinsicFrame(copy, found.coarse, extremities, pool, std::nullopt, found.rig_ends);
   }
   TurnToToldSides(options, found, frame);
   return frame;
@@ -423,8 +422,9 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   PutTipsAtVertices(copy, graph, extremities, coarse);
   std::vector<Warning> warnings;
-  CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame,
-                          FindFrame(options, Found{copy, coarse, extremities, rig, rig_ends}, pool, warnings));
+  CAPFIT_ASSIGN_OR_RETURN(
+      const IntrinsicFrame frame,
+      FindFrame(options, Found{copy, coarse, extremities, rig, rig_ends}, pool, warnings));
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   CAPFIT_ASSIGN_OR_RETURN(const WaysToBody ways,
                           FindWaysToBody(options, copy, frame, extremities, pool, warnings));
@@ -444,7 +444,8 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                std::move(warnings)};
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
-  Anatomist anatomist(options, rig, graph, coarse, first_triangle, extremities, pool, observer, body);
+  Anatomist anatomist(options, rig, graph, coarse, first_triangle, extremities, pool, observer,
+                      body);
   CAPFIT_RETURN_IF_ERROR(anatomist.Run(frame, ways.stature_m));
   return body;
 }

@@ -144,9 +144,9 @@ bool StandsOn(std::span<const Eigen::Vector3d> points, const Extremities& extrem
 // Up, if the body (centroid at the origin) is put down on its soles and left to itself: across the
 // edge of the underside that the centroid stands over.
 std::optional<Eigen::Vector3d> UpAtRest(std::span<const Eigen::Vector3d> points,
-                                        const CoarseSurface& coarse,
-                                        const Extremities& extremities, const ThreadPool& pool,
-                                        const Eigen::Vector3d& up, const Eigen::Vector3d& forward) {
+                                        const CoarseSurface& coarse, const Extremities& extremities,
+                                        const ThreadPool& pool, const Eigen::Vector3d& up,
+                                        const Eigen::Vector3d& forward) {
   const auto lowest_of = [&](std::size_t begin, std::size_t end) {
     Lowest lowest;
     for (std::size_t i = begin; i < end; ++i) lowest += {up.dot(points[i])};

@@ -229,9 +229,8 @@ std::optional<Armpit> FindArmpit(const Shape& shape, int side, const Landmarks& 
   for (const double below : kFlankBelow) {
     const Eigen::Vector3d flank =
         root + Eigen::Vector3d(-kFlankInside * SideSign(side), -below, 0.0) * stature;
-    const auto cleft =
-        FindCleft(shape, on_arm, NearestVertex(shape, in_arm, false, flank),
-                  outward, {root, kArmpitRegion * stature});
+    const auto cleft = FindCleft(shape, on_arm, NearestVertex(shape, in_arm, false, flank), outward,
+                                 {root, kArmpitRegion * stature});
     if (!cleft) continue;
     armpit.position_m = *cleft;
     return armpit;

@@ -135,10 +135,9 @@ class Labeller {
     const Eigen::Vector3d armpit =
         across_arm + hanging * (At(LandmarkId::kLeftArmpit, side) - across_arm);
     const Eigen::Vector3d outward = arm - hanging * Eigen::Vector3d::UnitY();
-    Flooded beyond =
-        Flood(shape_, tip,
-              Across(armpit, outward, kArmpitMargin,
-                     kArmRadius + hanging * (kShoulderRadius - kArmRadius)));
+    Flooded beyond = Flood(shape_, tip,
+                           Across(armpit, outward, kArmpitMargin,
+                                  kArmRadius + hanging * (kShoulderRadius - kArmRadius)));
     Label(OnSide(Segment::kLeftUpperArm, side), std::move(beyond),
           Across(shoulder, cap, -kCapInside, kShoulderRadius));
     Label(OnSide(Segment::kLeftForearm, side), tip,

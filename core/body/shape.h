@@ -28,7 +28,7 @@ inline constexpr int kRight = 1;
 
 // Body frame, metres. The spans outlive the shape.
 struct Shape {
-  std::span<const Eigen::Vector3d> vertices;     // of the whole mesh
+  std::span<const Eigen::Vector3d> vertices;  // of the whole mesh
   std::span<const mesh::Triangle> mesh_triangles;
   std::span<const std::uint32_t> first_triangle;  // as the working copy's
   const CutSurface* mesh_surface = nullptr;

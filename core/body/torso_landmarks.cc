@@ -129,13 +129,12 @@ std::optional<Eigen::Vector3d> CrotchBetweenHanging(const Shape& shape, const Th
       ends[side] = v;
     }
   }
-  const auto cleft = FindCleft(shape, ends[kLeft], ends[kRight],
-                               outward.normalized(), {middle, kCrotchRegion * shape.stature_m});
+  const auto cleft = FindCleft(shape, ends[kLeft], ends[kRight], outward.normalized(),
+                               {middle, kCrotchRegion * shape.stature_m});
   if (!cleft) return std::nullopt;
   // The perineum is nearly flat from front to back; a place behind the middle of the thighs is a
   // steadier choice along it than the cleft's own vertex.
-  Eigen::Vector3d crotch(0.0, cleft->y(),
-                         thighs.middle_z - kCrotchBehindThighs * shape.stature_m);
+  Eigen::Vector3d crotch(0.0, cleft->y(), thighs.middle_z - kCrotchBehindThighs * shape.stature_m);
   crotch.y() = CrotchHeightAt(shape, crotch);
   return crotch;
 }
@@ -199,7 +198,8 @@ std::vector<NeckLevel> NeckLevels(const Shape& shape, double from_y) {
   for (double y = from_y; y < to_y; y += kTrunkLevelStep * shape.stature_m) {
     planes.push_back(NeckPlane(y));
   }
-  std::vector<std::optional<SectionLoop>> loops = TrunkLoops(*shape.mesh_surface, planes, *shape.pool);
+  std::vector<std::optional<SectionLoop>> loops =
+      TrunkLoops(*shape.mesh_surface, planes, *shape.pool);
   std::vector<NeckLevel> levels;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i]) levels.push_back({planes[i].origin.y(), *std::move(loops[i])});
@@ -242,8 +242,8 @@ void FindNeck(Shape& shape, Landmarks& landmarks) {
       levels.begin(), levels.end(),
       [](const NeckLevel& a, const NeckLevel& b) { return a.loop.girth < b.loop.girth; });
   shape.neck_middle_m = narrowest->loop.centroid;
-  const auto base =
-      TrunkLoop(shape.mesh_surface->Cut(NeckPlane(narrowest->y - kNeckBaseBelowNarrowest * stature)));
+  const auto base = TrunkLoop(
+      shape.mesh_surface->Cut(NeckPlane(narrowest->y - kNeckBaseBelowNarrowest * stature)));
   Put(landmarks, Index(LandmarkId::kNeck), base ? base->centroid : *shape.neck_middle_m, 0.8);
   shape.neck_base_m = landmarks[Index(LandmarkId::kNeck)]->position_m;
   Eigen::Vector3d top = Eigen::Vector3d::Zero();
@@ -288,7 +288,8 @@ void FindTrunkSections(const Shape& shape, Landmarks& landmarks) {
   for (double y = crotch + kHipFrom * stature; y < armpit; y += kTrunkLevelStep * stature) {
     levels.push_back(Level(y));
   }
-  const std::vector<std::optional<SectionLoop>> loops = TrunkLoops(*shape.surface, levels, *shape.pool);
+  const std::vector<std::optional<SectionLoop>> loops =
+      TrunkLoops(*shape.surface, levels, *shape.pool);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const std::optional<SectionLoop>& loop = loops[i];
     const double y = levels[i].origin.y();
