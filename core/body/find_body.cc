@@ -13,6 +13,7 @@
 #include "core/base/status.h"
 #include "core/body/body_unit.h"
 #include "core/body/chains.h"
+#include "core/body/coarse_surface.h"
 #include "core/body/extremities.h"
 #include "core/body/intrinsic_frame.h"
 #include "core/body/landmarks.h"
@@ -75,6 +76,7 @@ void NameLimbs(const Extremities& extremities, IntrinsicFrame& frame) {
 // The body as it came and what is known of it before its frame is.
 struct Found {
   const WorkingCopy& copy;
+  const CoarseSurface& coarse;
   const Extremities& extremities;
   const Rig& rig;
   const std::optional<RigEnds>& rig_ends;  // nothing where the rig lies elsewhere
@@ -122,6 +124,23 @@ double VolumeOf(const WorkingCopy& copy) {
   return std::abs(volume);
 }
 
+// The nodes at the ends of limbs are put where their outermost vertices are.
+void PutTipsAtVertices(const WorkingCopy& copy, const SurfaceGraph& graph,
+                       const Extremities& extremities, CoarseSurface& coarse) {
+  for (const std::optional<Limb>& limb : extremities.limbs) {
+    if (!limb) continue;
+    Eigen::Vector3d outward = Eigen::Vector3d::Zero();
+    for (const std::uint32_t n : graph.Neighbours(limb->tip)) {
+      outward += coarse.points[limb->tip] - coarse.points[n];
+    }
+    const std::span<const std::uint32_t> vertices = coarse.VerticesOf(limb->tip);
+    coarse.points[limb->tip] = copy.points[*std::max_element(
+        vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
+          return outward.dot(copy.points[a]) < outward.dot(copy.points[b]);
+        })];
+  }
+}
+
 // The way to the body's frame (upright, in metres, standing at y = 0) from the caller's and from
 // the working copy's. The latter is the same for every copy of a body, bit by bit.
 struct WaysToBody {
@@ -130,16 +149,31 @@ struct WaysToBody {
   double stature_m = 0.0;  // a first guess; of the whole body, where there are no legs
 };
 
-absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const WorkingCopy& copy,
-                                          const IntrinsicFrame& frame,
-                                          const Extremities& extremities,
-                                          std::vector<Warning>& warnings) {
+// Around the centroid.
+struct Extent {
   double low = 0.0;
   double high = 0.0;
-  for (const Eigen::Vector3d& p : copy.points) {
-    low = std::min(low, frame.up.dot(p));
-    high = std::max(high, frame.up.dot(p));
+
+  Extent& operator+=(const Extent& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+    return *this;
   }
+};
+
+absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const WorkingCopy& copy,
+                                          const IntrinsicFrame& frame,
+                                          const Extremities& extremities, const ThreadPool& pool,
+                                          std::vector<Warning>& warnings) {
+  const auto extent_of = [&](std::size_t begin, std::size_t end) {
+    Extent extent;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double height = frame.up.dot(copy.points[i]);
+      extent += {height, height};
+    }
+    return extent;
+  };
+  const auto [low, high] = SumOverChunks(pool, copy.points.size(), Extent{}, extent_of);
   const bool has_legs = extremities.limb(Tip::kFootA) || extremities.limb(Tip::kFootB);
   const double stature =
       std::max(has_legs ? 0.0 : StatureWithoutLegs(extremities), high - low) * copy.unit;
@@ -214,11 +248,12 @@ std::string NearestAxis(const WorkingCopy& copy, const Eigen::Vector3d& directio
 // axis. A body that stands along another axis may lie in truth: its own frame serves there
 // too.
 absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const Found& found,
+                                             const ThreadPool& pool,
                                              std::vector<Warning>& warnings) {
   const WorkingCopy& copy = found.copy;
   const Eigen::Vector3d up = Snap(copy.axes * told, kFineGrid).normalized();
-  IntrinsicFrame own = FindIntrinsicFrame(copy.points, copy.vertex_areas, found.extremities,
-                                          std::nullopt, found.rig_ends);
+  IntrinsicFrame own =
+      FindIntrinsicFrame(copy, found.coarse, found.extremities, pool, std::nullopt, found.rig_ends);
   const double cosine = own.up.dot(up);
   const std::string axis = NearestAxis(copy, up);
   const std::string own_axis = NearestAxis(copy, own.up);
@@ -238,11 +273,11 @@ absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const 
          0});
   }
   if (cosine < kTakenCosine) return own;
-  return FindIntrinsicFrame(copy.points, copy.vertex_areas, found.extremities, up, found.rig_ends);
+  return FindIntrinsicFrame(copy, found.coarse, found.extremities, pool, up, found.rig_ends);
 }
 
 absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Found& found,
-                                         std::vector<Warning>& warnings) {
+                                         const ThreadPool& pool, std::vector<Warning>& warnings) {
   const WorkingCopy& copy = found.copy;
   const Extremities& extremities = found.extremities;
   if (extremities.found() < kMinExtremities) {
@@ -253,10 +288,9 @@ absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Found
   const std::optional<Eigen::Vector3d> told = UpDirection(options.up);
   IntrinsicFrame frame;
   if (told) {
-    CAPFIT_ASSIGN_OR_RETURN(frame, FrameWithTold(*told, found, warnings));
+    CAPFIT_ASSIGN_OR_RETURN(frame, FrameWithTold(*told, found, pool, warnings));
   } else {
-    frame = FindIntrinsicFrame(copy.points, copy.vertex_areas, extremities, std::nullopt,
-                               found.rig_ends);
+    frame = FindIntrinsicFrame(copy, found.coarse, extremities, pool, std::nullopt, found.rig_ends);
   }
   TurnToToldSides(options, found, frame);
   return frame;
@@ -300,15 +334,22 @@ absl::Status CheckRequired(const Body& body, const PartSelection& required) {
 class Anatomist {
  public:
   Anatomist(const BodyOptions& options, const Rig& rig, const SurfaceGraph& graph,
+            const CoarseSurface& coarse, std::span<const std::uint32_t> first_triangle,
             const Extremities& extremities, const ThreadPool& pool, const FitObserver& observer,
             Body& body)
       : options_(options),
         rig_(rig),
         extremities_(extremities),
         body_(body),
-        surface_(body.mesh.vertices(), body.mesh.triangles(), pool) {
-    shape_.points = body.mesh.vertices();
-    shape_.triangles = body.mesh.triangles();
+        surface_(coarse.points, coarse.triangles, pool),
+        mesh_surface_(body.mesh.vertices(), body.mesh.triangles(), pool) {
+    shape_.vertices = body.mesh.vertices();
+    shape_.mesh_triangles = body.mesh.triangles();
+    shape_.first_triangle = first_triangle;
+    shape_.mesh_surface = &mesh_surface_;
+    shape_.coarse = &coarse;
+    shape_.points = coarse.points;
+    shape_.triangles = coarse.triangles;
     shape_.graph = &graph;
     shape_.surface = &surface_;
     shape_.pool = &pool;
@@ -358,6 +399,7 @@ class Anatomist {
   const Extremities& extremities_;
   Body& body_;
   CutSurface surface_;
+  CutSurface mesh_surface_;
   Shape shape_;
 };
 
@@ -368,24 +410,30 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   WorkingCopy copy = MakeWorkingCopy(mesh, pool, observer);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  const SurfaceGraph graph(copy.points, copy.triangles, copy.mates, pool, observer);
+  CoarseSurface coarse = MakeCoarseSurface(copy, pool);
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
+  const SurfaceGraph graph(coarse.points, coarse.triangles, coarse.mates, pool, observer);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   const Rig rig = ReadRig(options.skeleton);
-  const std::optional<RigEnds> rig_ends = FindRigEnds(rig, copy, pool);
+  const std::optional<RigEnds> rig_ends = FindRigEnds(rig, copy, coarse, pool);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   const Extremities extremities =
-      FindExtremities(copy.points, copy.vertex_areas, graph, pool, observer, rig_ends);
+      FindExtremities(coarse.points, coarse.areas, graph, pool, observer, rig_ends);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
+  PutTipsAtVertices(copy, graph, extremities, coarse);
   std::vector<Warning> warnings;
-  CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame,
-                          FindFrame(options, Found{copy, extremities, rig, rig_ends}, warnings));
+  CAPFIT_ASSIGN_OR_RETURN(
+      const IntrinsicFrame frame,
+      FindFrame(options, Found{copy, coarse, extremities, rig, rig_ends}, pool, warnings));
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   CAPFIT_ASSIGN_OR_RETURN(const WaysToBody ways,
-                          FindWaysToBody(options, copy, frame, extremities, warnings));
+                          FindWaysToBody(options, copy, frame, extremities, pool, warnings));
   if (frame.facing_trust < kFacingTrust) {
     warnings.push_back({"FACING_UNSURE",
                         "front and back look alike; a left or right landmark would tell them", 0});
   }
+  for (Eigen::Vector3d& p : coarse.points) p = ways.from_copy.Apply(p);
+  const std::vector<std::uint32_t> first_triangle = std::move(copy.first_triangle);
   Body body = {MeshInBodyFrame(mesh, std::move(copy), ways.from_copy, pool),
                ways.from_caller,
                0.0,
@@ -396,7 +444,8 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                std::move(warnings)};
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
-  Anatomist anatomist(options, rig, graph, extremities, pool, observer, body);
+  Anatomist anatomist(options, rig, graph, coarse, first_triangle, extremities, pool, observer,
+                      body);
   CAPFIT_RETURN_IF_ERROR(anatomist.Run(frame, ways.stature_m));
   return body;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/chunk_sums.h"
 #include "core/body/facing.h"
 #include "core/body/rings.h"
 #include "core/body/symmetry_plane.h"
@@ -21,6 +22,9 @@ constexpr double kMinCosineToTrunk = 0.9945;
 // Axes of the surface that lie farther than this (20 degrees) from a skeleton's are mistaken.
 constexpr double kTakenCosineToRig = 0.94;
 constexpr double kSoleTolerance = 0.02;
+// How near the plane that nodes tell lies to one between all vertices: 0.6 degrees and 5 mm.
+constexpr double kNearAxisCosine = 0.99995;
+constexpr double kNearMiddle = 0.004;
 // A trunk this much wider than deep says by itself where left and right are, to within the angle of
 // this cosine (5 degrees).
 constexpr double kClearlyWide = 1.2;
@@ -108,6 +112,24 @@ std::vector<Profile> Underside(std::vector<Profile> points) {
   return hull;
 }
 
+struct Lowest {
+  double height = std::numeric_limits<double>::infinity();
+
+  Lowest& operator+=(const Lowest& other) {
+    height = std::min(height, other.height);
+    return *this;
+  }
+};
+
+struct Profiles {
+  std::vector<Profile> list;
+
+  Profiles& operator+=(const Profiles& more) {
+    list.insert(list.end(), more.list.begin(), more.list.end());
+    return *this;
+  }
+};
+
 // Whether both legs reach down to the ground, so that no foot is in the air.
 bool StandsOn(std::span<const Eigen::Vector3d> points, const Extremities& extremities,
               const Eigen::Vector3d& up, double ground) {
@@ -125,24 +147,46 @@ bool StandsOn(std::span<const Eigen::Vector3d> points, const Extremities& extrem
 // Up, if the body (centroid at the origin) is put down on its soles and left to itself: across the
 // edge of the underside that the centroid stands over.
 std::optional<Eigen::Vector3d> UpAtRest(std::span<const Eigen::Vector3d> points,
-                                        const Extremities& extremities, const Eigen::Vector3d& up,
+                                        const CoarseSurface& coarse, const Extremities& extremities,
+                                        const ThreadPool& pool, const Eigen::Vector3d& up,
                                         const Eigen::Vector3d& forward) {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& p : points) lowest = std::min(lowest, up.dot(p));
-  std::vector<Profile> low;
-  for (const Eigen::Vector3d& p : points) {
-    if (up.dot(p) < lowest + kSoleSlice) low.emplace_back(forward.dot(p), up.dot(p));
-  }
-  const std::vector<Profile> hull = Underside(std::move(low));
+  const auto lowest_of = [&](std::size_t begin, std::size_t end) {
+    Lowest lowest;
+    for (std::size_t i = begin; i < end; ++i) lowest += {up.dot(points[i])};
+    return lowest;
+  };
+  const double lowest = SumOverChunks(pool, points.size(), Lowest{}, lowest_of).height;
+  // Only what is on the underside of its chunk can be on that of all.
+  const auto underside_of = [&](std::size_t begin, std::size_t end) {
+    std::vector<Profile> low;
+    for (const Eigen::Vector3d& p : points.subspan(begin, end - begin)) {
+      if (up.dot(p) < lowest + kSoleSlice) low.emplace_back(forward.dot(p), up.dot(p));
+    }
+    return Profiles{Underside(std::move(low))};
+  };
+  const std::vector<Profile> hull =
+      Underside(SumOverChunks(pool, points.size(), Profiles{}, underside_of).list);
   for (std::size_t i = 0; i + 1 < hull.size(); ++i) {
     const Profile edge = hull[i + 1] - hull[i];
     if (edge.dot(hull[i]) > 0.0 || edge.dot(hull[i + 1]) < 0.0) continue;  // centroid not over it
     const Eigen::Vector3d normal = (edge.x() * up - edge.y() * forward).normalized();
     if (normal.dot(up) < kMinCosineToTrunk) continue;
     const double ground = normal.dot(hull[i].x() * forward + hull[i].y() * up);
-    if (StandsOn(points, extremities, normal, ground)) return normal;
+    if (StandsOn(coarse.points, extremities, normal, ground)) return normal;
   }
   return std::nullopt;
+}
+
+// The working copy's axes are the principal ones of all its vertices, and its centroid is the
+// origin: both are exact for a body that is its own mirror image, while nodes tell its plane to
+// some thousandths only.
+MirrorPlane Sharpened(const MirrorPlane& plane) {
+  Eigen::Index axis = 0;
+  const double cosine = plane.normal.cwiseAbs().maxCoeff(&axis);
+  if (cosine < kNearAxisCosine || std::abs(plane.offset) > kNearMiddle) return plane;
+  MirrorPlane sharp = {Eigen::Vector3d::Zero(), 0.0};
+  sharp.normal[axis] = plane.normal[axis] < 0.0 ? -1.0 : 1.0;
+  return sharp;
 }
 
 // Whether limb `a` of a pair lies to the left of `b`; of the plane, where one of them is missing.
@@ -175,17 +219,18 @@ IntrinsicFrame TurnedAbout(const IntrinsicFrame& frame) {
   return turned;
 }
 
-IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
-                                  std::span<const double> vertex_areas,
-                                  const Extremities& extremities,
+IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy, const CoarseSurface& coarse,
+                                  const Extremities& extremities, const ThreadPool& pool,
                                   const std::optional<Eigen::Vector3d>& up,
                                   const std::optional<RigEnds>& rig) {
+  const std::span<const Eigen::Vector3d> points = coarse.points;
   const std::vector<char> is_limb = LimbMask(points.size(), extremities);
-  const Rings rings = RingsOf(points, vertex_areas, extremities, is_limb);
+  const Rings rings = RingsOf(points, coarse.areas, extremities, is_limb);
   MirrorPlane plane = SymmetryPlane(rings);
+  if (points.size() < copy.points.size()) plane = Sharpened(plane);
   IntrinsicFrame frame;
   const Eigen::Vector3d trunk = TrunkAxis(rings, rig);
-  const TrunkWidth width = MeasureTrunk(points, vertex_areas, is_limb, trunk);
+  const TrunkWidth width = MeasureTrunk(points, coarse.areas, is_limb, trunk);
   const Eigen::Vector3d across = (plane.normal - plane.normal.dot(trunk) * trunk).normalized();
   if (width.ratio > kClearlyWide && std::abs(width.direction.dot(across)) < kMinCosineToWidth) {
     // Limbs in stride can mirror each other in a plane that is turned against the trunk.
@@ -201,7 +246,8 @@ IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
     frame.left = (plane.normal - plane.normal.dot(*up) * *up).normalized();
   } else {
     frame.up = (trunk - trunk.dot(frame.left) * frame.left).normalized();
-    const auto at_rest = UpAtRest(points, extremities, frame.up, frame.left.cross(frame.up));
+    const auto at_rest =
+        UpAtRest(copy.points, coarse, extremities, pool, frame.up, frame.left.cross(frame.up));
     if (at_rest) frame.up = *at_rest;
   }
   frame.forward = frame.left.cross(frame.up);

@@ -31,9 +31,11 @@ struct IntrinsicFrame {
 // Exact for bodies that are symmetric; the same for any turned, moved or scaled copy. `up` given:
 // taken as it is. A skeleton's axes take the place of those found that are more than 20 degrees
 // off, as a backpack or a stride may make them. Needs three limbs or more.
-[[nodiscard]] IntrinsicFrame FindIntrinsicFrame(std::span<const Eigen::Vector3d> points,
-                                                std::span<const double> vertex_areas,
+// The soles are those of the `copy`, all else is told by the nodes.
+[[nodiscard]] IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy,
+                                                const CoarseSurface& coarse,
                                                 const Extremities& extremities,
+                                                const ThreadPool& pool,
                                                 const std::optional<Eigen::Vector3d>& up,
                                                 const std::optional<RigEnds>& rig = std::nullopt);
 

@@ -114,7 +114,8 @@ double Stature(const Shape& shape) {
 double CrownHeight(const Shape& shape) {
   if (!shape.head) return shape.top_m;
   double crown = 0.0;
-  for (const std::uint32_t v : shape.head->vertices) crown = std::max(crown, shape.points[v].y());
+  VisitVertices(shape, *shape.head,
+                [&](const Eigen::Vector3d& p) { crown = std::max(crown, p.y()); });
   return crown;
 }
 
@@ -170,8 +171,11 @@ double LowestOfTrunk(const Shape& shape) {
   }
   mark(shape.head);
   double lowest = shape.top_m;
-  for (std::size_t v = 0; v < shape.points.size(); ++v) {
-    if (!in_limb[v]) lowest = std::min(lowest, shape.points[v].y());
+  for (std::uint32_t node = 0; node < in_limb.size(); ++node) {
+    if (in_limb[node]) continue;
+    for (const std::uint32_t v : shape.coarse->VerticesOf(node)) {
+      lowest = std::min(lowest, shape.vertices[v].y());
+    }
   }
   return lowest;
 }

@@ -197,10 +197,9 @@ void FindAnkle(Shape& shape, int side, Landmarks& landmarks) {
   // The heel: farthest from the toe along the foot, below the ankle.
   const Eigen::Vector3d back = Eigen::Vector3d(ankle.x() - toe.x(), 0, ankle.z() - toe.z());
   Eigen::Vector3d heel(ankle.x(), 0.0, ankle.z());
-  for (const std::uint32_t v : shape.legs[side]->vertices) {
-    const Eigen::Vector3d& p = shape.points[v];
+  VisitVertices(shape, *shape.legs[side], [&](const Eigen::Vector3d& p) {
     if (p.y() < kHeelHeight * stature && back.dot(p) > back.dot(heel)) heel = p;
-  }
+  });
   Put(landmarks, Sided(LandmarkId::kLeftHeel, side), heel, 0.8);
 }
 
@@ -230,11 +229,10 @@ std::optional<Armpit> FindArmpit(const Shape& shape, int side, const Landmarks& 
   for (const double below : kFlankBelow) {
     const Eigen::Vector3d flank =
         root + Eigen::Vector3d(-kFlankInside * SideSign(side), -below, 0.0) * stature;
-    const auto cleft =
-        FindCleft(shape.points, *shape.graph, on_arm, NearestVertex(shape, in_arm, false, flank),
-                  outward, {root, kArmpitRegion * stature});
+    const auto cleft = FindCleft(shape, on_arm, NearestVertex(shape, in_arm, false, flank), outward,
+                                 {root, kArmpitRegion * stature});
     if (!cleft) continue;
-    armpit.position_m = shape.points[*cleft];
+    armpit.position_m = *cleft;
     return armpit;
   }
   return std::nullopt;
@@ -251,7 +249,7 @@ ShoulderCut CutShoulder(const Shape& shape, const Armpit& armpit) {
   const Eigen::Vector3d above = armpit.position_m + Eigen::Vector3d(0, 0.03 * shape.stature_m, 0);
   ShoulderCut cut = {above.y(), above.z()};
   double nearest = std::numeric_limits<double>::infinity();
-  for (const SectionLoop& loop : shape.surface->Cut(plane)) {
+  for (const SectionLoop& loop : shape.mesh_surface->Cut(plane)) {
     const double distance = (loop.centroid - above).norm();
     if (!loop.is_closed || distance >= nearest) continue;
     nearest = distance;

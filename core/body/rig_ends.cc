@@ -80,21 +80,21 @@ class RigInCopy {
   std::optional<Eigen::Vector3d> head_;
 };
 
-// The nearest vertex, unless it is far.
-std::optional<std::uint32_t> VertexNear(const Eigen::Vector3d& at, const WorkingCopy& copy) {
+// The nearest node, unless it is far.
+std::optional<std::uint32_t> NodeNear(const Eigen::Vector3d& at, const CoarseSurface& coarse) {
   std::uint32_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t v = 0; v < copy.points.size(); ++v) {
-    const double distance = (copy.points[v] - at).squaredNorm();
+  for (std::uint32_t n = 0; n < coarse.points.size(); ++n) {
+    const double distance = (coarse.points[n] - at).squaredNorm();
     if (distance >= least) continue;
     least = distance;
-    nearest = v;
+    nearest = n;
   }
   return least <= kNearEnd * kNearEnd ? std::optional(nearest) : std::nullopt;
 }
 
-bool RunsInside(const RigInCopy& rig, const WorkingCopy& copy, const ThreadPool& pool) {
-  const CutSurface surface(copy.points, copy.triangles, pool);
+bool RunsInside(const RigInCopy& rig, const CoarseSurface& coarse, const ThreadPool& pool) {
+  const CutSurface surface(coarse.points, coarse.triangles, pool);
   const auto bones = rig.Bones();
   int outside = 0;
   for (const auto& [from, to] : bones) {
@@ -106,7 +106,7 @@ bool RunsInside(const RigInCopy& rig, const WorkingCopy& copy, const ThreadPool&
 }  // namespace
 
 std::optional<RigEnds> FindRigEnds(const Rig& rig, const WorkingCopy& copy,
-                                   const ThreadPool& pool) {
+                                   const CoarseSurface& coarse, const ThreadPool& pool) {
   const RigInCopy in_copy(rig, copy);
   if (!in_copy.IsWhole()) return std::nullopt;
   const double way = in_copy.NeckToAnkle();
@@ -116,16 +116,16 @@ std::optional<RigEnds> FindRigEnds(const Rig& rig, const WorkingCopy& copy,
       in_copy.head(), in_copy.at(LandmarkId::kLeftWrist), in_copy.at(LandmarkId::kRightWrist),
       in_copy.at(LandmarkId::kLeftAnkle), in_copy.at(LandmarkId::kRightAnkle)};
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const std::optional<std::uint32_t> vertex = VertexNear(joints[i], copy);
-    if (!vertex) return std::nullopt;
-    ends.vertex[i] = *vertex;
+    const std::optional<std::uint32_t> node = NodeNear(joints[i], coarse);
+    if (!node) return std::nullopt;
+    ends.vertex[i] = *node;
   }
   const Eigen::Vector3d up = in_copy.at(LandmarkId::kNeck) - in_copy.Middle(LandmarkId::kLeftHip);
   const Eigen::Vector3d left = in_copy.at(LandmarkId::kLeftShoulder) -
                                in_copy.at(LandmarkId::kRightShoulder) +
                                in_copy.at(LandmarkId::kLeftHip) - in_copy.at(LandmarkId::kRightHip);
   if (!(up.norm() > 0.0 && left.norm() > 0.0)) return std::nullopt;
-  if (!RunsInside(in_copy, copy, pool)) return std::nullopt;
+  if (!RunsInside(in_copy, coarse, pool)) return std::nullopt;
   ends.up = up.normalized();
   ends.left = left.normalized();
   ends.middle =

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/base/thread_pool.h"
+#include "core/body/coarse_surface.h"
 #include "core/body/skeleton_names.h"
 #include "core/body/working_copy.h"
 
@@ -18,7 +19,7 @@ inline constexpr int kRigEndCount = 5;
 
 // In the working copy's coordinates.
 struct RigEnds {
-  // The vertex nearest to the head's joint, each wrist and each ankle.
+  // The node nearest to the head's joint, each wrist and each ankle.
   std::array<std::uint32_t, kRigEndCount> vertex = {};
   // From the hips to the neck, and from right to left through shoulders and hips; of length 1.
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
@@ -27,9 +28,9 @@ struct RigEnds {
 };
 
 // Nothing where a joint is missing, or where the skeleton is another body's: its size does not go
-// with the surface, an end is far from it, or its bones do not run inside. O(vertices), for a
-// skeleton that is there: some 3 ms for 64k triangles.
+// with the surface, an end is far from it, or its bones do not run inside. O(nodes).
 [[nodiscard]] std::optional<RigEnds> FindRigEnds(const Rig& rig, const WorkingCopy& copy,
+                                                 const CoarseSurface& coarse,
                                                  const ThreadPool& pool);
 
 }  // namespace capfit::body

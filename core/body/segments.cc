@@ -48,34 +48,43 @@ constexpr double kJawAboveNeck = 0.035;
 struct Barrier {
   CutPlane plane;  // normal outward, away from the trunk
   double radius = 0.0;
-  const std::vector<char>* in_limb = nullptr;  // by vertex
-  [[nodiscard]] bool Stops(std::uint32_t v, const Eigen::Vector3d& p) const {
+  const std::vector<char>* in_limb = nullptr;  // by node
+  [[nodiscard]] bool Stops(std::uint32_t node, const Eigen::Vector3d& p) const {
     const bool is_inner = plane.Height(p) < 0.0;
-    const bool is_of_limb = (*in_limb)[v] != 0;
+    const bool is_of_limb = (*in_limb)[node] != 0;
     if (is_of_limb != is_inner) return is_inner;  // most vertices
     const bool is_near = (p - plane.origin).norm() < radius;
     return is_of_limb == is_near;
   }
 };
 
-// What can be reached from `start`, itself included. A vertex is noted when it is met and asked
-// whether it stops the way when its turn comes: once each.
-std::vector<std::uint32_t> Flood(const Shape& shape, std::vector<std::uint32_t> start,
-                                 const Barrier& barrier) {
+// What a flood has covered.
+struct Flooded {
+  std::vector<std::uint32_t> nodes;
+  std::vector<std::uint32_t> vertices;  // of these nodes, and of those that stopped it
+};
+
+// What can be reached from `start`, itself included. A node is noted when it is met and asked
+// whether it stops the way when its turn comes: once each. Of nodes at the edge those vertices
+// count that do not stop the way themselves.
+Flooded Flood(const Shape& shape, Flooded start, const Barrier& barrier) {
   std::vector<char> is_free(shape.points.size(), 1);
-  for (const std::uint32_t v : start) is_free[v] = 0;
-  std::vector<std::uint32_t> reached = std::move(start);
-  const std::size_t start_count = reached.size();
+  for (const std::uint32_t n : start.nodes) is_free[n] = 0;
+  Flooded reached = std::move(start);
+  const std::size_t start_count = reached.nodes.size();
   const auto met = std::make_unique_for_overwrite<std::uint32_t[]>(shape.points.size() + 1);
-  std::copy(reached.begin(), reached.end(), met.get());
+  std::copy(reached.nodes.begin(), reached.nodes.end(), met.get());
   std::size_t count = start_count;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t v = met[i];
+    const std::uint32_t node = met[i];
     if (i >= start_count) {
-      if (barrier.Stops(v, shape.points[v])) continue;
-      reached.push_back(v);
+      for (const std::uint32_t v : shape.coarse->VerticesOf(node)) {
+        if (!barrier.Stops(node, shape.vertices[v])) reached.vertices.push_back(v);
+      }
+      if (barrier.Stops(node, shape.points[node])) continue;
+      reached.nodes.push_back(node);
     }
-    for (const std::uint32_t n : shape.graph->Neighbours(v)) {
+    for (const std::uint32_t n : shape.graph->Neighbours(node)) {
       met[count] = n;
       count += static_cast<std::size_t>(is_free[n]);  // as good as chance: no branch
       is_free[n] = 0;
@@ -108,7 +117,7 @@ class Labeller {
   Labels Arm(int side) && {
     if (!Has(LandmarkId::kLeftShoulder, side) || !Has(LandmarkId::kLeftElbow, side)) return {};
     TakeUp(*shape_.arms[side]);
-    const std::uint32_t tip = shape_.arms[side]->tip;
+    const Flooded tip = From(shape_.arms[side]->tip);
     const Eigen::Vector3d shoulder = At(LandmarkId::kLeftShoulder, side);
     const Eigen::Vector3d elbow = At(LandmarkId::kLeftElbow, side);
     const Eigen::Vector3d wrist = At(LandmarkId::kLeftWrist, side);
@@ -126,16 +135,15 @@ class Labeller {
     const Eigen::Vector3d armpit =
         across_arm + hanging * (At(LandmarkId::kLeftArmpit, side) - across_arm);
     const Eigen::Vector3d outward = arm - hanging * Eigen::Vector3d::UnitY();
-    std::vector<std::uint32_t> beyond =
-        Flood(shape_, {tip},
-              Across(armpit, outward, kArmpitMargin,
-                     kArmRadius + hanging * (kShoulderRadius - kArmRadius)));
+    Flooded beyond = Flood(shape_, tip,
+                           Across(armpit, outward, kArmpitMargin,
+                                  kArmRadius + hanging * (kShoulderRadius - kArmRadius)));
     Label(OnSide(Segment::kLeftUpperArm, side), std::move(beyond),
           Across(shoulder, cap, -kCapInside, kShoulderRadius));
-    Label(OnSide(Segment::kLeftForearm, side), {tip},
+    Label(OnSide(Segment::kLeftForearm, side), tip,
           Across(elbow, wrist - shoulder, 0.0, kElbowRadius));
     if (shape_.has_hand[side]) {
-      Label(OnSide(Segment::kLeftHand, side), {tip},
+      Label(OnSide(Segment::kLeftHand, side), tip,
             Across(wrist, wrist - elbow, kWristBeyond, kWristRadius));
     }
     return std::move(labels_);
@@ -144,7 +152,7 @@ class Labeller {
   Labels Leg(int side) && {
     if (!Has(LandmarkId::kLeftHip, side) || !Has(LandmarkId::kCrotch)) return {};
     TakeUp(*shape_.legs[side]);
-    const std::uint32_t tip = shape_.legs[side]->tip;
+    const Flooded tip = From(shape_.legs[side]->tip);
     const Eigen::Vector3d knee = At(LandmarkId::kLeftKnee, side);
     const Eigen::Vector3d ankle = At(LandmarkId::kLeftAnkle, side);
     // The groin's plane turns half as far as the thigh when that is lifted.
@@ -160,15 +168,15 @@ class Labeller {
     const Eigen::Vector3d origin = At(LandmarkId::kCrotch) + taken * kGroinTaken *
                                                                  shape_.stature_m * thigh.z() *
                                                                  Eigen::Vector3d::UnitZ();
-    Label(OnSide(Segment::kLeftThigh, side), {tip},
+    Label(OnSide(Segment::kLeftThigh, side), tip,
           Across(origin, groin, kGroinBelowCrotch, kHipRadius));
     const Eigen::Vector3d knee_normal =
         TurnDown(thigh + shin) * Eigen::Vector3d(SideSign(side) * 0.28, -0.86, -0.42);
-    Label(OnSide(Segment::kLeftCalf, side), {tip},
+    Label(OnSide(Segment::kLeftCalf, side), tip,
           Across(knee, knee_normal, kKneeBelow, kKneeRadius));
     if (shape_.has_foot[side]) {
       const Eigen::Vector3d ankle_normal = TurnDown(shin) * Eigen::Vector3d(0.0, -0.97, 0.24);
-      Label(OnSide(Segment::kLeftFoot, side), {tip},
+      Label(OnSide(Segment::kLeftFoot, side), tip,
             Across(ankle, ankle_normal, -kAnkleAbove, kAnkleRadius));
     }
     return std::move(labels_);
@@ -177,11 +185,11 @@ class Labeller {
   Labels Head() && {
     if (!shape_.neck_base_m) return {};
     TakeUp(*shape_.head);
-    const std::uint32_t tip = shape_.head->tip;
+    const Flooded tip = From(shape_.head->tip);
     const Eigen::Vector3d base = *shape_.neck_base_m;
-    Label(Segment::kNeck, {tip}, Across(base, Eigen::Vector3d(0, 0.96, 0.28), 0.0, kNeckRadius));
+    Label(Segment::kNeck, tip, Across(base, Eigen::Vector3d(0, 0.96, 0.28), 0.0, kNeckRadius));
     if (shape_.has_head) {
-      Label(Segment::kHead, {tip},
+      Label(Segment::kHead, tip,
             Across(base, Eigen::Vector3d(0, 0.745, 0.667), kJawAboveNeck, kNeckRadius));
     }
     return std::move(labels_);
@@ -204,8 +212,12 @@ class Labeller {
     in_limb_.assign(shape_.points.size(), 0);
     for (const std::uint32_t v : limb.vertices) in_limb_[v] = 1;
   }
-  void Label(Segment segment, std::vector<std::uint32_t> start, const Barrier& barrier) {
-    labels_.push_back({segment, Flood(shape_, std::move(start), barrier)});
+  [[nodiscard]] Flooded From(std::uint32_t node) const {
+    const std::span<const std::uint32_t> vertices = shape_.coarse->VerticesOf(node);
+    return {{node}, {vertices.begin(), vertices.end()}};
+  }
+  void Label(Segment segment, Flooded start, const Barrier& barrier) {
+    labels_.push_back({segment, Flood(shape_, std::move(start), barrier).vertices});
   }
 
   const Shape& shape_;
@@ -225,7 +237,7 @@ std::vector<Segment> LabelVertices(const Shape& shape, const Landmarks& landmark
     return shape.arms[side] ? Labeller(shape, landmarks).Arm(side) : Labels();
   };
   shape.pool->ForEach(limbs.size(), [&](std::size_t limb) { limbs[limb] = label(limb); });
-  std::vector<Segment> segments(shape.points.size(), Segment::kTorso);
+  std::vector<Segment> segments(shape.vertices.size(), Segment::kTorso);
   for (const Labels& labels : limbs) {
     for (const LabelledVertices& part : labels) {
       for (const std::uint32_t v : part.vertices) segments[v] = part.segment;

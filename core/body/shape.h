@@ -11,6 +11,7 @@
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
+#include "core/body/coarse_surface.h"
 #include "core/body/cross_section.h"
 #include "core/body/extremities.h"
 #include "core/body/limb_profile.h"
@@ -27,10 +28,15 @@ inline constexpr int kRight = 1;
 
 // Body frame, metres. The spans outlive the shape.
 struct Shape {
-  std::span<const Eigen::Vector3d> points;
-  std::span<const mesh::Triangle> triangles;
-  const SurfaceGraph* graph = nullptr;
-  const CutSurface* surface = nullptr;
+  std::span<const Eigen::Vector3d> vertices;  // of the whole mesh
+  std::span<const mesh::Triangle> mesh_triangles;
+  std::span<const std::uint32_t> first_triangle;  // as the working copy's
+  const CutSurface* mesh_surface = nullptr;
+  const CoarseSurface* coarse = nullptr;
+  std::span<const Eigen::Vector3d> points;    // its nodes: what is searched, and cut in many places
+  std::span<const mesh::Triangle> triangles;  // of nodes
+  const SurfaceGraph* graph = nullptr;        // of nodes
+  const CutSurface* surface = nullptr;        // of nodes
   const ThreadPool* pool = nullptr;
   const FitObserver* observer = nullptr;
   double top_m = 0.0;  // extent along Y; the lowest point is at 0
@@ -56,7 +62,16 @@ struct Shape {
   std::array<bool, 2> has_foot = {false, false};
 };
 
-// Over the surface, by side, to each vertex. Both legs must be there.
+// Calls visit(position) for the mesh's vertices that belong to the limb: extreme places among them
+// are sharper than among nodes.
+template <typename Visit>
+void VisitVertices(const Shape& shape, const Limb& limb, const Visit& visit) {
+  for (const std::uint32_t node : limb.vertices) {
+    for (const std::uint32_t v : shape.coarse->VerticesOf(node)) visit(shape.vertices[v]);
+  }
+}
+
+// Over the surface, by side, to each node. Both legs must be there.
 [[nodiscard]] inline std::array<std::vector<double>, 2> DistancesFromFeet(const Shape& shape) {
   std::array<std::vector<double>, 2> distances;
   shape.pool->ForEach(distances.size(), [&](std::size_t side) {

@@ -45,8 +45,8 @@ class Judge {
  public:
   Judge(const Extremities& extremities, const Shape& shape)
       : stature_m_(shape.top_m), surface_(shape.surface) {
-    low_ = high_ = shape.points.front();
-    for (const Eigen::Vector3d& p : shape.points) {
+    low_ = high_ = shape.vertices.front();
+    for (const Eigen::Vector3d& p : shape.vertices) {
       low_ = low_.cwiseMin(p);
       high_ = high_.cwiseMax(p);
     }

@@ -53,10 +53,11 @@ std::optional<SectionLoop> TrunkLoop(std::vector<SectionLoop> section) {
   return std::nullopt;
 }
 
-std::vector<std::optional<SectionLoop>> TrunkLoops(const Shape& shape,
-                                                   std::span<const CutPlane> planes) {
+std::vector<std::optional<SectionLoop>> TrunkLoops(const CutSurface& surface,
+                                                   std::span<const CutPlane> planes,
+                                                   const ThreadPool& pool) {
   std::vector<std::optional<SectionLoop>> loops;
-  for (std::vector<SectionLoop>& section : shape.surface->CutAll(planes, *shape.pool)) {
+  for (std::vector<SectionLoop>& section : surface.CutAll(planes, pool)) {
     loops.push_back(TrunkLoop(std::move(section)));
   }
   return loops;
@@ -69,7 +70,7 @@ double CrotchHeightAt(const Shape& shape, const Eigen::Vector3d& near) {
   const CutPlane plane = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX()};
   double best = std::numeric_limits<double>::infinity();
   double height = near.y();
-  for (const SectionLoop& loop : shape.surface->Cut(plane)) {
+  for (const SectionLoop& loop : shape.mesh_surface->Cut(plane)) {
     const std::size_t count = loop.outline.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d& a = loop.outline[i];
@@ -128,13 +129,12 @@ std::optional<Eigen::Vector3d> CrotchBetweenHanging(const Shape& shape, const Th
       ends[side] = v;
     }
   }
-  const auto cleft = FindCleft(shape.points, *shape.graph, ends[kLeft], ends[kRight],
-                               outward.normalized(), {middle, kCrotchRegion * shape.stature_m});
+  const auto cleft = FindCleft(shape, ends[kLeft], ends[kRight], outward.normalized(),
+                               {middle, kCrotchRegion * shape.stature_m});
   if (!cleft) return std::nullopt;
   // The perineum is nearly flat from front to back; a place behind the middle of the thighs is a
   // steadier choice along it than the cleft's own vertex.
-  Eigen::Vector3d crotch(0.0, shape.points[*cleft].y(),
-                         thighs.middle_z - kCrotchBehindThighs * shape.stature_m);
+  Eigen::Vector3d crotch(0.0, cleft->y(), thighs.middle_z - kCrotchBehindThighs * shape.stature_m);
   crotch.y() = CrotchHeightAt(shape, crotch);
   return crotch;
 }
@@ -198,7 +198,8 @@ std::vector<NeckLevel> NeckLevels(const Shape& shape, double from_y) {
   for (double y = from_y; y < to_y; y += kTrunkLevelStep * shape.stature_m) {
     planes.push_back(NeckPlane(y));
   }
-  std::vector<std::optional<SectionLoop>> loops = TrunkLoops(shape, planes);
+  std::vector<std::optional<SectionLoop>> loops =
+      TrunkLoops(*shape.mesh_surface, planes, *shape.pool);
   std::vector<NeckLevel> levels;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i]) levels.push_back({planes[i].origin.y(), *std::move(loops[i])});
@@ -241,14 +242,14 @@ void FindNeck(Shape& shape, Landmarks& landmarks) {
       levels.begin(), levels.end(),
       [](const NeckLevel& a, const NeckLevel& b) { return a.loop.girth < b.loop.girth; });
   shape.neck_middle_m = narrowest->loop.centroid;
-  const auto base =
-      TrunkLoop(shape.surface->Cut(NeckPlane(narrowest->y - kNeckBaseBelowNarrowest * stature)));
+  const auto base = TrunkLoop(
+      shape.mesh_surface->Cut(NeckPlane(narrowest->y - kNeckBaseBelowNarrowest * stature)));
   Put(landmarks, Index(LandmarkId::kNeck), base ? base->centroid : *shape.neck_middle_m, 0.8);
   shape.neck_base_m = landmarks[Index(LandmarkId::kNeck)]->position_m;
   Eigen::Vector3d top = Eigen::Vector3d::Zero();
-  for (const std::uint32_t v : shape.head->vertices) {
-    if (shape.points[v].y() > top.y()) top = shape.points[v];
-  }
+  VisitVertices(shape, *shape.head, [&](const Eigen::Vector3d& p) {
+    if (p.y() > top.y()) top = p;
+  });
   Put(landmarks, Index(LandmarkId::kHeadTop), top, 0.95);
 }
 
@@ -287,7 +288,8 @@ void FindTrunkSections(const Shape& shape, Landmarks& landmarks) {
   for (double y = crotch + kHipFrom * stature; y < armpit; y += kTrunkLevelStep * stature) {
     levels.push_back(Level(y));
   }
-  const std::vector<std::optional<SectionLoop>> loops = TrunkLoops(shape, levels);
+  const std::vector<std::optional<SectionLoop>> loops =
+      TrunkLoops(*shape.surface, levels, *shape.pool);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const std::optional<SectionLoop>& loop = loops[i];
     const double y = levels[i].origin.y();

@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 
 #include "core/base/chunk_sums.h"
 #include "core/body/snap.h"
-#include "core/mesh/surface_sums.h"
 
 namespace capfit::body {
 namespace {
@@ -25,19 +25,38 @@ std::uint32_t Spread(std::uint32_t x) {
   return (x | (x << 2)) & 0x00249249u;
 }
 
-// Index order by key, equal keys by place (two passes of 12 bits).
-std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys,
-                                     const std::vector<Eigen::Vector3d>& points) {
-  std::vector<std::uint32_t> order(keys.size());
-  std::vector<std::uint32_t> next(keys.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  for (const int shift : {0, 12}) {
-    std::array<std::uint32_t, 4097> start{};
-    for (const std::uint32_t key : keys) ++start[((key >> shift) & 0xFFFu) + 1];
-    for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
-    for (const std::uint32_t i : order) next[start[(keys[i] >> shift) & 0xFFFu]++] = i;
-    order.swap(next);
+constexpr std::size_t kDigits = 4096;
+constexpr std::size_t kSortChunk = 4 * kMeshChunk;
+
+// One pass of a counting sort: `order` by 12 bits of the keys.
+void SortByDigit(const std::vector<std::uint32_t>& keys, int shift, const ThreadPool& pool,
+                 std::vector<std::uint32_t>& order) {
+  const auto digit = [&](std::uint32_t i) { return (keys[i] >> shift) & (kDigits - 1); };
+  const std::size_t chunks = (order.size() + kSortChunk - 1) / kSortChunk;
+  std::vector<std::uint32_t> place(chunks * kDigits, 0);
+  pool.ForChunks(order.size(), kSortChunk, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t* const count = place.data() + begin / kSortChunk * kDigits;
+    for (std::size_t i = begin; i < end; ++i) ++count[digit(order[i])];
+  });
+  std::uint32_t next = 0;
+  for (std::size_t d = 0; d < kDigits; ++d) {
+    for (std::size_t c = 0; c < chunks; ++c) next += std::exchange(place[c * kDigits + d], next);
   }
+  std::vector<std::uint32_t> sorted(order.size());
+  pool.ForChunks(order.size(), kSortChunk, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t* const place_of = place.data() + begin / kSortChunk * kDigits;
+    for (std::size_t i = begin; i < end; ++i) sorted[place_of[digit(order[i])]++] = order[i];
+  });
+  order.swap(sorted);
+}
+
+// Index order by key, equal keys by place.
+std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys,
+                                     const std::vector<Eigen::Vector3d>& points,
+                                     const ThreadPool& pool) {
+  std::vector<std::uint32_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0u);
+  for (const int shift : {0, 12}) SortByDigit(keys, shift, pool, order);
   const auto comes_first = [&](std::uint32_t a, std::uint32_t b) {
     const Eigen::Vector3d& p = points[a];
     const Eigen::Vector3d& q = points[b];
@@ -45,12 +64,21 @@ std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys,
     if (p.z() != q.z()) return p.z() < q.z();
     return p.x() != q.x() ? p.x() < q.x() : a < b;
   };
-  for (auto first = order.begin(); first != order.end();) {
-    auto last = first + 1;
-    while (last != order.end() && keys[*last] == keys[*first]) ++last;
-    if (last - first > 1) std::sort(first, last, comes_first);
-    first = last;
-  }
+  std::vector<std::uint32_t> sorted(keys.size());
+  pool.ForChunks(order.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) sorted[i] = keys[order[i]];
+  });
+  pool.ForChunks(order.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; ++first) {
+      if (first > 0 && sorted[first - 1] == sorted[first]) continue;
+      std::size_t last = first + 1;
+      while (last < sorted.size() && sorted[last] == sorted[first]) ++last;
+      if (last - first > 1) {
+        std::sort(order.begin() + static_cast<std::ptrdiff_t>(first),
+                  order.begin() + static_cast<std::ptrdiff_t>(last), comes_first);
+      }
+    }
+  });
   return order;
 }
 
@@ -117,28 +145,28 @@ class TriangleSorter {
     });
   }
 
-  // Deals the triangles to their lowest corners: those of vertex v are sources_[first_[v]] up to
-  // that of v + 1.
+  // Deals the triangles to their lowest corners: those of vertex v are
+  // dealt_[first_triangle[v]] up to that of v + 1.
   void Deal() {
-    const std::span<const mesh::Triangle> triangles = mesh_.triangles();
+    const std::size_t count = mesh_.triangles().size();
     rank_.resize(copy_.mesh_vertex.size());
     ForEachOf(rank_.size(), [this](std::uint32_t i) { rank_[copy_.mesh_vertex[i]] = i; });
-    std::vector<std::uint32_t> lowest(triangles.size());
-    ForEachOf(triangles.size(), [&](std::uint32_t i) {
-      const mesh::Triangle& t = triangles[i];
-      lowest[i] = std::min({rank_[t[0]], rank_[t[1]], rank_[t[2]]});
-    });
-    first_.assign(rank_.size() + 1, 0);
-    for (const std::uint32_t v : lowest) ++first_[v];
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    sources_.resize(triangles.size());
+    std::vector<std::uint32_t> lowest(count);
+    std::vector<RenamedTriangle> renamed(count);
+    ForEachOf(count, [&](std::uint32_t i) { renamed[i] = Renamed(i, lowest[i]); });
+    std::vector<std::uint32_t>& first = copy_.first_triangle;
+    first.assign(rank_.size() + 1, 0);
+    for (const std::uint32_t v : lowest) ++first[v];
+    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    dealt_.resize(count);
     // From the back, so that the ends become the starts.
-    for (std::uint32_t i = 0; i < lowest.size(); ++i) sources_[--first_[lowest[i]]] = i;
+    for (std::size_t i = 0; i < count; ++i) dealt_[--first[lowest[i]]] = renamed[i];
   }
 
-  [[nodiscard]] RenamedTriangle Renamed(std::uint32_t triangle, std::uint32_t lowest) const {
+  [[nodiscard]] RenamedTriangle Renamed(std::uint32_t triangle, std::uint32_t& lowest) const {
     const mesh::Triangle& t = mesh_.triangles()[triangle];
     const mesh::Triangle ranks = {rank_[t[0]], rank_[t[1]], rank_[t[2]]};
+    lowest = std::min({ranks[0], ranks[1], ranks[2]});
     const std::uint32_t k = (ranks[1] == lowest ? 1 : 0) + (ranks[2] == lowest ? 2 : 0);
     return {(std::uint64_t{ranks[Wrapped(k + 1)]} << 32) | ranks[Wrapped(k + 2)],
             CornerOf(triangle, k)};
@@ -149,28 +177,24 @@ class TriangleSorter {
     const auto comes_first = [](const RenamedTriangle& a, const RenamedTriangle& b) {
       return a.next_corners < b.next_corners;
     };
-    std::vector<RenamedTriangle> around;
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
-      around.clear();
-      for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-        around.push_back(Renamed(sources_[i], v));
-      }
-      std::sort(around.begin(), around.end(), comes_first);
-      std::uint32_t i = first_[v];
-      for (const RenamedTriangle& t : around) {
+      const std::uint32_t first = copy_.first_triangle[v];
+      const std::uint32_t last = copy_.first_triangle[v + 1];
+      std::sort(dealt_.begin() + first, dealt_.begin() + last, comes_first);
+      for (std::uint32_t i = first; i < last; ++i) {
+        const RenamedTriangle& t = dealt_[i];
         copy_.triangles[i] = {v, static_cast<std::uint32_t>(t.next_corners >> 32),
                               static_cast<std::uint32_t>(t.next_corners)};
-        sources_[i] = t.source;
         gone_to_[t.source / 4] = CornerOf(i, Wrapped(3 - t.source % 4));
-        ++i;
       }
     }
   }
 
   void CopyMates(std::uint32_t i) {
-    const mesh::HalfEdge* const mates = mesh_.mates().data() + 3 * std::size_t{sources_[i] / 4};
+    const TriangleCorner source = dealt_[i].source;
+    const mesh::HalfEdge* const mates = mesh_.mates().data() + 3 * std::size_t{source / 4};
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const mesh::HalfEdge mate = mates[Wrapped(sources_[i] % 4 + k)];
+      const mesh::HalfEdge mate = mates[Wrapped(source % 4 + k)];
       const TriangleCorner first = mate == mesh::kNoMate ? 0 : gone_to_[mate / 3];
       const mesh::HalfEdge here = 3 * (first / 4) + Wrapped(first % 4 + mate % 3);
       copy_.mates[3 * i + k] = mate == mesh::kNoMate ? mate : here;
@@ -181,8 +205,7 @@ class TriangleSorter {
   const ThreadPool& pool_;
   WorkingCopy& copy_;
   std::vector<std::uint32_t> rank_;  // of the mesh's vertices
-  std::vector<std::uint32_t> first_;
-  std::vector<std::uint32_t> sources_;  // triangles, then their corners that come first
+  std::vector<RenamedTriangle> dealt_;
   // Where the first corner of each of the mesh's triangles has gone; the others follow it round.
   std::vector<TriangleCorner> gone_to_;
 };
@@ -255,22 +278,6 @@ Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points, const Thr
   return axes;
 }
 
-void AddAreas(const ThreadPool& pool, WorkingCopy& copy) {
-  std::vector<double> thirds(copy.triangles.size());
-  pool.ForChunks(thirds.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      thirds[i] = mesh::Area(copy.points, copy.triangles[i]) / 3.0;
-    }
-  });
-  copy.vertex_areas.assign(copy.points.size(), 0.0);
-  double area = 0.0;
-  for (std::size_t i = 0; i < thirds.size(); ++i) {
-    area += 3.0 * thirds[i];
-    for (const std::uint32_t v : copy.triangles[i]) copy.vertex_areas[v] += thirds[i];
-  }
-  for (double& a : copy.vertex_areas) a /= area;
-}
-
 }  // namespace
 
 WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool,
@@ -290,13 +297,12 @@ WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool,
   copy.axes = PrincipalAxes(points, pool);
   for_each_vertex([&](std::size_t v) { points[v] = Snap(copy.axes * points[v], kCoordinateGrid); });
   if (observer.IsCancelled()) return copy;
-  copy.mesh_vertex = SortByKey(CurveKeys(points, pool), points);
+  copy.mesh_vertex = SortByKey(CurveKeys(points, pool), points, pool);
   if (observer.IsCancelled()) return copy;
   TriangleSorter(mesh, pool, copy).Run();
   if (observer.IsCancelled()) return copy;
   copy.points.resize(count);
   for_each_vertex([&](std::size_t v) { copy.points[v] = points[copy.mesh_vertex[v]]; });
-  AddAreas(pool, copy);
   return copy;
 }
 

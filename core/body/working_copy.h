@@ -22,10 +22,10 @@ namespace capfit::body {
 // follows several times as fast; the order in which a file lists them has no say in it.
 struct WorkingCopy {
   std::vector<Eigen::Vector3d> points;
-  std::vector<double> vertex_areas;        // a third of the triangles around; they sum to 1
-  std::vector<mesh::Triangle> triangles;   // of the working vertices
-  std::vector<mesh::HalfEdge> mates;       // of the triangles' half-edges
-  std::vector<std::uint32_t> mesh_vertex;  // the mesh's vertex for each of these
+  std::vector<mesh::Triangle> triangles;      // of the working vertices, lowest corners first
+  std::vector<mesh::HalfEdge> mates;          // of the triangles' half-edges
+  std::vector<std::uint32_t> first_triangle;  // of those that begin at each vertex; the last: end
+  std::vector<std::uint32_t> mesh_vertex;     // the mesh's vertex for each of these
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // in the mesh's frame
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // rows: the copy's axes in the mesh's frame
   double unit = 1.0;                                   // length of 1, in the mesh's unit

@@ -10,6 +10,17 @@ namespace capfit::mesh {
 
 namespace {
 
+struct Box {
+  Eigen::Vector3d low;
+  Eigen::Vector3d high;
+
+  Box& operator+=(const Box& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+    return *this;
+  }
+};
+
 struct Measures {
   double volume = 0.0;
   double area = 0.0;
@@ -36,11 +47,15 @@ BodyMesh::BodyMesh(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> 
 }
 
 void BodyMesh::Measure(const ThreadPool& pool) {
-  box_min_ = box_max_ = vertices_.front();
-  for (const Eigen::Vector3d& v : vertices_) {
-    box_min_ = box_min_.cwiseMin(v);
-    box_max_ = box_max_.cwiseMax(v);
-  }
+  const auto box_of = [&](std::size_t begin, std::size_t end) {
+    Box box = {vertices_[begin], vertices_[begin]};
+    for (std::size_t i = begin; i < end; ++i) box += {vertices_[i], vertices_[i]};
+    return box;
+  };
+  const Box first = {vertices_.front(), vertices_.front()};
+  const Box box = SumOverChunks(pool, vertices_.size(), first, box_of);
+  box_min_ = box.low;
+  box_max_ = box.high;
   const Eigen::Vector3d middle = 0.5 * (box_min_ + box_max_);  // keeps digits far from the origin
   const auto part = [&](std::size_t begin, std::size_t end) {
     Measures sum;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/chunk_sums.h"
+#include "core/mesh/follow_links.h"
 
 namespace capfit::mesh {
 namespace {
@@ -27,12 +28,6 @@ Ring WalkRing(std::span<const Triangle> triangles, std::span<const HalfEdge> mat
     h = mates[before];
   } while (h != corner);
   return ring;
-}
-
-// Follows the links to where they end, and shortens them on the way.
-std::uint32_t FollowLinks(std::vector<std::uint32_t>& link, std::uint32_t v) {
-  while (link[v] != v) v = link[v] = link[link[v]];
-  return v;
 }
 
 // `link` leads from each vertex to its lowest neighbour, or to itself where there is no lower one.
@@ -61,7 +56,10 @@ bool HangsTogether(std::span<const Triangle> triangles, std::vector<std::uint32_
 bool IsOneSurface(std::span<const Triangle> triangles, std::span<const HalfEdge> mates,
                   std::size_t vertex_count, const ThreadPool& pool) {
   std::vector<HalfEdge> corner(vertex_count, kNoMate);
-  for (HalfEdge h = 0; h < mates.size(); ++h) corner[StartOf(triangles, h)] = h;
+  HalfEdge h = 0;
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t) corner[v] = h++;
+  }
   std::vector<std::uint32_t> lowest_around(vertex_count);
   const auto walk = [&](std::size_t begin, std::size_t end) {
     std::size_t corners = 0;

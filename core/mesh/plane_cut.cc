@@ -24,9 +24,10 @@ class PiecesByEdge {
       slots_[slot] = i;
     }
   }
-  [[nodiscard]] std::uint32_t Find(EdgeKey edge) const {
+  // One that is not used yet.
+  [[nodiscard]] std::uint32_t Find(EdgeKey edge, const std::vector<char>& used) const {
     std::size_t slot = SlotOf(edge);
-    while (slots_[slot] != kNone && pieces_[slots_[slot]].from != edge) {
+    while (slots_[slot] != kNone && (pieces_[slots_[slot]].from != edge || used[slots_[slot]])) {
       slot = (slot + 1) & (slots_.size() - 1);
     }
     return slots_[slot];
@@ -75,12 +76,12 @@ std::vector<CutLoop> LinkPieces(const std::vector<CutPiece>& pieces) {
     if (used[first]) continue;
     CutLoop loop;
     std::uint32_t at = first;
-    while (at != PiecesByEdge::kNone && !used[at]) {
+    while (at != PiecesByEdge::kNone) {
       used[at] = 1;
       loop.pieces.push_back(at);
-      at = by_edge.Find(pieces[at].to);
+      at = by_edge.Find(pieces[at].to, used);
     }
-    loop.is_closed = at == first;
+    loop.is_closed = pieces[loop.pieces.back()].to == pieces[first].from;
     loops.push_back(std::move(loop));
   }
   return loops;

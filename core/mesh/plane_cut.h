@@ -47,7 +47,8 @@ struct CutLoop {
   bool is_closed = false;             // open where triangles end
 };
 
-// All loops, in the order of their first piece. O(pieces).
+// All loops, in the order of their first piece; where an edge has more than two triangles, one of
+// the ways on. O(pieces).
 [[nodiscard]] std::vector<CutLoop> LinkPieces(const std::vector<CutPiece>& pieces);
 
 // Here, because most triangles end with the first question.

@@ -53,5 +53,29 @@ TEST(PlaneCutTest, OpenWhereTrianglesEnd) {
   for (const CutLoop& loop : loops) EXPECT_FALSE(loop.is_closed);
 }
 
+// Two tetrahedra that share an edge: four triangles at it.
+TEST(PlaneCutTest, LoopsCloseWhereAnEdgeHasMoreThanTwoTriangles) {
+  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {0, 0, 1},  {1, 0, 0},
+                                               {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  std::vector<CutPiece> pieces;
+  for (const Triangle& t : std::vector<Triangle>{{0, 3, 2},
+                                                 {0, 2, 1},
+                                                 {0, 1, 3},
+                                                 {1, 2, 3},
+                                                 {0, 5, 4},
+                                                 {0, 4, 1},
+                                                 {0, 1, 5},
+                                                 {1, 4, 5}}) {
+    CutTriangle(points, t, {points[t[0]].z() - 0.5, points[t[1]].z() - 0.5, points[t[2]].z() - 0.5},
+                pieces);
+  }
+  std::size_t linked = 0;
+  for (const CutLoop& loop : LinkPieces(pieces)) {
+    EXPECT_TRUE(loop.is_closed);
+    linked += loop.pieces.size();
+  }
+  EXPECT_EQ(linked, pieces.size());
+}
+
 }  // namespace
 }  // namespace capfit::mesh

@@ -1,0 +1,290 @@
+#include "core/body/coarse_surface.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "core/base/chunk_sums.h"
+#include "core/mesh/follow_links.h"
+#include "core/mesh/surface_sums.h"
+
+namespace capfit::body {
+namespace {
+
+// Nodes to aim at: with 6000 the crotch of a body comes out some 3 mm off.
+constexpr std::size_t kNodes = 10'000;
+// Copies of fewer vertices are taken as they are.
+constexpr std::size_t kManyVertices = 16'000;
+// No vertex of a node is farther from its first: 1.5 times the radius of a disc of a node's area.
+constexpr double kReach = 0.0085;
+constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+// Whether every node can be reached from every other over the triangles.
+bool HangsTogether(const CoarseSurface& coarse) {
+  std::vector<std::uint32_t> link(coarse.points.size());
+  std::iota(link.begin(), link.end(), 0u);
+  std::size_t pieces = link.size();
+  for (const mesh::Triangle& t : coarse.triangles) {
+    for (const std::uint32_t n : {t[1], t[2]}) {
+      const std::uint32_t a = mesh::FollowLinks(link, t[0]);
+      const std::uint32_t b = mesh::FollowLinks(link, n);
+      if (a == b) continue;
+      link[std::max(a, b)] = std::min(a, b);
+      --pieces;
+    }
+  }
+  return pieces == 1;
+}
+
+// The vertices of one chunk, gathered around the first that no node has yet, over edges that lead
+// on along the curve by which they are sorted: those are at hand with the triangles of each vertex.
+class NodeGatherer {
+ public:
+  NodeGatherer(const WorkingCopy& copy, std::size_t begin, std::size_t end,
+               std::vector<std::uint32_t>& node)
+      : copy_(copy),
+        begin_(static_cast<std::uint32_t>(begin)),
+        end_(static_cast<std::uint32_t>(end)),
+        most_((copy.points.size() + kNodes - 1) / kNodes),
+        node_(node) {}
+
+  // Numbers the nodes of the chunk from 0; returns how many there are.
+  std::uint32_t Run() {
+    std::fill(node_.begin() + begin_, node_.begin() + end_, kNone);
+    for (std::uint32_t v = begin_; v < end_; ++v) {
+      if (node_[v] == kNone) GatherFrom(v);
+    }
+    return count_;
+  }
+
+ private:
+  // The vertices of the chunk that follow `v` in a triangle that begins there: nearly all that
+  // come after it and share an edge with it.
+  template <typename Visit>
+  void VisitNext(std::uint32_t v, const Visit& visit) const {
+    for (std::uint32_t t = copy_.first_triangle[v]; t < copy_.first_triangle[v + 1]; ++t) {
+      const std::uint32_t n = copy_.triangles[t][1];
+      if (n < end_) visit(n);
+    }
+  }
+
+  // Where vertices are sparse, as on the arms of a figure with a fine face, they stay apart.
+  [[nodiscard]] bool IsNear(std::uint32_t a, std::uint32_t b) const {
+    return (copy_.points[a] - copy_.points[b]).squaredNorm() <= kReach * kReach;
+  }
+
+  void GatherFrom(std::uint32_t v) {
+    gathered_.assign(1, v);
+    node_[v] = count_;
+    std::uint32_t neighbour = kNone;
+    bool has_one_neighbour = true;
+    for (std::size_t i = 0; i < gathered_.size() && gathered_.size() < most_; ++i) {
+      VisitNext(gathered_[i], [&](std::uint32_t n) {
+        if (node_[n] == count_) return;
+        if (node_[n] != kNone) {
+          has_one_neighbour &= neighbour == kNone || neighbour == node_[n];
+          neighbour = node_[n];
+        } else if (gathered_.size() < most_ && IsNear(v, n)) {
+          node_[n] = count_;
+          gathered_.push_back(n);
+        }
+      });
+    }
+    const bool is_left_over =
+        2 * gathered_.size() < most_ || (has_one_neighbour && gathered_.size() < most_);
+    if (!is_left_over || neighbour == kNone) {
+      ++count_;
+      return;
+    }
+    // What lies between others joins one of them.
+    for (const std::uint32_t n : gathered_) node_[n] = neighbour;
+  }
+
+  const WorkingCopy& copy_;
+  std::uint32_t begin_;
+  std::uint32_t end_;
+  std::size_t most_;
+  std::vector<std::uint32_t>& node_;
+  std::vector<std::uint32_t> gathered_;
+  std::uint32_t count_ = 0;
+};
+
+class Coarsener {
+ public:
+  Coarsener(const WorkingCopy& copy, const ThreadPool& pool) : copy_(copy), pool_(pool) {}
+
+  CoarseSurface Run() {
+    NumberNodes();
+    ChooseTriangles();
+    AbsorbLoneNodes();
+    coarse_.points.assign(node_count_, Eigen::Vector3d::Zero());
+    pool_.ForEach(2, [this](std::size_t half) {
+      if (half == 0) GatherVertices();
+      if (half == 1) TakeTriangles();
+    });
+    return std::move(coarse_);
+  }
+
+ private:
+  void NumberNodes() {
+    node_.resize(copy_.points.size());
+    std::vector<std::uint32_t> first((node_.size() + kMeshChunk - 1) / kMeshChunk + 1, 0);
+    pool_.ForChunks(node_.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      first[begin / kMeshChunk + 1] = NodeGatherer(copy_, begin, end, node_).Run();
+    });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    pool_.ForChunks(node_.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) node_[v] += first[begin / kMeshChunk];
+    });
+    node_count_ = first.back();
+  }
+
+  [[nodiscard]] mesh::Triangle NodesOf(std::size_t triangle) const {
+    const mesh::Triangle& t = copy_.triangles[triangle];
+    return {node_[t[0]], node_[t[1]], node_[t[2]]};
+  }
+
+  void ChooseTriangles() {
+    const std::size_t count = copy_.triangles.size();
+    place_.resize(count);
+    std::vector<std::vector<std::uint32_t>> chosen((count + kMeshChunk - 1) / kMeshChunk);
+    pool_.ForChunks(count, kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::uint32_t>& own = chosen[begin / kMeshChunk];
+      own.resize(end - begin + 1);
+      std::size_t kept = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        const mesh::Triangle t = NodesOf(i);
+        const bool is_kept = (t[0] != t[1]) & (t[1] != t[2]) & (t[2] != t[0]);
+        place_[i] = is_kept ? 0 : kNone;
+        own[kept] = static_cast<std::uint32_t>(i);
+        kept += is_kept ? 1 : 0;
+      }
+      own.resize(kept);
+    });
+    for (const std::vector<std::uint32_t>& own : chosen) {
+      for (const std::uint32_t i : own) {
+        place_[i] = static_cast<std::uint32_t>(chosen_.size());
+        chosen_.push_back(i);
+      }
+    }
+  }
+
+  // Nodes that others leave no triangle of their own join a neighbour.
+  void AbsorbLoneNodes() {
+    std::vector<std::uint32_t> heir(node_count_, kNone);
+    for (const std::uint32_t i : chosen_) {
+      for (const std::uint32_t n : NodesOf(i)) heir[n] = n;
+    }
+    if (std::find(heir.begin(), heir.end(), kNone) == heir.end()) return;
+    for (std::uint32_t v = 0; v < node_.size(); ++v) {
+      if (heir[node_[v]] != kNone) continue;
+      for (std::uint32_t i = copy_.first_triangle[v]; i < copy_.first_triangle[v + 1]; ++i) {
+        for (const std::uint32_t n : NodesOf(i)) {
+          if (heir[n] != kNone) heir[node_[v]] = heir[n];
+        }
+      }
+    }
+    if (std::find(heir.begin(), heir.end(), kNone) != heir.end()) AskAllTriangles(heir);
+    std::vector<std::uint32_t> number(node_count_, 0);
+    node_count_ = 0;
+    for (std::uint32_t n = 0; n < heir.size(); ++n) {
+      if (heir[n] == n || heir[n] == kNone) number[n] = node_count_++;
+    }
+    for (std::uint32_t& n : node_) n = number[heir[n] == kNone ? n : heir[n]];
+  }
+
+  // Of nodes whose neighbours all come before them.
+  void AskAllTriangles(std::vector<std::uint32_t>& heir) const {
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+      const mesh::Triangle t = NodesOf(i);
+      for (const std::uint32_t n : t) {
+        if (heir[n] != kNone) continue;
+        for (const std::uint32_t other : t) {
+          if (heir[other] != kNone) heir[n] = heir[other];
+        }
+      }
+    }
+  }
+
+  void GatherVertices() {
+    coarse_.first.assign(node_count_ + 2, 0);
+    for (const std::uint32_t n : node_) ++coarse_.first[n + 2];
+    std::partial_sum(coarse_.first.begin(), coarse_.first.end(), coarse_.first.begin());
+    coarse_.vertices.resize(node_.size());
+    // first[n + 1] serves as the write position of n and ends as the start of n + 1.
+    for (std::uint32_t v = 0; v < node_.size(); ++v) {
+      coarse_.vertices[coarse_.first[node_[v] + 1]++] = v;
+      coarse_.points[node_[v]] += copy_.points[v];
+    }
+    coarse_.first.pop_back();
+    for (std::uint32_t n = 0; n < node_count_; ++n) {
+      coarse_.points[n] /= static_cast<double>(coarse_.VerticesOf(n).size());
+    }
+  }
+
+  // Where the way over half-edge `h` of a kept triangle arrives, through triangles that shrank to
+  // the edge.
+  [[nodiscard]] mesh::HalfEdge Across(mesh::HalfEdge h) const {
+    for (mesh::HalfEdge at = copy_.mates[h];;) {
+      if (place_[at / 3] != kNone) return 3 * place_[at / 3] + at % 3;
+      const mesh::HalfEdge before = mesh::PreviousInTriangle(at);
+      const std::uint32_t third = node_[mesh::StartOf(copy_.triangles, before)];
+      const bool is_at_start = third == node_[mesh::StartOf(copy_.triangles, at)];
+      at = copy_.mates[is_at_start ? mesh::NextInTriangle(at) : before];
+    }
+  }
+
+  void TakeTriangles() {
+    coarse_.triangles.reserve(chosen_.size());
+    coarse_.mates.assign(3 * chosen_.size(), mesh::kNoMate);
+    for (std::uint32_t i = 0; i < chosen_.size(); ++i) {
+      coarse_.triangles.push_back(NodesOf(chosen_[i]));
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (coarse_.mates[3 * i + k] != mesh::kNoMate) continue;
+        const mesh::HalfEdge mate = Across(3 * chosen_[i] + k);
+        coarse_.mates[3 * i + k] = mate;
+        coarse_.mates[mate] = 3 * i + k;
+      }
+    }
+  }
+
+  const WorkingCopy& copy_;
+  const ThreadPool& pool_;
+  CoarseSurface coarse_;
+  std::uint32_t node_count_ = 0;
+  std::vector<std::uint32_t> node_;    // of each vertex
+  std::vector<std::uint32_t> chosen_;  // triangles that are kept
+  std::vector<std::uint32_t> place_;   // of each triangle among those
+};
+
+CoarseSurface AsItIs(const WorkingCopy& copy) {
+  CoarseSurface same;
+  same.points = copy.points;
+  same.triangles = copy.triangles;
+  same.mates = copy.mates;
+  same.vertices.resize(copy.points.size());
+  std::iota(same.vertices.begin(), same.vertices.end(), 0u);
+  same.first.resize(copy.points.size() + 1);
+  std::iota(same.first.begin(), same.first.end(), 0u);
+  return same;
+}
+
+}  // namespace
+
+CoarseSurface MakeCoarseSurface(const WorkingCopy& copy, const ThreadPool& pool) {
+  CoarseSurface coarse;
+  if (copy.points.size() >= kManyVertices) coarse = Coarsener(copy, pool).Run();
+  // Parts as thin as a node come off.
+  if (coarse.points.empty() || !HangsTogether(coarse)) coarse = AsItIs(copy);
+  coarse.areas.assign(coarse.points.size(), 0.0);
+  double area = 0.0;
+  for (const mesh::Triangle& t : coarse.triangles) {
+    const double third = mesh::Area(coarse.points, t) / 3.0;
+    area += 3.0 * third;
+    for (const std::uint32_t n : t) coarse.areas[n] += third;
+  }
+  for (double& a : coarse.areas) a /= area;
+  return coarse;
+}
+
+}  // namespace capfit::body
