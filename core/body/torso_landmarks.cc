@@ -53,11 +53,10 @@ std::optional<SectionLoop> TrunkLoop(std::vector<SectionLoop> section) {
   return std::nullopt;
 }
 
-std::vector<std::optional<SectionLoop>> TrunkLoops(const CutSurface& surface,
-                                                   std::span<const CutPlane> planes,
-                                                   const ThreadPool& pool) {
+std::vector<std::optional<SectionLoop>> TrunkLoops(const Shape& shape,
+                                                   std::span<const CutPlane> planes) {
   std::vector<std::optional<SectionLoop>> loops;
-  for (std::vector<SectionLoop>& section : surface.CutAll(planes, pool)) {
+  for (std::vector<SectionLoop>& section : shape.mesh_surface->CutAll(planes, *shape.pool)) {
     loops.push_back(TrunkLoop(std::move(section)));
   }
   return loops;
@@ -198,8 +197,7 @@ std::vector<NeckLevel> NeckLevels(const Shape& shape, double from_y) {
   for (double y = from_y; y < to_y; y += kTrunkLevelStep * shape.stature_m) {
     planes.push_back(NeckPlane(y));
   }
-  std::vector<std::optional<SectionLoop>> loops =
-      TrunkLoops(*shape.mesh_surface, planes, *shape.pool);
+  std::vector<std::optional<SectionLoop>> loops = TrunkLoops(shape, planes);
   std::vector<NeckLevel> levels;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i]) levels.push_back({planes[i].origin.y(), *std::move(loops[i])});
@@ -288,8 +286,7 @@ void FindTrunkSections(const Shape& shape, Landmarks& landmarks) {
   for (double y = crotch + kHipFrom * stature; y < armpit; y += kTrunkLevelStep * stature) {
     levels.push_back(Level(y));
   }
-  const std::vector<std::optional<SectionLoop>> loops =
-      TrunkLoops(*shape.surface, levels, *shape.pool);
+  const std::vector<std::optional<SectionLoop>> loops = TrunkLoops(shape, levels);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const std::optional<SectionLoop>& loop = loops[i];
     const double y = levels[i].origin.y();
