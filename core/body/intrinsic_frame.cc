@@ -22,9 +22,6 @@ constexpr double kMinCosineToTrunk = 0.9945;
 // Axes of the surface that lie farther than this (20 degrees) from a skeleton's are mistaken.
 constexpr double kTakenCosineToRig = 0.94;
 constexpr double kSoleTolerance = 0.02;
-// How near the plane that nodes tell lies to one between all vertices: 0.6 degrees and 5 mm.
-constexpr double kNearAxisCosine = 0.99995;
-constexpr double kNearMiddle = 0.004;
 // A trunk this much wider than deep says by itself where left and right are, to within the angle of
 // this cosine (5 degrees).
 constexpr double kClearlyWide = 1.2;
@@ -177,18 +174,6 @@ std::optional<Eigen::Vector3d> UpAtRest(std::span<const Eigen::Vector3d> points,
   return std::nullopt;
 }
 
-// The working copy's axes are the principal ones of all its vertices, and its centroid is the
-// origin: both are exact for a body that is its own mirror image, while nodes tell its plane to
-// some thousandths only.
-MirrorPlane Sharpened(const MirrorPlane& plane) {
-  Eigen::Index axis = 0;
-  const double cosine = plane.normal.cwiseAbs().maxCoeff(&axis);
-  if (cosine < kNearAxisCosine || std::abs(plane.offset) > kNearMiddle) return plane;
-  MirrorPlane sharp = {Eigen::Vector3d::Zero(), 0.0};
-  sharp.normal[axis] = plane.normal[axis] < 0.0 ? -1.0 : 1.0;
-  return sharp;
-}
-
 // Whether limb `a` of a pair lies to the left of `b`; of the plane, where one of them is missing.
 bool IsLeft(const Rings& rings, Tip a, Tip b, const IntrinsicFrame& frame) {
   double x = 0.0;
@@ -227,7 +212,10 @@ IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy, const CoarseSurface& 
   const std::vector<char> is_limb = LimbMask(points.size(), extremities);
   const Rings rings = RingsOf(points, coarse.areas, extremities, is_limb);
   MirrorPlane plane = SymmetryPlane(rings);
-  if (points.size() < copy.points.size()) plane = Sharpened(plane);
+  if (points.size() < copy.points.size()) {
+    // Rings of nodes tell it to some thousandths and millimetres only.
+    plane = SharpenedPlane(plane, coarse, pool);
+  }
   IntrinsicFrame frame;
   const Eigen::Vector3d trunk = TrunkAxis(rings, rig);
   const TrunkWidth width = MeasureTrunk(points, coarse.areas, is_limb, trunk);

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "core/base/thread_pool.h"
+#include "core/body/coarse_surface.h"
 #include "core/body/rings.h"
 
 namespace capfit::body {
@@ -18,6 +20,12 @@ struct MirrorPlane {
 // head onto themselves. Limbs in different poses lose their say. In units of the square root of the
 // surface's area.
 [[nodiscard]] MirrorPlane SymmetryPlane(const Rings& rings);
+
+// A plane a few millimetres or thousandths off, moved to where the surface mirrors itself best: robust
+// least squares over how far the image of each node lies before or behind the surface. Whatever has
+// no image (hair to one side, a limb in another pose) loses its say. O(nodes).
+[[nodiscard]] MirrorPlane SharpenedPlane(const MirrorPlane& plane, const CoarseSurface& surface,
+                                         const ThreadPool& pool);
 
 }  // namespace capfit::body
 
