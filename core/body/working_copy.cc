@@ -123,16 +123,19 @@ struct RenamedTriangle {
 // Triangles of vertices in a new order, sorted by their corners in it, and their mates.
 class TriangleSorter {
  public:
-  TriangleSorter(const mesh::BodyMesh& mesh, const ThreadPool& pool, WorkingCopy& copy)
-      : mesh_(mesh), pool_(pool), copy_(copy) {}
+  TriangleSorter(const mesh::BodyMesh& mesh, const ThreadPool& pool, const FitObserver& observer,
+                 WorkingCopy& copy)
+      : mesh_(mesh), pool_(pool), observer_(observer), copy_(copy) {}
 
   void Run() {
     const std::size_t count = mesh_.triangles().size();
     Deal();
+    if (observer_.IsCancelled()) return;
     copy_.triangles.resize(count);
     gone_to_.resize(count);
     pool_.ForChunks(rank_.size(), kMeshChunk,
                     [this](std::size_t begin, std::size_t end) { SortAround(begin, end); });
+    if (observer_.IsCancelled()) return;
     copy_.mates.resize(3 * count);
     ForEachOf(count, [this](std::uint32_t i) { CopyMates(i); });
   }
@@ -154,6 +157,7 @@ class TriangleSorter {
     std::vector<std::uint32_t> lowest(count);
     std::vector<RenamedTriangle> renamed(count);
     ForEachOf(count, [&](std::uint32_t i) { renamed[i] = Renamed(i, lowest[i]); });
+    if (observer_.IsCancelled()) return;
     std::vector<std::uint32_t>& first = copy_.first_triangle;
     first.assign(rank_.size() + 1, 0);
     for (const std::uint32_t v : lowest) ++first[v];
@@ -203,6 +207,7 @@ class TriangleSorter {
 
   const mesh::BodyMesh& mesh_;
   const ThreadPool& pool_;
+  const FitObserver& observer_;
   WorkingCopy& copy_;
   std::vector<std::uint32_t> rank_;  // of the mesh's vertices
   std::vector<RenamedTriangle> dealt_;
@@ -299,7 +304,7 @@ WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool,
   if (observer.IsCancelled()) return copy;
   copy.mesh_vertex = SortByKey(CurveKeys(points, pool), points, pool);
   if (observer.IsCancelled()) return copy;
-  TriangleSorter(mesh, pool, copy).Run();
+  TriangleSorter(mesh, pool, observer, copy).Run();
   if (observer.IsCancelled()) return copy;
   copy.points.resize(count);
   for_each_vertex([&](std::size_t v) { copy.points[v] = points[copy.mesh_vertex[v]]; });

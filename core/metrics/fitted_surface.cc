@@ -122,7 +122,7 @@ constexpr std::uint8_t kInSkin = 2;
 }  // namespace
 
 FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelection& parts,
-                                const ThreadPool& pool) {
+                                const ThreadPool& pool, const FitObserver& observer) {
   const std::span<const mesh::Triangle> triangles = body.mesh.triangles();
   FittedSurface surface;
   surface.points_m.assign(body.mesh.vertices().begin(), body.mesh.vertices().end());
@@ -141,6 +141,7 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
     selected[v] = is_selected[segment];
     if (selected[v] != 0) surface.vertices.push_back(v);
   }
+  if (observer.IsCancelled()) return surface;
   const auto is_skin = [&](const mesh::Triangle& t) {
     return selected[t[0]] != 0 && selected[t[1]] != 0 && selected[t[2]] != 0;
   };
@@ -168,6 +169,7 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
   for (const std::uint32_t v : surface.vertices) {
     if (selected[v] == kInSkin) surface.box.extend(surface.points_m[v]);
   }
+  if (observer.IsCancelled()) return surface;
   if (!surface.is_whole()) CloseCuts(body, cut, surface);
   FindMiddles(surface);
   SumUp(pool, surface);

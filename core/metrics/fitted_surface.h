@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/anatomy.h"
 #include "core/body/body.h"
@@ -48,10 +49,11 @@ struct FittedSurface {
   [[nodiscard]] bool is_whole() const { return skin_begin == 0; }
 };
 
-// O(n); the sums in parallel.
+// O(n); the sums in parallel. Not whole where the observer cancels.
 [[nodiscard]] FittedSurface MakeFittedSurface(const body::Body& body,
                                               const body::PartSelection& parts,
-                                              const ThreadPool& pool);
+                                              const ThreadPool& pool,
+                                              const FitObserver& observer = NullObserver());
 
 }  // namespace capfit::metrics
 

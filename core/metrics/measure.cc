@@ -284,7 +284,8 @@ Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                 const MeasureOptions& options, const ThreadPool& pool,
                 const FitObserver& observer) {
   Metrics metrics;
-  const FittedSurface fitted = MakeFittedSurface(body, options.parts, pool);
+  const FittedSurface fitted = MakeFittedSurface(body, options.parts, pool, observer);
+  if (observer.IsCancelled()) return metrics;
   for (std::size_t p = 0; p < metrics.parts.size(); ++p) {
     if (fitted.has_part[p]) metrics.parts[p].emplace();
   }
