@@ -57,6 +57,7 @@ class MateFinder {
   }
 
   EdgeMates Run(const FitObserver& observer) {
+    if (observer.IsCancelled()) return {};
     Deal();
     if (observer.IsCancelled()) return {};
     pool_.ForEach(drawer_count_, [this](std::size_t d) { PairWithin(d); });

@@ -371,7 +371,7 @@ TEST_P(RigMotionTest, IsEnclosedInEveryFrame) {
                                                {"dressed_deleted_man", 1.14},
                                                {"dressed_deleted_woman", 1.16},
                                                {"dressed_full_woman", 1.19},
-                                               {"robot_like", 1.28}};
+                                               {"robot_like", 1.54}};
   const auto limit = loose.find(GetParam());
   EXPECT_LE(mean_E_r, (limit == loose.end() ? 1.12 : limit->second) * rest->metrics.E_r);
 }
