@@ -6,14 +6,10 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "tests/support/sanitizers.h"
+
 namespace capfit {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kHasOtherMalloc = true;
-#else
-constexpr bool kHasOtherMalloc = false;
-#endif
 
 long PagesTaken() {
   rusage usage{};
@@ -34,7 +30,7 @@ long PagesForAnArray() {
 
 // 8192 small pages each time without.
 TEST(LargePagesTest, WhatIsFreedIsKeptForTheNextArray) {
-  if (kHasOtherMalloc) GTEST_SKIP() << "a sanitizer has a malloc of its own";
+  if (test_support::kIsSanitized) GTEST_SKIP() << "a sanitizer has a malloc of its own";
   UseLargePages();
   (void)PagesForAnArray();
   EXPECT_LT(PagesForAnArray(), 100);

@@ -16,6 +16,7 @@
 #include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 #include "tests/support/bodies.h"
+#include "tests/support/sanitizers.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -116,11 +117,7 @@ double PeakMegabytes() {
 }
 
 // A sanitizer's own time and memory are not what is promised.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsMeasured = false;
-#else
-constexpr bool kIsMeasured = true;
-#endif
+constexpr bool kIsMeasured = !test_support::kIsSanitized;
 
 // (Processor time, because machines may be busy; the peak is that of all inputs so far.)
 TEST(BrokenBodies, EachDoesWhatIsWrittenOfItInTimeAndSpace) {
