@@ -91,7 +91,8 @@ void AddPairs(const Rings& rings, Tip a, Tip b, int levels, std::vector<MirrorPa
   }
 }
 
-// Sharpening: where images lie further off the surface than this, they count little, at first and last.
+// Sharpening: where images lie further off the surface than this, they count little, at first and
+// last.
 constexpr double kFirstOffSurface = 0.012;
 constexpr double kLastOffSurface = 0.003;
 constexpr int kSharpenings = 6;
@@ -149,9 +150,9 @@ class Sharpener {
       const double falloff = 1.0 + off * off / (tolerance * tolerance);
       const double weight = surface_.areas[node] / (falloff * falloff);
       const double height = plane.normal.dot(point) - plane.offset;
-      const Eigen::Vector3d slope(
-          -2.0 * (first.dot(point) * along + height * normal.dot(first)),
-          -2.0 * (second.dot(point) * along + height * normal.dot(second)), 2.0 * along);
+      const Eigen::Vector3d slope(-2.0 * (first.dot(point) * along + height * normal.dot(first)),
+                                  -2.0 * (second.dot(point) * along + height * normal.dot(second)),
+                                  2.0 * along);
       matrix += weight * slope * slope.transpose();
       gradient += weight * off * slope;
     }

@@ -21,9 +21,9 @@ struct MirrorPlane {
 // surface's area.
 [[nodiscard]] MirrorPlane SymmetryPlane(const Rings& rings);
 
-// A plane a few millimetres or thousandths off, moved to where the surface mirrors itself best: robust
-// least squares over how far the image of each node lies before or behind the surface. Whatever has
-// no image (hair to one side, a limb in another pose) loses its say. O(nodes).
+// A plane a few millimetres or thousandths off, moved to where the surface mirrors itself best:
+// robust least squares over how far the image of each node lies before or behind the surface.
+// Whatever has no image (hair to one side, a limb in another pose) loses its say. O(nodes).
 [[nodiscard]] MirrorPlane SharpenedPlane(const MirrorPlane& plane, const CoarseSurface& surface,
                                          const ThreadPool& pool);
 

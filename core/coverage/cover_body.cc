@@ -39,12 +39,13 @@ constexpr double kRowSpacing = 0.015;
 // that is near after 12 iterations in place of 16. E_r is the same with 8, and with floats below,
 // but then a set no longer follows its points smoothly: vertices rounded to floats move spheres by
 // millimetres in place of hundredths.
-constexpr tighten::TightenPhase kLoosePhase{.steps = 24,
-                                            .first_trust = 0.012,
-                                            .last_trust = 0.003,
-                                            .first_penalty = 1.2,
-                                            .last_penalty = 12.0,
-                                            .solve_to = {.most_iterations = 12, .centrality = 1e-4}};
+constexpr tighten::TightenPhase kLoosePhase{
+    .steps = 24,
+    .first_trust = 0.012,
+    .last_trust = 0.003,
+    .first_penalty = 1.2,
+    .last_penalty = 12.0,
+    .solve_to = {.most_iterations = 12, .centrality = 1e-4}};
 // A step each, relative to the body's size; before each but the first what sticks out between
 // vertices is looked for anew. (Nine steps with three such looks, as many as they were, lead to the
 // same E_r, and so do programmes solved to a gap of 1e-8.)
