@@ -126,6 +126,7 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
   const std::span<const mesh::Triangle> triangles = body.mesh.triangles();
   FittedSurface surface;
   surface.points_m.assign(body.mesh.vertices().begin(), body.mesh.vertices().end());
+  if (observer.IsCancelled()) return surface;
   std::vector<Part> part_of(surface.points_m.size());
   std::vector<std::uint8_t> selected(part_of.size());
   std::array<Part, body::kSegmentCount> part_of_segment{};
@@ -153,6 +154,7 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
   surface.skin_end = triangles.size();
   surface.triangles.resize(triangles.size());
   surface.parts.resize(triangles.size());
+  if (observer.IsCancelled()) return surface;
   const std::vector<Edge> cut =
       surface.is_whole() ? std::vector<Edge>() : CutEdges(body.mesh, selected);
   std::size_t next_out = 0;

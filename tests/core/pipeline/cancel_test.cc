@@ -140,8 +140,9 @@ class Looks final : public FitObserver {
   mutable double longest_seconds_ = 0.0;
 };
 
-// Of the work of a whole fit, by the processor's clock; printed in milliseconds beside.
-constexpr double kLongestStretch = 0.12;
+// Of the work of a whole fit, by the processor's clock; printed in milliseconds beside. The longest
+// is one pass over 600,000 triangles: 50 of 430 ms.
+constexpr double kLongestStretch = 0.15;
 constexpr int kLooksTried = 24;
 
 TEST_P(CancelTest, LittleWorkIsDoneBetweenTwoLooksAndAfterTheLast) {
