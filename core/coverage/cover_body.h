@@ -59,7 +59,7 @@ struct CoverReport {
 // Tells the observer the fraction of its own work. With no tolerance, vertices end up 1 um deep or
 // more, unless the observer cancels: then the set is as far as it came, and the report says that
 // nothing is proved (infinite distances). Terminates: every growing step covers a point and
-// uncovers none. Typically 15 ms for 14k vertices at n_p 64.
+// uncovers none. Some 20 ms for 14k vertices at n_p 64.
 [[nodiscard]] CoverReport CoverBody(const tighten::CoverTarget& target, const CoverOptions& options,
                                     const ThreadPool& pool, FitObserver& observer,
                                     capsule::PrimitiveSet& set);
