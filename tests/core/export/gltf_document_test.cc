@@ -85,7 +85,7 @@ TEST(GltfDocument, AnEmptyOneIsAFile) {
   document.AddNode({{"name", "new"}}, std::nullopt);
   const json gltf = JsonOf(document.Bytes().value());
   EXPECT_EQ(gltf["asset"]["version"], "2.0");
-  EXPECT_EQ(gltf["scenes"][0]["nodes"], json({0}));
+  EXPECT_EQ(gltf["scenes"][0]["nodes"], json::array({0}));
 }
 
 }  // namespace
