@@ -43,7 +43,8 @@ class Rigged {
       soup.joints.push_back(joint);
     }
     for (int v = 0; v < 60; ++v) {
-      stored_.push_back(Vector3d{random_.NextIn(-1, 1), random_.NextIn(-1, 1), random_.NextIn(-1, 1)});
+      stored_.push_back(
+          Vector3d{random_.NextIn(-1, 1), random_.NextIn(-1, 1), random_.NextIn(-1, 1)});
       formats::JointInfluences influences;
       const int first = v % 4;
       const auto share = static_cast<float>(random_.NextIn(0.4, 1.0));
