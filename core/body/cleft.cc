@@ -20,26 +20,20 @@ struct Way {
   std::size_t cleft = 0;              // index of the innermost
 };
 
-// Floods from `a`, always over the outermost place on the shore; the lowest it had to go when it
-// arrives at `b` is the cleft. `neighbours(place)` gives those in the region.
+// Floods from `a`, always over the outermost place on the shore, until it arrives at `b`; the
+// innermost place on the way is the cleft. `neighbours(place)` gives those in the region.
 template <typename Neighbours>
 std::optional<Way> OutermostWay(std::span<const Eigen::Vector3d> points,
                                 const Neighbours& neighbours, std::uint32_t a, std::uint32_t b,
                                 const Eigen::Vector3d& outward) {
   std::vector<std::uint32_t> reached_from(points.size(), kNowhere);
   std::priority_queue<std::pair<double, std::uint32_t>> shore;
-  std::uint32_t cleft = a;
-  double level = outward.dot(points[a]);
-  shore.emplace(level, a);
+  shore.emplace(outward.dot(points[a]), a);
   reached_from[a] = a;
   bool is_joined = false;
-  while (!shore.empty() && !is_joined) {
-    const auto [height, place] = shore.top();
+  while (!shore.empty()) {
+    const std::uint32_t place = shore.top().second;
     shore.pop();
-    if (height < level) {
-      level = height;
-      cleft = place;
-    }
     is_joined = place == b;
     if (is_joined) break;
     for (const std::uint32_t n : neighbours(place)) {
@@ -48,12 +42,15 @@ std::optional<Way> OutermostWay(std::span<const Eigen::Vector3d> points,
       shore.emplace(outward.dot(points[n]), n);
     }
   }
-  if (!is_joined || cleft == a || cleft == b) return std::nullopt;
+  if (!is_joined) return std::nullopt;
   Way way = {{b}, 0};
   while (way.places.back() != a) way.places.push_back(reached_from[way.places.back()]);
   std::reverse(way.places.begin(), way.places.end());
-  const auto at = std::find(way.places.begin(), way.places.end(), cleft);
-  way.cleft = static_cast<std::size_t>(at - way.places.begin());
+  // (Sought on the way: of two equally low places the flood may have passed the other one first.)
+  const auto height = [&](std::uint32_t place) { return outward.dot(points[place]); };
+  const auto cleft = std::ranges::min_element(way.places, {}, height);
+  if (*cleft == a || *cleft == b) return std::nullopt;
+  way.cleft = static_cast<std::size_t>(cleft - way.places.begin());
   return way;
 }
 
