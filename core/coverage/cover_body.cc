@@ -27,25 +27,33 @@ namespace {
 constexpr double kSparseSpacing = 0.25;
 constexpr double kMostSparse = 0.024;
 
-// Where all must come in one row for each cell of this size and solid is nearly as good as one for
-// each vertex: over 19 bodies E_r rose by a quarter of a per cent on average at 64 primitives and
-// half a per cent at 128, no body's by more than 3 %.
-constexpr double kRowSpacing = 0.015;
+// Where all must come in one row for each cell of this size and solid is as good as one for each
+// vertex: over 19 bodies and six budgets E_r is the same to .3 % on average as with cells of .015,
+// where it was half a per cent above, with .6 times the rows.
+constexpr double kRowSpacing = 0.025;
 
 // The set finds its shape with points left out at a price, which rises; then they must all come in.
 // Starting with a low price matters most (a fifth of E_r): where everything must be inside from the
-// start, each sphere is caught in the circle it came with. Three quarters of the steps cost up to
-// 1.5 % of E_r. A programme's optimum is no better to go to than a point of its central path, and
-// that is near after 12 iterations in place of 16. E_r is the same with 8, and with floats below,
-// but then a set no longer follows its points smoothly: vertices rounded to floats move spheres by
-// millimetres in place of hundredths.
-constexpr tighten::TightenPhase kLoosePhase{
+// start, each sphere is caught in the circle it came with. A programme's optimum is no better to go
+// to than a point of its central path, and that is near after 12 iterations in place of 16. E_r is
+// the same with 8, and with floats below, but then a set no longer follows its points smoothly:
+// vertices rounded to floats move spheres by millimetres in place of hundredths.
+constexpr tighten::TightenPhase kThoroughLoosening{
     .steps = 24,
     .first_trust = 0.012,
     .last_trust = 0.003,
     .first_penalty = 1.2,
     .last_penalty = 12.0,
     .solve_to = {.most_iterations = 12, .centrality = 1e-4}};
+// A third of the steps go as far when they may be three times as long, and when the price at the
+// end is that of the second phase. (As short and as cheap as the thorough ones: 22 to 33 % more E_r
+// in place of 2 to 7.)
+constexpr tighten::TightenPhase kQuickLoosening{.steps = 8,
+                                                .first_trust = 0.035,
+                                                .last_trust = 0.01,
+                                                .first_penalty = 1.4,
+                                                .last_penalty = 24.0,
+                                                .solve_to = kThoroughLoosening.solve_to};
 // A step each, relative to the body's size; before each but the first what sticks out between
 // vertices is looked for anew. (Nine steps with three such looks, as many as they were, lead to the
 // same E_r, and so do programmes solved to a gap of 1e-8.)
@@ -75,23 +83,30 @@ CoverReport NothingProved() {
   return report;
 }
 
+bool Loosens(const CoverOptions& options) {
+  return options.tighten && options.loosening != Loosening::kNone;
+}
+
+bool Serves(const CoverGround* ground, bool mirrored, const CoverOptions& options) {
+  return ground != nullptr && (ground->fold != tighten::PointGrid::Fold::kNone) == mirrored &&
+         (!Loosens(options) || !ground->weights.empty());
+}
+
 class Coverer {
  public:
   Coverer(const tighten::CoverTarget& target, const CoverOptions& options, const ThreadPool& pool,
-          FitObserver& observer, capsule::PrimitiveSet& set)
+          FitObserver& observer, capsule::PrimitiveSet& set, const CoverGround* ground)
       : target_(target),
         options_(options),
         pool_(pool),
         meter_(observer),
         set_(set),
         variables_(set),
-        fold_(variables_.is_symmetric() ? tighten::PointGrid::Fold::kToPositiveX
-                                        : tighten::PointGrid::Fold::kNone) {
-    pool_.ForEach(2, [this](std::size_t half) {
-      if (half == 0) grid_ = tighten::PointGrid(target_.points_m, fold_);
-      if (half == 1) Survey();
-    });
-  }
+        own_ground_(
+            Serves(ground, variables_.is_symmetric(), options)
+                ? std::nullopt
+                : std::optional(MakeCoverGround(target, variables_.is_symmetric(), options, pool))),
+        ground_(own_ground_ ? *own_ground_ : *ground) {}
 
   CoverReport Run() {
     if (options_.tighten) {
@@ -114,15 +129,6 @@ class Coverer {
   }
 
  private:
-  // The size, and the few points that the shape is found by.
-  void Survey() {
-    size_ = tighten::SizeOf(target_);
-    if (!options_.tighten || !options_.loosen || meter_.IsCancelled()) return;
-    const std::vector<double> weights = tighten::AreaWeights(target_);
-    if (meter_.IsCancelled()) return;
-    coarse_ = tighten::MakeSparse(FoldedPoints(), weights, SparseSpacing() * size_);
-  }
-
   // What an end sphere swallows is that sphere, which stays.
   void RemoveSwallowed() {
     std::erase_if(set_.capsules, [this](const capsule::CapsuleEnds& ends) {
@@ -164,16 +170,21 @@ class Coverer {
   }
 
   double VolumeOf(const capsule::PrimitiveSet& set) const {
-    return tighten::UnionVolumeGradient(set, variables_, kVolumeSpacing * size_, /*seed=*/7, pool_)
+    return tighten::UnionVolumeGradient(set, variables_, kVolumeSpacing * ground_.size_m,
+                                        /*seed=*/7, pool_)
         .volume_m3;
   }
   double Volume() const { return VolumeOf(set_); }
 
   void Tighten() {
-    if (options_.loosen && !meter_.IsCancelled()) {
-      const tighten::PointGrid grid(coarse_.points_m);
-      meter_.Expect(kLooseUntil, std::int64_t{kLoosePhase.steps} * set_.primitive_count());
-      RunPhase(kLoosePhase, {{grid, AllowedAtVertices(), coarse_.weights}}, /*seed=*/1);
+    if (Loosens(options_) && !meter_.IsCancelled()) {
+      const tighten::SparsePoints sparse = tighten::MakeSparse(
+          ground_.points.points_m(), ground_.weights, SparseSpacing() * ground_.size_m, pool_);
+      const tighten::PointGrid grid(sparse.points_m);
+      const tighten::TightenPhase& phase =
+          options_.loosening == Loosening::kQuick ? kQuickLoosening : kThoroughLoosening;
+      meter_.Expect(kLooseUntil, std::int64_t{phase.steps} * set_.primitive_count());
+      RunPhase(phase, {{grid, AllowedAtVertices(), sparse.weights}}, /*seed=*/1);
     }
     // What sticks out between vertices shows only where the vertices are in, and asking for it
     // moves the set on to other such places: looked at before each step, little is left to growing.
@@ -181,10 +192,12 @@ class Coverer {
       if (i > 0) Collect();
       tighten::TightenPhase step = kTightStep;
       step.first_trust = step.last_trust = kTightTrusts[i];
-      const tighten::PointGrid between(between_, fold_);
+      const tighten::PointGrid between(between_, ground_.fold);
       meter_.ExpectShare(1.0 / static_cast<double>(kTightTrusts.size() - i), kTightUntil,
                          set_.primitive_count());
-      RunPhase(step, {{grid_, AllowedAtVertices()}, {between, AllowedBetween()}}, 101 + i);
+      tighten::PointsToHold vertices{ground_.points, AllowedAtVertices()};
+      if (IsMeasured()) vertices.at_first = &at_points_;
+      RunPhase(step, {vertices, {between, AllowedBetween()}}, 101 + i);
     }
   }
 
@@ -193,18 +206,10 @@ class Coverer {
                     kSparseSpacing / std::sqrt(static_cast<double>(set_.primitive_count())));
   }
 
-  std::vector<Eigen::Vector3d> FoldedPoints() const {
-    std::vector<Eigen::Vector3d> points = target_.points_m;
-    if (variables_.is_symmetric()) {
-      for (Eigen::Vector3d& p : points) p.x() = std::abs(p.x());
-    }
-    return points;
-  }
-
   void RunPhase(tighten::TightenPhase phase, const std::vector<tighten::PointsToHold>& points,
                 std::uint64_t seed) {
     phase.uniform_radius = options_.uniform_radius;
-    tighten::Tighten(points, size_, phase, seed, pool_, meter_, set_);
+    tighten::Tighten(points, ground_.size_m, phase, seed, pool_, meter_, set_);
   }
 
   double AllowedAtVertices() const { return coverage::AllowedAtVertices(options_.tolerance_m); }
@@ -222,17 +227,20 @@ class Coverer {
     between_.insert(between_.end(), found.begin(), found.end());
   }
 
-  // Of the set as it is; by the target's index, each with the solid on its own side.
-  const tighten::UnionDistances& AtVertices() {
+  bool IsMeasured() const {
     const auto is_same = [](const geometry::Sphere& a, const geometry::Sphere& b) {
       return a.center_m == b.center_m && a.radius_m == b.radius_m;
     };
-    if (std::equal(measured_.begin(), measured_.end(), set_.spheres.begin(), set_.spheres.end(),
-                   is_same)) {
-      return at_vertices_;
-    }
+    return std::equal(measured_.begin(), measured_.end(), set_.spheres.begin(), set_.spheres.end(),
+                      is_same);
+  }
+
+  // Of the set as it is; by the target's index, each with the solid on its own side.
+  const tighten::UnionDistances& AtVertices() {
+    if (IsMeasured()) return at_vertices_;
     measured_ = set_.spheres;
-    at_vertices_ = InCallersOrder(grid_, grid_.DistancesTo(capsule::Solids(set_), -size_, pool_));
+    at_points_ = ground_.points.DistancesTo(capsule::Solids(set_), -ground_.size_m, pool_);
+    at_vertices_ = InCallersOrder(ground_.points, at_points_);
     for (std::size_t i = 0; i < at_vertices_.solid.size(); ++i) {
       if (target_.points_m[i].x() >= 0.0) continue;
       std::int32_t& solid = at_vertices_.solid[i];
@@ -265,11 +273,11 @@ class Coverer {
 
   std::vector<Demand> OpenDemands() const {
     const tighten::UnionDistances distances =
-        grid_.DistancesTo(capsule::Solids(set_), -options_.max_gap_m, pool_);
+        ground_.points.DistancesTo(capsule::Solids(set_), -options_.max_gap_m, pool_);
     std::vector<Demand> demands;
-    for (std::size_t i = 0; i < grid_.size(); ++i) {
+    for (std::size_t i = 0; i < ground_.points.size(); ++i) {
       if (distances.distance_m[i] > AllowedAtVertices() - kVertexDepthM) {
-        demands.push_back({grid_.point(i), AllowedAtVertices()});
+        demands.push_back({ground_.points.point(i), AllowedAtVertices()});
       }
     }
     for (const Eigen::Vector3d& point : between_) demands.push_back({point, AllowedBetween()});
@@ -294,25 +302,43 @@ class Coverer {
   WorkMeter meter_;
   capsule::PrimitiveSet& set_;
   tighten::SetVariables variables_;
-  tighten::PointGrid::Fold fold_;
-  tighten::PointGrid grid_{{}};
-  double size_ = 0.0;
-  tighten::SparsePoints coarse_;
+  const std::optional<CoverGround> own_ground_;
+  const CoverGround& ground_;
   std::vector<Eigen::Vector3d> between_;  // points inside triangles that had to be asked for
-  // The target's points as AtVertices saw them last, and the spheres then.
+  // The target's points as AtVertices saw them last, first in the order of the grid, and the
+  // spheres then.
   std::vector<geometry::Sphere> measured_;
+  tighten::UnionDistances at_points_;
   tighten::UnionDistances at_vertices_;
   CoverReport report_;
 };
 
 }  // namespace
 
+CoverGround MakeCoverGround(const tighten::CoverTarget& target, bool mirrored,
+                            const CoverOptions& options, const ThreadPool& pool) {
+  CoverGround ground;
+  if (mirrored) ground.fold = tighten::PointGrid::Fold::kToPositiveX;
+  std::vector<double> weights;
+  pool.ForEach(2, [&](std::size_t half) {  // they touch different members
+    if (half == 0) ground.points = tighten::PointGrid(target.points_m, ground.fold);
+    if (half == 1) {
+      ground.size_m = tighten::SizeOf(target);
+      if (Loosens(options)) weights = tighten::AreaWeights(target);
+    }
+  });
+  if (weights.empty()) return ground;
+  for (const std::uint32_t i : ground.points.order()) ground.weights.push_back(weights[i]);
+  return ground;
+}
+
 CoverReport CoverBody(const tighten::CoverTarget& target, const CoverOptions& options,
-                      const ThreadPool& pool, FitObserver& observer, capsule::PrimitiveSet& set) {
+                      const ThreadPool& pool, FitObserver& observer, capsule::PrimitiveSet& set,
+                      const CoverGround* ground) {
   if (target.points_m.empty() || set.spheres.empty()) {
     return target.points_m.empty() ? CoverReport{} : NothingProved();
   }
-  return Coverer(target, options, pool, observer, set).Run();
+  return Coverer(target, options, pool, observer, set, ground).Run();
 }
 
 }  // namespace capfit::coverage

@@ -107,13 +107,12 @@ std::vector<SurfaceSample> SampleSurface(const FittedSurface& surface, int count
 
 // Of each of the vertices, as far as one solid tells: outside the distance to the union, inside a
 // depth that the union's is not less than.
-std::vector<double> VertexDistances(const std::vector<Eigen::Vector3d>& points_m,
+std::vector<double> VertexDistances(const tighten::PointGrid& grid,
                                     const std::vector<geometry::TaperedCapsule>& solids,
                                     const ThreadPool& pool) {
-  const tighten::PointGrid grid(points_m);
   const tighten::UnionDistances nearest =
       grid.DistancesTo(solids, -std::numeric_limits<double>::infinity(), pool);
-  std::vector<double> distances(points_m.size(), 0.0);
+  std::vector<double> distances(grid.size(), 0.0);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     double distance = nearest.distance_m[i];
     // What sticks out is told to the last digit.
@@ -126,15 +125,12 @@ std::vector<double> VertexDistances(const std::vector<Eigen::Vector3d>& points_m
 }
 
 // The same by the mesh's own numbers: 0 for vertices that are not fitted.
-std::vector<double> FittedDistances(const FittedSurface& fitted,
+std::vector<double> FittedDistances(const MeasureGround& ground,
                                     const std::vector<geometry::TaperedCapsule>& solids,
                                     const ThreadPool& pool) {
-  std::vector<Eigen::Vector3d> points_m;
-  points_m.reserve(fitted.vertices.size());
-  for (const std::uint32_t v : fitted.vertices) points_m.push_back(fitted.points_m[v]);
-  const std::vector<double> told = VertexDistances(points_m, solids, pool);
-  std::vector<double> distances(fitted.points_m.size(), 0.0);
-  for (std::size_t i = 0; i < told.size(); ++i) distances[fitted.vertices[i]] = told[i];
+  const std::vector<double> told = VertexDistances(ground.vertices, solids, pool);
+  std::vector<double> distances(ground.fitted.points_m.size(), 0.0);
+  for (std::size_t i = 0; i < told.size(); ++i) distances[ground.fitted.vertices[i]] = told[i];
   return distances;
 }
 
@@ -152,7 +148,8 @@ void CountVertex(double gap, body::Segment segment, Metrics& metrics) {
 void PutShellVertices(const body::ShellSurface& shells, const body::PartSelection& parts,
                       const std::vector<geometry::TaperedCapsule>& solids, const ThreadPool& pool,
                       Metrics& metrics) {
-  const std::vector<double> distances = VertexDistances(shells.vertices_m, solids, pool);
+  const std::vector<double> distances =
+      VertexDistances(tighten::PointGrid(shells.vertices_m), solids, pool);
   for (std::size_t v = 0; v < distances.size(); ++v) {
     if (!parts.Includes(body::PartOf(shells.vertex_segments[v]))) continue;
     CountVertex(distances[v], shells.vertex_segments[v], metrics);
@@ -255,10 +252,11 @@ void PutGaps(double diagonal_m, GapSums sums, AnyMetrics& metrics) {
   metrics.E_M = 100.0 * metrics.gap.mean_m / diagonal_m;
 }
 
-void PutSurface(const body::Body& body, const FittedSurface& fitted,
+void PutSurface(const body::Body& body, const MeasureGround& ground,
                 const std::vector<geometry::TaperedCapsule>& solids, const MeasureOptions& options,
                 const ThreadPool& pool, const FitObserver& observer, Metrics& metrics) {
-  const std::vector<double> distances = FittedDistances(fitted, solids, pool);
+  const FittedSurface& fitted = ground.fitted;
+  const std::vector<double> distances = FittedDistances(ground, solids, pool);
   if (observer.IsCancelled()) return;
   if (body.shells) {
     PutShellVertices(*body.shells, options.parts, solids, pool, metrics);
@@ -280,11 +278,29 @@ void PutSurface(const body::Body& body, const FittedSurface& fitted,
 
 }  // namespace
 
+MeasureGround MakeMeasureGround(const body::Body& body, const body::PartSelection& parts,
+                                const ThreadPool& pool, const FitObserver& observer) {
+  MeasureGround ground{MakeFittedSurface(body, parts, pool, observer)};
+  std::vector<Eigen::Vector3d> points_m;
+  points_m.reserve(ground.fitted.vertices.size());
+  for (const std::uint32_t v : ground.fitted.vertices)
+    points_m.push_back(ground.fitted.points_m[v]);
+  ground.vertices = tighten::PointGrid(points_m);
+  return ground;
+}
+
 Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                 const MeasureOptions& options, const ThreadPool& pool,
                 const FitObserver& observer) {
+  return Measure(body, MakeMeasureGround(body, options.parts, pool, observer), set, options, pool,
+                 observer);
+}
+
+Metrics Measure(const body::Body& body, const MeasureGround& ground,
+                const capsule::PrimitiveSet& set, const MeasureOptions& options,
+                const ThreadPool& pool, const FitObserver& observer) {
   Metrics metrics;
-  const FittedSurface fitted = MakeFittedSurface(body, options.parts, pool, observer);
+  const FittedSurface& fitted = ground.fitted;
   if (observer.IsCancelled()) return metrics;
   for (std::size_t p = 0; p < metrics.parts.size(); ++p) {
     if (fitted.has_part[p]) metrics.parts[p].emplace();
@@ -300,7 +316,7 @@ Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                                 pool, observer),
                  metrics);
     } else {
-      PutSurface(body, fitted, solids, options, pool, observer, metrics);
+      PutSurface(body, ground, solids, options, pool, observer, metrics);
     }
   });
   return metrics;

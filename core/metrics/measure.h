@@ -10,6 +10,8 @@
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/capsule/primitive_set.h"
+#include "core/metrics/fitted_surface.h"
+#include "core/tighten/point_grid.h"
 
 namespace capfit::metrics {
 
@@ -71,6 +73,17 @@ struct Metrics {
   std::array<std::optional<PartMetrics>, body::kPartCount> parts;
 };
 
+// What measuring takes from the body alone: made once for several sets, and before there is one.
+struct MeasureGround {
+  FittedSurface fitted;
+  tighten::PointGrid vertices{{}};  // those of `fitted`
+};
+
+// O(n). Not whole where the observer cancels.
+[[nodiscard]] MeasureGround MakeMeasureGround(const body::Body& body,
+                                              const body::PartSelection& parts,
+                                              const ThreadPool& pool, const FitObserver& observer);
+
 // All but max_gap_m, which coverage proves. With nothing to measure (no part of the body selected,
 // or no primitive) only n_p and the volumes that still mean something are set. Deterministic:
 // columns and samples in parallel, added up in order. About 10 ms on one core for 64k triangles
@@ -80,6 +93,10 @@ struct Metrics {
 [[nodiscard]] Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                               const MeasureOptions& options, const ThreadPool& pool,
                               const FitObserver& observer);
+// The same; `ground`: of this body and options.parts.
+[[nodiscard]] Metrics Measure(const body::Body& body, const MeasureGround& ground,
+                              const capsule::PrimitiveSet& set, const MeasureOptions& options,
+                              const ThreadPool& pool, const FitObserver& observer);
 
 // For each vertex of body.enclosed() the signed distance to the boundary of the set's union in
 // metres: > 0 outside of the set, < 0 where the set covers it. NaN for vertices of parts that are

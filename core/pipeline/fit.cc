@@ -59,7 +59,7 @@ class BodyFit {
       }
     }
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
-    CAPFIT_RETURN_IF_ERROR(BuildWithinLimits());
+    CAPFIT_RETURN_IF_ERROR(BuildBesideGround());
     CAPFIT_RETURN_IF_ERROR(Cover());
     if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverPoses(soup));
     CAPFIT_RETURN_IF_ERROR(Measure());
@@ -84,6 +84,25 @@ class BodyFit {
     result_.body.box_max = taken.box_max;
     result_.landmarks = LandmarkResults(*body_, caller_from_body_);
     return CheckCancelled(clock_);
+  }
+
+  // What coverage and metrics take from the body alone is made while the set is looked for: that
+  // search does not keep all threads busy all the time.
+  absl::Status BuildBesideGround() {
+    absl::Status built;
+    pool_.ForEach(2, [&](std::size_t half) {
+      if (half == 0) built = BuildWithinLimits();
+      if (half == 1) LayGround();
+    });
+    return built;
+  }
+
+  void LayGround() {
+    if (options_.fit == FitMode::kEnclose && !target_.points_m.empty()) {
+      cover_ground_ = coverage::MakeCoverGround(target_, body_->is_symmetric,
+                                                CoverOptionsFor(HasShape()), pool_);
+    }
+    measure_ground_ = metrics::MakeMeasureGround(*body_, options_.parts, pool_, clock_);
   }
 
   // Capsules that share no spheres cost more than the budget of capsules tells, where there are
@@ -214,8 +233,7 @@ class BodyFit {
       max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
       return CheckCancelled(clock_);
     }
-    const bool has_shape = IsSearched() || options_.layout.has_value();
-    coverage::CoverReport report = Enclose(has_shape, set_);
+    coverage::CoverReport report = Enclose(HasShape(), set_);
     if (papers_) {
       CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
       const coverage::CoverReport other = Enclose(/*has_shape=*/false, *papers_);
@@ -291,22 +309,35 @@ class BodyFit {
     return sources;
   }
 
-  // `has_shape`: as refined sets do, but for those whose spheres have just been made uniform.
-  coverage::CoverReport Enclose(bool has_shape, capsule::PrimitiveSet& set) const {
+  // Refined sets do, and kept layouts.
+  bool HasShape() const { return IsSearched() || options_.layout.has_value(); }
+
+  // `has_shape`: the spheres of those that do may have been made uniform since.
+  coverage::CoverOptions CoverOptionsFor(bool has_shape) const {
     coverage::CoverOptions cover_options;
     cover_options.tolerance_m = options_.tolerance_m;
     cover_options.tighten = !options_.grows_only;
     cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
     cover_options.keeps_swallowed = options_.layout.has_value();
-    cover_options.loosen = !has_shape || cover_options.uniform_radius;
-    return coverage::CoverBody(target_, cover_options, pool_, clock_, set);
+    if (has_shape && !cover_options.uniform_radius) {
+      cover_options.loosening = coverage::Loosening::kNone;
+    } else if (IsSearched()) {
+      cover_options.loosening = coverage::Loosening::kThorough;
+    }
+    return cover_options;
+  }
+
+  coverage::CoverReport Enclose(bool has_shape, capsule::PrimitiveSet& set) const {
+    return coverage::CoverBody(target_, CoverOptionsFor(has_shape), pool_, clock_, set,
+                               cover_ground_ ? &*cover_ground_ : nullptr);
   }
 
   absl::Status Measure() {
     clock_.Begin(Stage::kMetrics);
     metrics::MeasureOptions measure_options;
     measure_options.parts = options_.parts;
-    result_.metrics = metrics::Measure(*body_, set_, measure_options, pool_, clock_);
+    result_.metrics =
+        metrics::Measure(*body_, measure_ground_, set_, measure_options, pool_, clock_);
     result_.metrics.max_gap_m = max_gap_m_;
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
     if (options_.want_vertex_gaps) {
@@ -377,6 +408,8 @@ class BodyFit {
   std::optional<body::Body> body_;  // set by Understand
   geometry::Similarity caller_from_body_;
   tighten::CoverTarget target_;
+  std::optional<coverage::CoverGround> cover_ground_;
+  metrics::MeasureGround measure_ground_;
   capsule::PrimitiveSet set_;
   // The published method's, beside set_: the smaller one is taken, once both cover.
   std::optional<capsule::PrimitiveSet> papers_;

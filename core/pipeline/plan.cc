@@ -93,7 +93,7 @@ capsule::PrimitiveCount Times(double room, const capsule::PrimitiveCount& cost) 
   return {more(cost.spheres), more(cost.capsules)};
 }
 
-// The heads, hands and feet that get a ball.
+// The heads, hands and feet that get a ball. O(vertices).
 std::vector<body::Part> EndsPresent(const body::Body& body, const body::PartSelection& parts) {
   std::array<bool, body::kPartCount> has_vertices{};
   for (const body::Segment segment : body.vertex_segments) {
@@ -107,19 +107,18 @@ std::vector<body::Part> EndsPresent(const body::Body& body, const body::PartSele
   return ends;
 }
 
-int CountBalls(const body::Body& body, const body::PartSelection& parts,
-               const capsule::EndBalls& balls) {
+int CountBalls(const std::vector<body::Part>& ends, const capsule::EndBalls& balls) {
   int count = 0;
-  for (const body::Part end : EndsPresent(body, parts)) count += balls.Of(end);
+  for (const body::Part end : ends) count += balls.Of(end);
   return count;
 }
 
 // Capsules between the balls of a part and from them to its chain, at most: the head's balls are
 // joined to both of a pair.
 int CountBallLinks(const body::Body& body, const body::PartSelection& parts,
-                   const capsule::EndBalls& balls) {
+                   const std::vector<body::Part>& ends, const capsule::EndBalls& balls) {
   int links = 0;
-  for (const body::Part end : EndsPresent(body, parts)) {
+  for (const body::Part end : ends) {
     links += balls.Of(end) - 1;
     links += Present(body, parts, capsule::ChainAt(end)) * (end == body::Part::kHead ? 2 : 1);
   }
@@ -128,11 +127,12 @@ int CountBallLinks(const body::Body& body, const body::PartSelection& parts,
 
 // The smallest chains, so many balls for the ends, and the links of both.
 capsule::PrimitiveCount LeastWith(const capsule::EndBalls& balls, const body::Body& body,
-                                  const body::PartSelection& parts) {
+                                  const body::PartSelection& parts,
+                                  const std::vector<body::Part>& ends) {
   const ChainsPresent chains = CountChains(body, parts);
   capsule::PrimitiveCount least = Cost(kLadder.front(), chains);
-  least.spheres += CountBalls(body, parts, balls);
-  least.capsules += CountBallLinks(body, parts, balls);
+  least.spheres += CountBalls(ends, balls);
+  least.capsules += CountBallLinks(body, parts, ends, balls);
   if (chains.torsos > 0) least.capsules += chains.arms + chains.legs;
   return least;
 }
@@ -197,8 +197,9 @@ capsule::Budget TotalBudget(const FitOptions& options) {
 Overhead OverheadOf(const body::Body& body, const FitOptions& options,
                     const capsule::Budget& total) {
   const body::PartSelection& parts = options.parts;
+  const std::vector<body::Part> ends = EndsPresent(body, parts);
   Overhead overhead;
-  overhead.balls = CountBalls(body, parts, overhead.end_balls);
+  overhead.balls = CountBalls(ends, overhead.end_balls);
   const ChainsPresent chains = CountChains(body, parts);
   capsule::PrimitiveCount least = Cost(kLadder.front(), chains);
   least.spheres += overhead.balls;
@@ -208,22 +209,22 @@ Overhead OverheadOf(const body::Body& body, const FitOptions& options,
     overhead.limb_links = chains.arms + chains.legs;
   }
   if (options.grows_only) return overhead;  // links would only make balls of full size larger
-  least = LeastWith({}, body, parts);
+  least = LeastWith({}, body, parts, ends);
   if (!total.Allows(least)) return overhead;
   for (const EndLayout& layout : kEndLadder) {
     if (total.Allows(Times(layout.room, least)) &&
-        total.Allows(LeastWith(layout.balls, body, parts))) {
+        total.Allows(LeastWith(layout.balls, body, parts, ends))) {
       overhead.end_balls = layout.balls;
     }
   }
-  overhead.balls = CountBalls(body, parts, overhead.end_balls);
-  overhead.ball_links = CountBallLinks(body, parts, overhead.end_balls);
+  overhead.balls = CountBalls(ends, overhead.end_balls);
+  overhead.ball_links = CountBallLinks(body, parts, ends, overhead.end_balls);
   return overhead;
 }
 
 absl::Status CheckBudget(const body::Body& body, const FitOptions& asked,
                          const FitOptions& limited) {
-  const int balls = CountBalls(body, asked.parts, {});
+  const int balls = CountBalls(EndsPresent(body, asked.parts), {});
   capsule::PrimitiveCount least = Cost(kLadder.front(), CountChains(body, asked.parts));
   least.spheres += balls;
   if (TotalBudget(limited).Allows(least)) return absl::OkStatus();

@@ -34,6 +34,7 @@ class PointGrid {
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
   [[nodiscard]] std::size_t size() const { return order_.size(); }
   [[nodiscard]] const Eigen::Vector3d& point(std::size_t i) const { return points_m_[i]; }
+  [[nodiscard]] std::span<const Eigen::Vector3d> points_m() const { return points_m_; }
 
   // Points [begin, end) of each block, kMaxBlock at most.
   static constexpr std::uint32_t kMaxBlock = 128;

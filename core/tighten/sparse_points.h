@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/base/thread_pool.h"
+
 namespace capfit::tighten {
 
 struct SparsePoints {
@@ -18,7 +20,8 @@ struct SparsePoints {
 // smoothly with the points, whatever cell they come to lie in; it lies a little inside of a convex
 // surface (0.7 mm on a sphere of 50 mm at a spacing of 20). O(points).
 [[nodiscard]] SparsePoints MakeSparse(std::span<const Eigen::Vector3d> points_m,
-                                      std::span<const double> weights, double spacing_m);
+                                      std::span<const double> weights, double spacing_m,
+                                      const ThreadPool& pool = ThreadPool(1));
 
 }  // namespace capfit::tighten
 

@@ -63,6 +63,7 @@ class Tightener {
     }
     const Eigen::VectorXd change = Solve(program, phase.solve_to);
     if (change.allFinite()) variables_.Apply(change, set_);
+    is_first_ = false;
   }
 
  private:
@@ -157,7 +158,10 @@ class Tightener {
     for (const PointsToHold& points : points_) {
       const std::vector<TaperedCapsule> shapes =
           points.pose == nullptr ? shapes_ : ShapesIn(*points.pose);
-      const UnionDistances distances = points.points.DistancesTo(shapes, -depth_m, pool_);
+      const bool is_known = is_first_ && points.at_first != nullptr;
+      UnionDistances measured;
+      if (!is_known) measured = points.points.DistancesTo(shapes, -depth_m, pool_);
+      const UnionDistances& distances = is_known ? *points.at_first : measured;
       const std::size_t blocks = points.points.blocks().size();
       std::vector<Rows> found((blocks + kBlocksAtOnce - 1) / kBlocksAtOnce);
       pool_.ForChunks(blocks, kBlocksAtOnce, [&](std::size_t begin, std::size_t end) {
@@ -265,6 +269,7 @@ class Tightener {
   }
 
   std::span<const PointsToHold> points_;
+  bool is_first_ = true;      // step
   double near_weight_ = 0.0;  // of the points near the surface
   double size_;
   const ThreadPool& pool_;

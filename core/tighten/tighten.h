@@ -61,6 +61,8 @@ struct PointsToHold {
   std::span<const double> weights{};
   // Where the points are in another pose: into the set as that carries it. Not with folded points.
   const CarriedPose* pose = nullptr;
+  // Their distances before the first step, if known, down to 1.5 of its trust regions.
+  const UnionDistances* at_first = nullptr;
 };
 
 // Each step takes the least volume of the union, by its gradient, under one linear row for each

@@ -80,7 +80,7 @@ capsule::PrimitiveSet Refine(const body::Body& body, const RefineOptions& option
   if (!options.enclose) return set;
   coverage::CoverOptions cover;
   cover.tolerance_m = options.tolerance_m;
-  cover.loosen = false;
+  cover.loosening = coverage::Loosening::kNone;
   (void)coverage::CoverBody(target, cover, pool, observer, set);
   return set;
 }
