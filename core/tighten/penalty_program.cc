@@ -159,22 +159,40 @@ class InteriorPoint {
     matrix_.Factorise();
   }
 
-  // Weighted products of four columns of coefficients with four others, summed over a group.
+  // Weighted products of four columns of coefficients with four others, summed over a group; two
+  // rows of the block at a time, whose sums stay in registers.
   void AddBlock(const RowGroup& group, Eigen::Index left, Eigen::Index right,
                 const NormalMatrix::Place& place) {
-    Eigen::Matrix4d block;
-    for (Eigen::Index i = 0; i < 4; ++i) {
-      std::array<Lane, 4> sums;
-      sums.fill(Lane::Zero());
-      for (Eigen::Index k = group.begin; k < group.end; k += kLane) {
-        const Lane weighted = At(weight_, k) * Coefficient(k, left + i);
-        for (Eigen::Index j = 0; j < 4; ++j) {
-          sums[static_cast<std::size_t>(j)] += weighted * Coefficient(k, right + j);
-        }
-      }
-      for (Eigen::Index j = 0; j < 4; ++j) block(i, j) = sums[static_cast<std::size_t>(j)].sum();
+    Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
+    if (left == right) {  // of the diagonal the lower half is enough
+      PutTwoRows<2>(group, left, right, block.topRows<2>());
+    } else {
+      PutTwoRows<4>(group, left, right, block.topRows<2>());
     }
+    PutTwoRows<4>(group, left + 2, right, block.bottomRows<2>());
     matrix_.Add(place, block);
+  }
+
+  template <Eigen::Index kColumns, typename Rows>
+  void PutTwoRows(const RowGroup& group, Eigen::Index left, Eigen::Index right, Rows&& rows) {
+    std::array<Lane, kColumns> upper;
+    std::array<Lane, kColumns> lower;
+    upper.fill(Lane::Zero());
+    lower.fill(Lane::Zero());
+    for (Eigen::Index k = group.begin; k < group.end; k += kLane) {
+      const Lane weight = At(weight_, k);
+      const Lane weighted_upper = weight * Coefficient(k, left);
+      const Lane weighted_lower = weight * Coefficient(k, left + 1);
+      for (Eigen::Index j = 0; j < kColumns; ++j) {
+        const Lane other = Coefficient(k, right + j);
+        upper[static_cast<std::size_t>(j)] += weighted_upper * other;
+        lower[static_cast<std::size_t>(j)] += weighted_lower * other;
+      }
+    }
+    for (Eigen::Index j = 0; j < kColumns; ++j) {
+      rows(0, j) = upper[static_cast<std::size_t>(j)].sum();
+      rows(1, j) = lower[static_cast<std::size_t>(j)].sum();
+    }
   }
 
   // Straight for zero complementarity.
