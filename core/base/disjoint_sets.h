@@ -11,6 +11,13 @@
 
 namespace capfit {
 
+// Where each has a link to another of its set, the last to itself: follows them to that one, and
+// shortens them on the way.
+[[nodiscard]] inline std::uint32_t FollowLinks(std::vector<std::uint32_t>& link, std::uint32_t i) {
+  while (link[i] != i) i = link[i] = link[link[i]];
+  return i;
+}
+
 // Sets of the numbers from 0 on; the lowest member stands for each. Nearly O(1) a call.
 class DisjointSets {
  public:
@@ -22,10 +29,7 @@ class DisjointSets {
 
   [[nodiscard]] std::size_t size() const { return parent_.size(); }
 
-  [[nodiscard]] std::uint32_t Find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
+  [[nodiscard]] std::uint32_t Find(std::uint32_t i) { return FollowLinks(parent_, i); }
 
   void Join(std::uint32_t a, std::uint32_t b) {
     a = Find(a);

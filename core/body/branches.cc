@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/base/chunk_sums.h"
-#include "core/mesh/follow_links.h"
+#include "core/base/disjoint_sets.h"
 
 namespace capfit::body {
 namespace {
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> NearestTips(const SurfaceGraph& graph, const Farthest
       tip[v] = farthest;
     }
   });
-  for (std::uint32_t v = 0; v < tip.size(); ++v) tip[v] = mesh::FollowLinks(tip, v);
+  for (std::uint32_t v = 0; v < tip.size(); ++v) tip[v] = FollowLinks(tip, v);
   return tip;
 }
 
@@ -83,8 +83,8 @@ std::vector<Merge> MergesFromTheTop(const SurfaceGraph& graph, std::span<const d
   std::iota(survivor.begin(), survivor.end(), 0u);
   std::vector<Merge> merges;
   for (const Saddle& saddle : saddles) {
-    std::uint32_t a = mesh::FollowLinks(survivor, tip[saddle.vertex]);
-    std::uint32_t b = mesh::FollowLinks(survivor, saddle.other_tip);
+    std::uint32_t a = FollowLinks(survivor, tip[saddle.vertex]);
+    std::uint32_t b = FollowLinks(survivor, saddle.other_tip);
     if (a == b) continue;
     if (is_farther(b, a)) std::swap(a, b);
     merges.push_back({b, a, distance[saddle.vertex]});

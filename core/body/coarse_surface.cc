@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/chunk_sums.h"
-#include "core/mesh/follow_links.h"
+#include "core/base/disjoint_sets.h"
 #include "core/mesh/surface_sums.h"
 
 namespace capfit::body {
@@ -21,15 +21,12 @@ constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
 // Whether every node can be reached from every other over the triangles.
 bool HangsTogether(const CoarseSurface& coarse) {
-  std::vector<std::uint32_t> link(coarse.points.size());
-  std::iota(link.begin(), link.end(), 0u);
-  std::size_t pieces = link.size();
+  DisjointSets sets(coarse.points.size());
+  std::size_t pieces = sets.size();
   for (const mesh::Triangle& t : coarse.triangles) {
     for (const std::uint32_t n : {t[1], t[2]}) {
-      const std::uint32_t a = mesh::FollowLinks(link, t[0]);
-      const std::uint32_t b = mesh::FollowLinks(link, n);
-      if (a == b) continue;
-      link[std::max(a, b)] = std::min(a, b);
+      if (sets.Find(t[0]) == sets.Find(n)) continue;
+      sets.Join(t[0], n);
       --pieces;
     }
   }

@@ -17,7 +17,7 @@ namespace capfit::coverage {
 // Whether tightening begins with points left out at a low price, which finds the shape anew.
 enum class Loosening {
   kNone,     // the set has its shape already
-  kQuick,    // a third of the steps: 2 to 7 % more E_r (means over 19 bodies, by budget)
+  kQuick,    // two fifths of the steps: 2 to 7 % more E_r (means over 19 bodies, by budget)
   kThorough  // until more steps change little
 };
 

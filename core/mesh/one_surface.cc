@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/chunk_sums.h"
-#include "core/mesh/follow_links.h"
+#include "core/base/disjoint_sets.h"
 
 namespace capfit::mesh {
 namespace {
