@@ -12,19 +12,15 @@
 #include "core/base/chunk_sums.h"
 #include "core/base/status.h"
 #include "core/body/body_unit.h"
-#include "core/body/chains.h"
 #include "core/body/coarse_surface.h"
 #include "core/body/extremities.h"
+#include "core/body/find_parts.h"
 #include "core/body/intrinsic_frame.h"
-#include "core/body/landmarks.h"
-#include "core/body/mirror.h"
 #include "core/body/rig_ends.h"
-#include "core/body/segments.h"
 #include "core/body/shape.h"
 #include "core/body/skeleton_names.h"
 #include "core/body/snap.h"
 #include "core/body/surface_graph.h"
-#include "core/body/told_landmarks.h"
 #include "core/body/working_copy.h"
 #include "core/mesh/surface_sums.h"
 
@@ -225,17 +221,6 @@ mesh::BodyMesh MeshInBodyFrame(const mesh::BodyMesh& mesh, WorkingCopy copy,
                         std::move(copy.mates), pool);
 }
 
-// Turns the limbs found into left and right ones.
-void AssignSides(const Extremities& extremities, const IntrinsicFrame& frame, Shape& shape) {
-  const int first_foot = frame.first_foot_is_left ? kLeft : kRight;
-  const int first_hand = frame.first_hand_is_left ? kLeft : kRight;
-  shape.head = extremities.limb(Tip::kHead);
-  shape.arms[first_hand] = extremities.limb(Tip::kHandA);
-  shape.arms[1 - first_hand] = extremities.limb(Tip::kHandB);
-  shape.legs[first_foot] = extremities.limb(Tip::kFootA);
-  shape.legs[1 - first_foot] = extremities.limb(Tip::kFootB);
-}
-
 // The caller's axis, with its sign, that is nearest to a direction of the working copy: "-z".
 std::string NearestAxis(const WorkingCopy& copy, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d in_mesh = copy.axes.transpose() * direction;
@@ -296,113 +281,6 @@ absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Found
   return frame;
 }
 
-bool HasSegment(const Body& body, Segment segment) {
-  return std::find(body.vertex_segments.begin(), body.vertex_segments.end(), segment) !=
-         body.vertex_segments.end();
-}
-
-bool HasPart(const Body& body, Part part) {
-  switch (part) {
-    case Part::kHead:
-      return HasSegment(body, Segment::kHead);
-    case Part::kLeftHand:
-      return HasSegment(body, Segment::kLeftHand);
-    case Part::kRightHand:
-      return HasSegment(body, Segment::kRightHand);
-    case Part::kLeftFoot:
-      return HasSegment(body, Segment::kLeftFoot);
-    case Part::kRightFoot:
-      return HasSegment(body, Segment::kRightFoot);
-    default:
-      return body.chain(part).has_value();
-  }
-}
-
-absl::Status CheckRequired(const Body& body, const PartSelection& required) {
-  std::string missing;
-  for (int i = 0; i < kPartCount; ++i) {
-    const Part part = static_cast<Part>(i);
-    if (!required.Includes(part) || HasPart(body, part)) continue;
-    absl::StrAppend(&missing, missing.empty() ? "" : ", ", std::string(PartName(part)));
-  }
-  if (missing.empty()) return absl::OkStatus();
-  return Refused(ErrorReason::kPartMissing,
-                 absl::StrCat("required but not found on this body: ", missing));
-}
-
-// Landmarks, segments and curves, once the frame is known.
-class Anatomist {
- public:
-  Anatomist(const BodyOptions& options, const Rig& rig, const SurfaceGraph& graph,
-            const CoarseSurface& coarse, std::span<const std::uint32_t> first_triangle,
-            const Extremities& extremities, const ThreadPool& pool, const FitObserver& observer,
-            Body& body)
-      : options_(options),
-        rig_(rig),
-        extremities_(extremities),
-        body_(body),
-        surface_(coarse.points, coarse.triangles, pool),
-        mesh_surface_(body.mesh.vertices(), body.mesh.triangles(), pool) {
-    shape_.vertices = body.mesh.vertices();
-    shape_.mesh_triangles = body.mesh.triangles();
-    shape_.first_triangle = first_triangle;
-    shape_.mesh_surface = &mesh_surface_;
-    shape_.coarse = &coarse;
-    shape_.points = coarse.points;
-    shape_.triangles = coarse.triangles;
-    shape_.graph = &graph;
-    shape_.surface = &surface_;
-    shape_.pool = &pool;
-    shape_.observer = &observer;
-    shape_.top_m = body.height_m;
-  }
-
-  absl::Status Run(const IntrinsicFrame& frame, double stature_m) {
-    const FitObserver& observer = *shape_.observer;
-    shape_.stature_m = stature_m;
-    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-    AssignSides(extremities_, frame, shape_);
-    CAPFIT_ASSIGN_OR_RETURN(body_.landmarks, ToldLandmarks(options_, rig_, body_.body_from_caller,
-                                                           extremities_, shape_, body_.warnings));
-    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-    CAPFIT_RETURN_IF_ERROR(FindLandmarks(extremities_, shape_, body_.landmarks, body_.warnings));
-    if (!AllLandmarksFinite()) {
-      return Refused(ErrorReason::kNotABody,
-                     "not a human body: a limb has no sections from which its landmarks could be "
-                     "measured");
-    }
-    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-    body_.is_symmetric = IsSymmetric(shape_, body_.landmarks);
-    if (body_.is_symmetric) {
-      Symmetrise(body_.landmarks);
-      Symmetrise(shape_);
-    }
-    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-    shape_.pool->ForEach(2, [this](std::size_t half) {
-      if (half == 0) body_.vertex_segments = LabelVertices(shape_, body_.landmarks);
-      if (half == 1) body_.chains = BuildChains(shape_, body_.landmarks);
-    });
-    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-    if (body_.is_symmetric) Symmetrise(body_.chains);
-    return CheckRequired(body_, options_.required);
-  }
-
- private:
-  [[nodiscard]] bool AllLandmarksFinite() const {
-    return std::all_of(body_.landmarks.begin(), body_.landmarks.end(), [](const auto& landmark) {
-      return !landmark.has_value() || landmark->position_m.allFinite();
-    });
-  }
-
-  const BodyOptions& options_;
-  const Rig& rig_;
-  const Extremities& extremities_;
-  Body& body_;
-  CutSurface surface_;
-  CutSurface mesh_surface_;
-  Shape shape_;
-};
-
 }  // namespace
 
 absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& options,
@@ -444,9 +322,9 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                std::move(warnings)};
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
-  Anatomist anatomist(options, rig, graph, coarse, first_triangle, extremities, pool, observer,
-                      body);
-  CAPFIT_RETURN_IF_ERROR(anatomist.Run(frame, ways.stature_m));
+  CAPFIT_RETURN_IF_ERROR(
+      FindParts(options, {rig, graph, coarse, first_triangle, extremities, frame, ways.stature_m},
+                pool, observer, body));
   return body;
 }
 

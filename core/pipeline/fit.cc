@@ -8,8 +8,8 @@
 #include "core/base/version.h"
 #include "core/circle/error_curve.h"
 #include "core/coverage/cover_body.h"
-#include "core/motion/cover_motion.h"
 #include "core/pipeline/bind_spheres.h"
+#include "core/pipeline/cover_poses.h"
 #include "core/pipeline/effective_options.h"
 #include "core/pipeline/engines.h"
 #include "core/pipeline/plan.h"
@@ -61,7 +61,7 @@ class BodyFit {
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
     CAPFIT_RETURN_IF_ERROR(BuildBesideGround());
     CAPFIT_RETURN_IF_ERROR(Cover());
-    if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverPoses(soup));
+    if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverMotion(soup));
     CAPFIT_RETURN_IF_ERROR(Measure());
     CAPFIT_RETURN_IF_ERROR(Bind(soup));
     return absl::OkStatus();
@@ -247,66 +247,9 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
-  // All frames of the motion, with the centres where the chosen weights carry them.
-  absl::Status CoverPoses(const formats::PolygonSoup& soup) {
-    const std::vector<std::vector<Eigen::Vector3f>>& frames = options_.motion->frames;
-    const std::vector<std::uint32_t> sources = SourcesOfTarget();
-    motion::MotionFrames points(frames.size());
-    pool_.ForEach(frames.size(), [&](std::size_t f) {
-      for (const std::uint32_t source : sources) {
-        points[f].push_back(body_->body_from_caller.Apply(frames[f][source].cast<double>()));
-      }
-    });
-    motion::MotionOptions motion_options;
-    motion_options.cover.tolerance_m = options_.tolerance_m;
-    motion_options.radii = options_.motion->radii;
-    result_.motion = motion::CoverMotion(
-        target_, points,
-        [&](const capsule::PrimitiveSet& at_rest) { return CentersInFrames(at_rest, soup); },
-        motion_options, pool_, clock_, set_);
-    max_gap_m_ =
-        coverage::CertifiedGap(target_, set_, 0.05 * motion_options.cover.max_gap_m, pool_);
+  absl::Status CoverMotion(const formats::PolygonSoup& soup) {
+    result_.motion = CoverPoses({*body_, target_, soup}, options_, pool_, clock_, set_, max_gap_m_);
     return CheckCancelled(clock_);
-  }
-
-  // In the body's frame at rest.
-  motion::MotionFrames CentersInFrames(const capsule::PrimitiveSet& at_rest,
-                                       const formats::PolygonSoup& soup) const {
-    skinning::SparseWeights sparse = BindSparse(*body_, CentersOf(at_rest), pool_, clock_);
-    std::optional<skinning::BoneWeights> bones;
-    if (options_.skinning == SkinningMode::kBones) {
-      const std::vector<Eigen::Vector3d> centers =
-          CentersOf(ToCallerFrame(at_rest, caller_from_body_));
-      skinning::MakeExact(soup.positions, centers, sparse);
-      bones = skinning::BonesOfSparse(sparse, centers, soup);
-    }
-    motion::MotionFrames centers(options_.motion->frames.size());
-    pool_.ForEach(centers.size(), [&](std::size_t f) {
-      centers[f] = bones ? skinning::Apply(*bones, options_.motion->joints[f])
-                         : skinning::Apply(sparse, InDouble(options_.motion->frames[f]));
-      for (Eigen::Vector3d& center : centers[f]) center = body_->body_from_caller.Apply(center);
-    });
-    return centers;
-  }
-
-  static std::vector<Eigen::Vector3d> InDouble(const std::vector<Eigen::Vector3f>& points) {
-    std::vector<Eigen::Vector3d> doubles;
-    doubles.reserve(points.size());
-    for (const Eigen::Vector3f& p : points) doubles.push_back(p.cast<double>());
-    return doubles;
-  }
-
-  // For each point of the target a vertex of the caller's that lies there.
-  std::vector<std::uint32_t> SourcesOfTarget() const {
-    const body::EnclosedSurface surface = body_->enclosed();
-    std::vector<std::uint32_t> source(surface.vertices_m.size(), 0);
-    for (std::size_t s = surface.vertex_of_source.size(); s-- > 0;) {
-      const std::int32_t vertex = surface.vertex_of_source[s];
-      if (vertex >= 0) source[static_cast<std::size_t>(vertex)] = static_cast<std::uint32_t>(s);
-    }
-    std::vector<std::uint32_t> sources;
-    for (const std::uint32_t vertex : target_.vertices) sources.push_back(source[vertex]);
-    return sources;
   }
 
   // Refined sets do, and kept layouts.
