@@ -28,6 +28,9 @@ namespace {
 // Files of exports are named after the body's file, whose name the server is not told.
 constexpr char kExportSource[] = "body";
 constexpr char kPushbackTrailer[] = "grpc-retry-pushback-ms";
+// A caller whose deadline passes ends the call itself, some milliseconds before it has passed here:
+// the time that is left is sent rounded up, and is counted from its arrival.
+constexpr std::chrono::milliseconds kDeadlineSlack{20};
 
 using Clock = Watchdog::Clock;
 
@@ -291,7 +294,7 @@ absl::Status FitJob::GaveUp() const {
                    absl::StrCat("this server stops, and the call did not end within the ",
                                 services_.config.drain_seconds, " s that it had"));
   }
-  if (std::chrono::system_clock::now() >= deadline_) {
+  if (std::chrono::system_clock::now() + kDeadlineSlack >= deadline_) {
     return Refused(ErrorReason::kDeadlineExceeded, "the caller's deadline passed during the fit");
   }
   if (now >= fit_deadline_.load()) {
