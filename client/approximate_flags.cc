@@ -132,7 +132,7 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
       ->group(kWhatToFit);
   AddWordOption(command, "--quality", options.quality, QualityWords(),
                 "paper: the published method; tight: less volume error, more time; balanced: "
-                "almost as little in about the time of paper")
+                "almost as little in less time than tight")
       ->group(kWhatToFit);
   command
       .add_option("--tolerance-mm", flags.tolerance_mm,
