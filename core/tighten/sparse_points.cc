@@ -10,8 +10,10 @@ namespace {
 
 // A bound on memory: nodes of the grid.
 constexpr double kMaxNodes = 4e6;
-// Points that are summed by one task, into a grid of its own.
-constexpr std::size_t kPointsAtOnce = 16'384;
+// Points are summed in parts of so many at least, each into numbers of its own for all nodes: hence
+// no more parts than these, however many points there are.
+constexpr std::size_t kLeastPart = 16'384;
+constexpr std::size_t kMostParts = 4;
 
 // Nodes at multiples of the spacing: images of each other in the planes of the frame.
 class NodeGrid {
@@ -98,10 +100,11 @@ SparsePoints MakeSparse(std::span<const Eigen::Vector3d> points_m, std::span<con
                         double spacing_m, const ThreadPool& pool) {
   if (points_m.empty()) return {};
   const NodeGrid grid(points_m, spacing_m);
-  const std::size_t count = (points_m.size() + kPointsAtOnce - 1) / kPointsAtOnce;
+  const std::size_t part = std::max(kLeastPart, (points_m.size() + kMostParts - 1) / kMostParts);
+  const std::size_t count = (points_m.size() + part - 1) / part;
   std::vector<NodeSums> chunks(count, NodeSums(grid.size()));
-  pool.ForChunks(points_m.size(), kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
-    NodeSums& sums = chunks[begin / kPointsAtOnce];
+  pool.ForChunks(points_m.size(), part, [&](std::size_t begin, std::size_t end) {
+    NodeSums& sums = chunks[begin / part];
     for (std::size_t i = begin; i < end; ++i) {
       if (!(weights[i] > 0.0)) continue;
       const Eigen::Vector4d sum = weights[i] * points_m[i].homogeneous();
