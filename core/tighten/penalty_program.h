@@ -32,8 +32,9 @@ struct SolveTo {
   double relative_gap = 1e-8;  // of the decrease won
   int most_iterations = 40;    // whatever the gap is then
   // Above 0: to the point of the central path where each product of a slack and its multiplier is
-  // this share of the most that a variable can win, in most_iterations and no fewer. That point
-  // follows the programme more smoothly than the optimum, and is near after half as many.
+  // this share of the most that a variable can win, to nearly all digits, whatever the gap. That
+  // point follows the programme smoothly, as the optimum does not, and costs half as much: 7 to 12
+  // iterations, each of one direction in place of two.
   double centrality = 0.0;
 };
 
