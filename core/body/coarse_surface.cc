@@ -18,6 +18,7 @@ constexpr std::size_t kManyVertices = 16'000;
 // No vertex of a node is farther from its first: 1.5 times the radius of a disc of a node's area.
 constexpr double kReach = 0.0085;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+constexpr std::size_t kTakenAtOnce = 1024;  // triangles
 
 // Whether every node can be reached from every other over the triangles.
 bool HangsTogether(const CoarseSurface& coarse) {
@@ -115,9 +116,13 @@ class Coarsener {
     ChooseTriangles();
     AbsorbLoneNodes();
     coarse_.points.assign(node_count_, Eigen::Vector3d::Zero());
-    pool_.ForEach(2, [this](std::size_t half) {
-      if (half == 0) GatherVertices();
-      if (half == 1) TakeTriangles();
+    coarse_.triangles.resize(chosen_.size());
+    coarse_.mates.assign(3 * chosen_.size(), mesh::kNoMate);
+    const std::size_t chunks = (chosen_.size() + kTakenAtOnce - 1) / kTakenAtOnce;
+    pool_.ForEach(1 + chunks, [this](std::size_t task) {
+      if (task == 0) return GatherVertices();
+      const std::size_t begin = (task - 1) * kTakenAtOnce;
+      TakeTriangles(begin, std::min(begin + kTakenAtOnce, chosen_.size()));
     });
     return std::move(coarse_);
   }
@@ -231,16 +236,16 @@ class Coarsener {
     }
   }
 
-  void TakeTriangles() {
-    coarse_.triangles.reserve(chosen_.size());
-    coarse_.mates.assign(3 * chosen_.size(), mesh::kNoMate);
-    for (std::uint32_t i = 0; i < chosen_.size(); ++i) {
-      coarse_.triangles.push_back(NodesOf(chosen_[i]));
+  // Of the kept triangles those in [begin, end). Mates in another chunk are found from both sides.
+  void TakeTriangles(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      coarse_.triangles[i] = NodesOf(chosen_[i]);
       for (std::uint32_t k = 0; k < 3; ++k) {
-        if (coarse_.mates[3 * i + k] != mesh::kNoMate) continue;
+        const auto here = static_cast<mesh::HalfEdge>(3 * i + k);
+        if (coarse_.mates[here] != mesh::kNoMate) continue;
         const mesh::HalfEdge mate = Across(3 * chosen_[i] + k);
-        coarse_.mates[3 * i + k] = mate;
-        coarse_.mates[mate] = 3 * i + k;
+        coarse_.mates[here] = mate;
+        if (mate >= 3 * begin && mate < 3 * end) coarse_.mates[mate] = here;
       }
     }
   }
@@ -266,21 +271,34 @@ CoarseSurface AsItIs(const WorkingCopy& copy) {
   return same;
 }
 
-}  // namespace
-
-CoarseSurface MakeCoarseSurface(const WorkingCopy& copy, const ThreadPool& pool) {
-  CoarseSurface coarse;
-  if (copy.points.size() >= kManyVertices) coarse = Coarsener(copy, pool).Run();
-  // Parts as thin as a node come off.
-  if (coarse.points.empty() || !HangsTogether(coarse)) coarse = AsItIs(copy);
-  coarse.areas.assign(coarse.points.size(), 0.0);
+std::vector<double> NodeAreas(const CoarseSurface& coarse) {
+  std::vector<double> areas(coarse.points.size(), 0.0);
   double area = 0.0;
   for (const mesh::Triangle& t : coarse.triangles) {
     const double third = mesh::Area(coarse.points, t) / 3.0;
     area += 3.0 * third;
-    for (const std::uint32_t n : t) coarse.areas[n] += third;
+    for (const std::uint32_t n : t) areas[n] += third;
   }
-  for (double& a : coarse.areas) a /= area;
+  for (double& a : areas) a /= area;
+  return areas;
+}
+
+}  // namespace
+
+CoarseSurface MakeCoarseSurface(const WorkingCopy& copy, const ThreadPool& pool) {
+  CoarseSurface coarse;
+  bool hangs_together = false;
+  if (copy.points.size() >= kManyVertices) {
+    coarse = Coarsener(copy, pool).Run();
+    pool.ForEach(2, [&](std::size_t half) {
+      if (half == 0) hangs_together = HangsTogether(coarse);
+      if (half == 1) coarse.areas = NodeAreas(coarse);
+    });
+  }
+  // Parts as thin as a node come off.
+  if (hangs_together) return coarse;
+  coarse = AsItIs(copy);
+  coarse.areas = NodeAreas(coarse);
   return coarse;
 }
 

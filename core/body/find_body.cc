@@ -72,10 +72,12 @@ void NameLimbs(const Extremities& extremities, IntrinsicFrame& frame) {
 // The body as it came and what is known of it before its frame is.
 struct Found {
   const WorkingCopy& copy;
-  const CoarseSurface& coarse;
-  const Extremities& extremities;
-  const Rig& rig;
-  const std::optional<RigEnds>& rig_ends;  // nothing where the rig lies elsewhere
+  CoarseSurface coarse;
+  Rig rig;
+  std::optional<SurfaceGraph> graph;
+  std::optional<RigEnds> rig_ends;  // nothing where the rig lies elsewhere
+  Extremities extremities;
+  std::optional<MirrorSurface> mirror;  // nothing where each node is a vertex
 };
 
 // Landmarks on the wrong sides mean that front and back are mistaken: the caller knows better, and
@@ -229,6 +231,12 @@ std::string NearestAxis(const WorkingCopy& copy, const Eigen::Vector3d& directio
   return std::string(in_mesh[axis] < 0.0 ? "-" : "") + "xyz"[axis];
 }
 
+IntrinsicFrame FrameOf(const Found& found, const std::optional<Eigen::Vector3d>& up,
+                       const ThreadPool& pool) {
+  return FindIntrinsicFrame(found.copy, found.coarse, found.mirror ? &*found.mirror : nullptr,
+                            found.extremities, pool, up, found.rig_ends);
+}
+
 // The frame that the surface shows, or, where the told axis is near to its own, that with the told
 // axis. A body that stands along another axis may lie in truth: its own frame serves there
 // too.
@@ -237,8 +245,7 @@ absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const 
                                              std::vector<Warning>& warnings) {
   const WorkingCopy& copy = found.copy;
   const Eigen::Vector3d up = Snap(copy.axes * told, kFineGrid).normalized();
-  IntrinsicFrame own =
-      FindIntrinsicFrame(copy, found.coarse, found.extremities, pool, std::nullopt, found.rig_ends);
+  IntrinsicFrame own = FrameOf(found, std::nullopt, pool);
   const double cosine = own.up.dot(up);
   const std::string axis = NearestAxis(copy, up);
   const std::string own_axis = NearestAxis(copy, own.up);
@@ -258,12 +265,11 @@ absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const 
          0});
   }
   if (cosine < kTakenCosine) return own;
-  return FindIntrinsicFrame(copy, found.coarse, found.extremities, pool, up, found.rig_ends);
+  return FrameOf(found, up, pool);
 }
 
 absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Found& found,
                                          const ThreadPool& pool, std::vector<Warning>& warnings) {
-  const WorkingCopy& copy = found.copy;
   const Extremities& extremities = found.extremities;
   if (extremities.found() < kMinExtremities) {
     return Refused(ErrorReason::kNotABody,
@@ -275,10 +281,32 @@ absl::StatusOr<IntrinsicFrame> FindFrame(const BodyOptions& options, const Found
   if (told) {
     CAPFIT_ASSIGN_OR_RETURN(frame, FrameWithTold(*told, found, pool, warnings));
   } else {
-    frame = FindIntrinsicFrame(copy, found.coarse, extremities, pool, std::nullopt, found.rig_ends);
+    frame = FrameOf(found, std::nullopt, pool);
   }
   TurnToToldSides(options, found, frame);
   return frame;
+}
+
+// What the surface tells without a frame, from the coarse surface on.
+absl::Status SearchSurface(const ThreadPool& pool, const FitObserver& observer, Found& found) {
+  CoarseSurface& coarse = found.coarse;
+  const auto find_extremities = [&]() -> absl::Status {
+    found.graph.emplace(coarse.points, coarse.triangles, coarse.mates, pool, observer);
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
+    found.rig_ends = FindRigEnds(found.rig, found.copy, coarse, pool);
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
+    found.extremities =
+        FindExtremities(coarse.points, coarse.areas, *found.graph, pool, observer, found.rig_ends);
+    return CheckCancelled(observer);
+  };
+  absl::Status status;
+  pool.ForEach(2, [&](std::size_t half) {  // they touch different members
+    if (half == 0) status = find_extremities();
+    if (half == 1 && coarse.points.size() < found.copy.points.size()) found.mirror.emplace(coarse);
+  });
+  CAPFIT_RETURN_IF_ERROR(status);
+  PutTipsAtVertices(found.copy, *found.graph, found.extremities, coarse);
+  return absl::OkStatus();
 }
 
 }  // namespace
@@ -288,29 +316,19 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   WorkingCopy copy = MakeWorkingCopy(mesh, pool, observer);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  CoarseSurface coarse = MakeCoarseSurface(copy, pool);
+  Found found = {copy, MakeCoarseSurface(copy, pool), ReadRig(options.skeleton), {}, {}, {}, {}};
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  const SurfaceGraph graph(coarse.points, coarse.triangles, coarse.mates, pool, observer);
-  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  const Rig rig = ReadRig(options.skeleton);
-  const std::optional<RigEnds> rig_ends = FindRigEnds(rig, copy, coarse, pool);
-  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  const Extremities extremities =
-      FindExtremities(coarse.points, coarse.areas, graph, pool, observer, rig_ends);
-  CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  PutTipsAtVertices(copy, graph, extremities, coarse);
+  CAPFIT_RETURN_IF_ERROR(SearchSurface(pool, observer, found));
   std::vector<Warning> warnings;
-  CAPFIT_ASSIGN_OR_RETURN(
-      const IntrinsicFrame frame,
-      FindFrame(options, Found{copy, coarse, extremities, rig, rig_ends}, pool, warnings));
+  CAPFIT_ASSIGN_OR_RETURN(const IntrinsicFrame frame, FindFrame(options, found, pool, warnings));
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   CAPFIT_ASSIGN_OR_RETURN(const WaysToBody ways,
-                          FindWaysToBody(options, copy, frame, extremities, pool, warnings));
+                          FindWaysToBody(options, copy, frame, found.extremities, pool, warnings));
   if (frame.facing_trust < kFacingTrust) {
     warnings.push_back({"FACING_UNSURE",
                         "front and back look alike; a left or right landmark would tell them", 0});
   }
-  for (Eigen::Vector3d& p : coarse.points) p = ways.from_copy.Apply(p);
+  for (Eigen::Vector3d& p : found.coarse.points) p = ways.from_copy.Apply(p);
   const std::vector<std::uint32_t> first_triangle = std::move(copy.first_triangle);
   Body body = {MeshInBodyFrame(mesh, std::move(copy), ways.from_copy, pool),
                ways.from_caller,
@@ -322,9 +340,10 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                std::move(warnings)};
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
-  CAPFIT_RETURN_IF_ERROR(
-      FindParts(options, {rig, graph, coarse, first_triangle, extremities, frame, ways.stature_m},
-                pool, observer, body));
+  CAPFIT_RETURN_IF_ERROR(FindParts(options,
+                                   {found.rig, *found.graph, found.coarse, first_triangle,
+                                    found.extremities, frame, ways.stature_m},
+                                   pool, observer, body));
   return body;
 }
 

@@ -10,7 +10,6 @@
 #include "core/base/chunk_sums.h"
 #include "core/body/facing.h"
 #include "core/body/rings.h"
-#include "core/body/symmetry_plane.h"
 
 namespace capfit::body {
 namespace {
@@ -205,17 +204,14 @@ IntrinsicFrame TurnedAbout(const IntrinsicFrame& frame) {
 }
 
 IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy, const CoarseSurface& coarse,
-                                  const Extremities& extremities, const ThreadPool& pool,
-                                  const std::optional<Eigen::Vector3d>& up,
+                                  const MirrorSurface* mirror, const Extremities& extremities,
+                                  const ThreadPool& pool, const std::optional<Eigen::Vector3d>& up,
                                   const std::optional<RigEnds>& rig) {
   const std::span<const Eigen::Vector3d> points = coarse.points;
   const std::vector<char> is_limb = LimbMask(points.size(), extremities);
   const Rings rings = RingsOf(points, coarse.areas, extremities, is_limb);
   MirrorPlane plane = SymmetryPlane(rings);
-  if (points.size() < copy.points.size()) {
-    // Rings of nodes tell it to some thousandths and millimetres only.
-    plane = SharpenedPlane(plane, coarse, pool);
-  }
+  if (mirror != nullptr) plane = SharpenedPlane(plane, *mirror, pool);
   IntrinsicFrame frame;
   const Eigen::Vector3d trunk = TrunkAxis(rings, rig);
   const TrunkWidth width = MeasureTrunk(points, coarse.areas, is_limb, trunk);

@@ -10,6 +10,7 @@
 
 #include "core/body/extremities.h"
 #include "core/body/rig_ends.h"
+#include "core/body/symmetry_plane.h"
 
 namespace capfit::body {
 
@@ -31,13 +32,13 @@ struct IntrinsicFrame {
 // Exact for bodies that are symmetric; the same for any turned, moved or scaled copy. `up` given:
 // taken as it is. A skeleton's axes take the place of those found that are more than 20 degrees
 // off, as a backpack or a stride may make them. Needs three limbs or more.
-// The soles are those of the `copy`, all else is told by the nodes.
-[[nodiscard]] IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy,
-                                                const CoarseSurface& coarse,
-                                                const Extremities& extremities,
-                                                const ThreadPool& pool,
-                                                const std::optional<Eigen::Vector3d>& up,
-                                                const std::optional<RigEnds>& rig = std::nullopt);
+// The soles are those of the `copy`, all else is told by the nodes. Rings of nodes that stand for
+// several vertices tell the plane to some thousandths and millimetres only: the `mirror` sharpens
+// it, where there is one.
+[[nodiscard]] IntrinsicFrame FindIntrinsicFrame(
+    const WorkingCopy& copy, const CoarseSurface& coarse, const MirrorSurface* mirror,
+    const Extremities& extremities, const ThreadPool& pool,
+    const std::optional<Eigen::Vector3d>& up, const std::optional<RigEnds>& rig = std::nullopt);
 
 // Front and back, left and right exchanged.
 [[nodiscard]] IntrinsicFrame TurnedAbout(const IntrinsicFrame& frame);

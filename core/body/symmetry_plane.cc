@@ -8,8 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/mesh/nearest_vertex.h"
-
 namespace capfit::body {
 namespace {
 
@@ -121,15 +119,14 @@ struct ImagePair {
 
 class Sharpener {
  public:
-  explicit Sharpener(const CoarseSurface& surface)
-      : surface_(surface), normals_(NodeNormals(surface)), nearest_(surface.points) {}
+  explicit Sharpener(const MirrorSurface& surface) : surface_(surface) {}
 
   void FindPairs(const MirrorPlane& plane, const ThreadPool& pool) {
     const std::size_t stride = std::max<std::size_t>(1, surface_.points.size() / kSharpeners);
     pairs_.resize((surface_.points.size() + stride - 1) / stride);
     pool.ForChunks(pairs_.size(), kSharpenerChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        pairs_[i] = {i * stride, nearest_.At(ImageOf(surface_.points[i * stride], plane))};
+        pairs_[i] = {i * stride, surface_.nearest.At(ImageOf(surface_.points[i * stride], plane))};
       }
     });
   }
@@ -142,8 +139,8 @@ class Sharpener {
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
     for (const auto& [node, beside] : pairs_) {
       const Eigen::Vector3d& point = surface_.points[node];
-      const Eigen::Vector3d& own = normals_[node];
-      const Eigen::Vector3d& normal = normals_[beside];
+      const Eigen::Vector3d& own = surface_.normals[node];
+      const Eigen::Vector3d& normal = surface_.normals[beside];
       const double along = plane.normal.dot(normal);
       if (own.dot(normal) - 2.0 * along * plane.normal.dot(own) < kSameSideCosine) continue;
       const double off = normal.dot(ImageOf(point, plane) - surface_.points[beside]);
@@ -163,15 +160,19 @@ class Sharpener {
   }
 
  private:
-  const CoarseSurface& surface_;
-  std::vector<Eigen::Vector3d> normals_;
-  mesh::NearestVertex nearest_;
+  const MirrorSurface& surface_;
   std::vector<ImagePair> pairs_;
 };
 
 }  // namespace
 
-MirrorPlane SharpenedPlane(const MirrorPlane& plane, const CoarseSurface& surface,
+MirrorSurface::MirrorSurface(const CoarseSurface& surface)
+    : points(surface.points),
+      normals(NodeNormals(surface)),
+      areas(surface.areas),
+      nearest(points) {}
+
+MirrorPlane SharpenedPlane(const MirrorPlane& plane, const MirrorSurface& surface,
                            const ThreadPool& pool) {
   Sharpener sharpener(surface);
   MirrorPlane sharp = plane;

@@ -3,10 +3,13 @@
 #define CAPFIT_CORE_BODY_SYMMETRY_PLANE_H_
 
 #include <Eigen/Core>
+#include <span>
+#include <vector>
 
 #include "core/base/thread_pool.h"
 #include "core/body/coarse_surface.h"
 #include "core/body/rings.h"
+#include "core/mesh/nearest_vertex.h"
 
 namespace capfit::body {
 
@@ -21,10 +24,24 @@ struct MirrorPlane {
 // surface's area.
 [[nodiscard]] MirrorPlane SymmetryPlane(const Rings& rings);
 
+// The surface as a mirror image is laid beside it. Needs no plane yet, so that it can be made
+// beside the search for one.
+struct MirrorSurface {
+  // The surface's areas must outlive this, its points may move on. O(nodes).
+  explicit MirrorSurface(const CoarseSurface& surface);
+  MirrorSurface(const MirrorSurface&) = delete;
+  MirrorSurface& operator=(const MirrorSurface&) = delete;
+
+  std::vector<Eigen::Vector3d> points;  // of the nodes
+  std::vector<Eigen::Vector3d> normals;
+  std::span<const double> areas;
+  mesh::NearestVertex nearest;
+};
+
 // A plane a few millimetres or thousandths off, moved to where the surface mirrors itself best:
 // robust least squares over how far the image of each node lies before or behind the surface.
 // Whatever has no image (hair to one side, a limb in another pose) loses its say. O(nodes).
-[[nodiscard]] MirrorPlane SharpenedPlane(const MirrorPlane& plane, const CoarseSurface& surface,
+[[nodiscard]] MirrorPlane SharpenedPlane(const MirrorPlane& plane, const MirrorSurface& surface,
                                          const ThreadPool& pool);
 
 }  // namespace capfit::body

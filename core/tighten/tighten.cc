@@ -30,7 +30,7 @@ constexpr double kDepthOfInterest = 1.5;
 // Added curvature, in volumes per body size squared: keeps idle variables where they are.
 constexpr double kIdleCurvature = 1e-3;
 
-constexpr std::size_t kBlocksAtOnce = 32;
+constexpr std::size_t kBlocksAtOnce = 8;
 // Points this near to equally far out are taken in the caller's order, whatever rounding says.
 constexpr double kEqualM = 1e-6;
 // Cells do not begin where the coordinates of made meshes like to lie.

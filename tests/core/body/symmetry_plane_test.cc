@@ -44,7 +44,8 @@ double AngleTo(const MirrorPlane& a, const MirrorPlane& b) {
 
 TEST(SharpenedPlane, LiesWhereTheBodyMirrorsItself) {
   const Mirrored body = Nodes();
-  const MirrorPlane sharp = SharpenedPlane(Off(body.plane), body.surface, ThreadPool(1));
+  const MirrorPlane sharp =
+      SharpenedPlane(Off(body.plane), MirrorSurface(body.surface), ThreadPool(1));
   EXPECT_LT(AngleTo(sharp, body.plane), 3e-4);
   EXPECT_NEAR(sharp.offset, body.plane.offset, 2e-4);
 }
@@ -57,15 +58,18 @@ TEST(SharpenedPlane, WhatHasNoImageHasNoSay) {
     if (height > 0.0 && p.z() > 0.0) p += 0.04 * height * body.plane.normal + 0.02 * p;
   }
   const Mirrored whole = Nodes();
-  const MirrorPlane sharp = SharpenedPlane(Off(whole.plane), body.surface, ThreadPool(1));
+  const MirrorPlane sharp =
+      SharpenedPlane(Off(whole.plane), MirrorSurface(body.surface), ThreadPool(1));
   EXPECT_LT(AngleTo(sharp, whole.plane), 2e-3);
   EXPECT_NEAR(sharp.offset, whole.plane.offset, 1e-3);
 }
 
 TEST(SharpenedPlane, IsTheSameForAnyNumberOfThreads) {
   const Mirrored body = Nodes();
-  const MirrorPlane one = SharpenedPlane(Off(body.plane), body.surface, ThreadPool(1));
-  const MirrorPlane three = SharpenedPlane(Off(body.plane), body.surface, ThreadPool(3));
+  const MirrorPlane one =
+      SharpenedPlane(Off(body.plane), MirrorSurface(body.surface), ThreadPool(1));
+  const MirrorPlane three =
+      SharpenedPlane(Off(body.plane), MirrorSurface(body.surface), ThreadPool(3));
   EXPECT_EQ(one.normal, three.normal);
   EXPECT_EQ(one.offset, three.offset);
 }
