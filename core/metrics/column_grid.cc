@@ -31,10 +31,11 @@ void AddPiece(std::uint32_t column, const Interval& interval, std::int32_t begin
   pieces.push_back({column, {middle, interval.end}, end_label});
 }
 
-// The intervals between sorted crossings, of those with the triangles [begin, end).
+// The intervals between sorted crossings, of those with the triangles [begin, end); `beside` more
+// columns on either side of the crossings' own.
 RowIntervals Inside(const std::vector<mesh::ColumnCrossing>& crossings,
                     const std::vector<body::Part>& parts, std::size_t begin, std::size_t end,
-                    std::size_t columns) {
+                    std::size_t columns, std::size_t beside) {
   std::vector<RowIntervals::Piece> pieces;
   pieces.reserve(crossings.size());
   int winding = 0;
@@ -45,12 +46,13 @@ RowIntervals Inside(const std::vector<mesh::ColumnCrossing>& crossings,
     winding += crossing.turn;  // back at 0 after the last crossing of each column: closed surface
     if (before == 0) entered = &crossing;
     if (winding == 0) {
-      AddPiece(crossing.column, {entered->along, crossing.along},
+      AddPiece(crossing.column + static_cast<std::uint32_t>(beside),
+               {entered->along, crossing.along},
                static_cast<std::int32_t>(parts[entered->triangle]),
                static_cast<std::int32_t>(parts[crossing.triangle]), pieces);
     }
   }
-  return {pieces, columns};
+  return {pieces, columns + 2 * beside};
 }
 
 // Sorted and overlapping pieces become disjoint ones: each keeps what no piece before it holds.
@@ -93,6 +95,39 @@ ColumnGrid MakeColumnGrid(const Eigen::AlignedBox3d& box, int columns) {
   return grid;
 }
 
+std::optional<WiderGrid> Widen(const ColumnGrid& grid, const Eigen::AlignedBox3d& box) {
+  const auto cells = [](double length, double step) {
+    return std::max(0.0, std::ceil(length / step));
+  };
+  const double half = std::max(-box.min().x(), box.max().x());
+  const double beside = cells(half + grid.low_x, grid.step_x);
+  const double below = cells(grid.low_y - box.min().y(), grid.step_y);
+  const auto columns = static_cast<double>(grid.x.size());
+  const auto rows = static_cast<double>(grid.y.size());
+  const double above = cells(box.max().y() - grid.low_y - rows * grid.step_y, grid.step_y);
+  if (!(2.0 * beside <= columns && below + above <= rows)) return std::nullopt;
+  WiderGrid wider{grid, {static_cast<std::size_t>(beside), static_cast<std::size_t>(below)}};
+  wider.grid.low_x -= beside * grid.step_x;
+  wider.grid.low_y -= below * grid.step_y;
+  Random random(kColumnSeed + 1);
+  const auto place_in = [&](double low, double step, std::size_t cell) {
+    return low + (static_cast<double>(cell) + random.NextIn(0.5 - kJitter, 0.5 + kJitter)) * step;
+  };
+  std::vector<double> x(wider.margin.beside);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = place_in(wider.grid.low_x, grid.step_x, i);
+  wider.grid.x.insert(wider.grid.x.begin(), x.begin(), x.end());
+  for (auto p = x.rbegin(); p != x.rend(); ++p) wider.grid.x.push_back(-*p);
+  std::vector<double> y;
+  for (std::size_t j = 0; j < wider.margin.below; ++j) {
+    y.push_back(place_in(wider.grid.low_y, grid.step_y, j));
+  }
+  wider.grid.y.insert(wider.grid.y.begin(), y.begin(), y.end());
+  for (std::size_t j = 0; j < static_cast<std::size_t>(above); ++j) {
+    wider.grid.y.push_back(place_in(grid.low_y, grid.step_y, grid.y.size() + j));
+  }
+  return wider;
+}
+
 RowIntervals::RowIntervals(const std::vector<Piece>& pieces, std::size_t columns)
     : begin_(columns + 1, 0) {
   intervals_.reserve(pieces.size());
@@ -126,11 +161,14 @@ double CommonLength(std::span<const Interval> a, std::span<const Interval> b) {
   return length;
 }
 
-BodyRows::Cuts BodyRows::Cut(std::size_t row) const {
-  const std::vector<mesh::ColumnCrossing> crossings = caster_.Row(row);
+BodyRows::Cuts BodyRows::Cut(std::size_t row, const GridMargin& margin) const {
+  std::vector<mesh::ColumnCrossing> crossings;
+  if (row >= margin.below && row < margin.below + rows_) {
+    crossings = caster_.Row(row - margin.below);
+  }
   const std::vector<body::Part>& parts = surface_.parts;
-  Cuts cuts{Inside(crossings, parts, 0, surface_.skin_end, columns_),
-            Inside(crossings, parts, surface_.skin_begin, parts.size(), columns_)};
+  Cuts cuts{Inside(crossings, parts, 0, surface_.skin_end, columns_, margin.beside),
+            Inside(crossings, parts, surface_.skin_begin, parts.size(), columns_, margin.beside)};
   for (const mesh::ColumnCrossing& crossing : crossings) {
     if (crossing.triangle < surface_.skin_begin) continue;
     const auto part = static_cast<std::size_t>(parts[crossing.triangle]);

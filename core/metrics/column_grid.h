@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,22 @@ using mesh::ColumnGrid;
 // lies near the middle of its cell, a little off by chance, the same for a whole row or column of
 // them. `columns` is rounded up to an even number.
 [[nodiscard]] ColumnGrid MakeColumnGrid(const Eigen::AlignedBox3d& box, int columns);
+
+// Cells that a wider grid has around a grid's own.
+struct GridMargin {
+  std::size_t beside = 0;  // columns on either side
+  std::size_t below = 0;   // rows
+};
+
+struct WiderGrid {
+  ColumnGrid grid;
+  GridMargin margin;
+};
+
+// The grid, with as many more cells of its size around it as `box` takes: what its own columns have
+// met still holds. Nothing where either axis would get more than twice its cells.
+[[nodiscard]] std::optional<WiderGrid> Widen(const ColumnGrid& grid,
+                                             const Eigen::AlignedBox3d& box);
 
 // What one row of columns runs through: disjoint intervals of z, rising, for each column. Each has
 // a label; where it changes within a body or a set, two intervals abut.
@@ -60,6 +77,7 @@ class BodyRows {
   BodyRows(const FittedSurface& surface, const ColumnGrid& grid, const ThreadPool& pool)
       : surface_(surface),
         columns_(grid.x.size()),
+        rows_(grid.y.size()),
         caster_(surface.points_m, surface.triangles, grid, {0, 1, 2}, pool) {}
 
   // Where the row's columns have a winding number other than 0. Each half of such an interval has
@@ -69,11 +87,13 @@ class BodyRows {
     RowIntervals fitted;
     PartNumbers fitted_flux{};  // as FittedSurface::flux, in lengths
   };
-  [[nodiscard]] Cuts Cut(std::size_t row) const;
+  // `row` and the columns of the result are those of the grid, or of one with a margin around it.
+  [[nodiscard]] Cuts Cut(std::size_t row, const GridMargin& margin = {}) const;
 
  private:
   const FittedSurface& surface_;
   std::size_t columns_;
+  std::size_t rows_;
   mesh::ColumnCaster caster_;
 };
 

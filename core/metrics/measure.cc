@@ -276,24 +276,26 @@ void PutSurface(const body::Body& body, const MeasureGround& ground,
   metrics.hausdorff = 100.0 * metrics.gap.max_m / diagonal_m;
 }
 
+tighten::PointGrid VerticesOf(const FittedSurface& fitted) {
+  std::vector<Eigen::Vector3d> points_m;
+  points_m.reserve(fitted.vertices.size());
+  for (const std::uint32_t v : fitted.vertices) points_m.push_back(fitted.points_m[v]);
+  return tighten::PointGrid(points_m);
+}
+
 }  // namespace
 
-MeasureGround MakeMeasureGround(const body::Body& body, const body::PartSelection& parts,
-                                const ThreadPool& pool, const FitObserver& observer) {
-  MeasureGround ground{MakeFittedSurface(body, parts, pool, observer)};
-  std::vector<Eigen::Vector3d> points_m;
-  points_m.reserve(ground.fitted.vertices.size());
-  for (const std::uint32_t v : ground.fitted.vertices)
-    points_m.push_back(ground.fitted.points_m[v]);
-  ground.vertices = tighten::PointGrid(points_m);
-  return ground;
-}
+MeasureGround::MeasureGround(const body::Body& body, const MeasureOptions& options,
+                             const ThreadPool& pool, const FitObserver& observer)
+    : fitted(MakeFittedSurface(body, options.parts, pool, observer)),
+      vertices(VerticesOf(fitted)),
+      columns(MakeColumnGrid({body.mesh.box_min(), body.mesh.box_max()}, options.columns)),
+      rows(fitted, columns, pool) {}
 
 Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                 const MeasureOptions& options, const ThreadPool& pool,
                 const FitObserver& observer) {
-  return Measure(body, MakeMeasureGround(body, options.parts, pool, observer), set, options, pool,
-                 observer);
+  return Measure(body, MeasureGround(body, options, pool, observer), set, options, pool, observer);
 }
 
 Metrics Measure(const body::Body& body, const MeasureGround& ground,
@@ -312,7 +314,7 @@ Metrics Measure(const body::Body& body, const MeasureGround& ground,
   pool.ForEach(has_gaps ? 2 : 1, [&](std::size_t which) {
     if (observer.IsCancelled()) return;
     if (which == 0) {
-      PutVolumes(MeasureVolumes(body.mesh, fitted, solids, PartsOfSolids(set), options.columns,
+      PutVolumes(MeasureVolumes({fitted, ground.columns, ground.rows}, solids, PartsOfSolids(set),
                                 pool, observer),
                  metrics);
     } else {

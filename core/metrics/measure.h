@@ -10,6 +10,7 @@
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/capsule/primitive_set.h"
+#include "core/metrics/column_grid.h"
 #include "core/metrics/fitted_surface.h"
 #include "core/tighten/point_grid.h"
 
@@ -75,14 +76,17 @@ struct Metrics {
 
 // What measuring takes from the body alone: made once for several sets, and before there is one.
 struct MeasureGround {
-  FittedSurface fitted;
-  tighten::PointGrid vertices{{}};  // those of `fitted`
-};
+  // O(n). Not whole where the observer cancels.
+  MeasureGround(const body::Body& body, const MeasureOptions& options, const ThreadPool& pool,
+                const FitObserver& observer);
+  MeasureGround(const MeasureGround&) = delete;
+  MeasureGround& operator=(const MeasureGround&) = delete;
 
-// O(n). Not whole where the observer cancels.
-[[nodiscard]] MeasureGround MakeMeasureGround(const body::Body& body,
-                                              const body::PartSelection& parts,
-                                              const ThreadPool& pool, const FitObserver& observer);
+  FittedSurface fitted;
+  tighten::PointGrid vertices;  // those of `fitted`
+  ColumnGrid columns;           // over the body's box
+  BodyRows rows;                // of `fitted` on `columns`
+};
 
 // All but max_gap_m, which coverage proves. With nothing to measure (no part of the body selected,
 // or no primitive) only n_p and the volumes that still mean something are set. Deterministic:
@@ -93,7 +97,7 @@ struct MeasureGround {
 [[nodiscard]] Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                               const MeasureOptions& options, const ThreadPool& pool,
                               const FitObserver& observer);
-// The same; `ground`: of this body and options.parts.
+// The same; `ground`: of this body, options.parts and options.columns.
 [[nodiscard]] Metrics Measure(const body::Body& body, const MeasureGround& ground,
                               const capsule::PrimitiveSet& set, const MeasureOptions& options,
                               const ThreadPool& pool, const FitObserver& observer);

@@ -48,21 +48,27 @@ std::vector<SolidParts> PartsOfSolids(const capsule::PrimitiveSet& set) {
   return parts;
 }
 
-Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
-                       std::span<const geometry::TaperedCapsule> solids,
-                       std::span<const SolidParts> solid_parts, int columns, const ThreadPool& pool,
+Volumes MeasureVolumes(const CutBody& body, std::span<const geometry::TaperedCapsule> solids,
+                       std::span<const SolidParts> solid_parts, const ThreadPool& pool,
                        const FitObserver& observer) {
-  Eigen::AlignedBox3d box(mesh.box_min(), mesh.box_max());
+  const FittedSurface& fitted = body.fitted;
+  Eigen::AlignedBox3d box;
   for (const geometry::TaperedCapsule& solid : solids) box.extend(BoxOf(solid));
-  const ColumnGrid grid = MakeColumnGrid(box, columns);
-  const BodyRows body_rows(fitted, grid, pool);
+  const std::optional<WiderGrid> wider = Widen(body.grid, box);
+  if (!wider) {
+    for (const Eigen::Vector3d& p : fitted.points_m) box.extend(p);
+    const ColumnGrid all = MakeColumnGrid(box, static_cast<int>(body.grid.x.size()));
+    return MeasureVolumes({fitted, all, BodyRows(fitted, all, pool)}, solids, solid_parts, pool,
+                          observer);
+  }
+  const ColumnGrid& grid = wider->grid;
   const SolidRows solid_rows(solids, grid);
   const PartLengths lengths(fitted.has_part, solids, solid_parts, grid);
 
   std::vector<Volumes> by_row(grid.y.size());
   pool.ForChunks(grid.y.size(), kRowsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end && !observer.IsCancelled(); ++row) {
-      by_row[row] = lengths.OfRow(row, body_rows.Cut(row), solid_rows.Cut(row));
+      by_row[row] = lengths.OfRow(row, body.rows.Cut(row, wider->margin), solid_rows.Cut(row));
     }
   });
   const PartNumbers exact_flux = lengths.ByHome(fitted.flux);

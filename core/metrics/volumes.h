@@ -10,7 +10,7 @@
 #include "core/body/anatomy.h"
 #include "core/capsule/primitive_set.h"
 #include "core/geometry/tapered_capsule.h"
-#include "core/mesh/body_mesh.h"
+#include "core/metrics/column_grid.h"
 #include "core/metrics/fitted_surface.h"
 
 namespace capfit::metrics {
@@ -42,12 +42,19 @@ struct Volumes {
 using SolidParts = std::array<body::Part, 2>;
 [[nodiscard]] std::vector<SolidParts> PartsOfSolids(const capsule::PrimitiveSet& set);
 
-// `columns` x `columns` columns along z over everything. `fitted` is exact, but for how columns
-// through two parts are shared out. Rows in parallel, added up in order; none where the observer
-// cancels.
-[[nodiscard]] Volumes MeasureVolumes(const mesh::BodyMesh& mesh, const FittedSurface& fitted,
+// The body and the fitted surface, and the columns along z that cover them.
+struct CutBody {
+  const FittedSurface& fitted;
+  const ColumnGrid& grid;
+  const BodyRows& rows;  // of `fitted` on `grid`
+};
+
+// On the body's columns and as many more as the solids take; where they are much larger than the
+// body, on as many over everything. `fitted` is exact, but for how columns through two parts are
+// shared out. Rows in parallel, added up in order; none where the observer cancels.
+[[nodiscard]] Volumes MeasureVolumes(const CutBody& body,
                                      std::span<const geometry::TaperedCapsule> solids,
-                                     std::span<const SolidParts> solid_parts, int columns,
+                                     std::span<const SolidParts> solid_parts,
                                      const ThreadPool& pool, const FitObserver& observer);
 
 }  // namespace capfit::metrics

@@ -102,7 +102,7 @@ class BodyFit {
       cover_ground_ = coverage::MakeCoverGround(target_, body_->is_symmetric,
                                                 CoverOptionsFor(HasShape()), pool_);
     }
-    measure_ground_ = metrics::MakeMeasureGround(*body_, options_.parts, pool_, clock_);
+    measure_ground_.emplace(*body_, ToMeasure(), pool_, clock_);
   }
 
   // Capsules that share no spheres cost more than the budget of capsules tells, where there are
@@ -275,12 +275,15 @@ class BodyFit {
                                cover_ground_ ? &*cover_ground_ : nullptr);
   }
 
-  absl::Status Measure() {
-    clock_.Begin(Stage::kMetrics);
+  metrics::MeasureOptions ToMeasure() const {
     metrics::MeasureOptions measure_options;
     measure_options.parts = options_.parts;
-    result_.metrics =
-        metrics::Measure(*body_, measure_ground_, set_, measure_options, pool_, clock_);
+    return measure_options;
+  }
+
+  absl::Status Measure() {
+    clock_.Begin(Stage::kMetrics);
+    result_.metrics = metrics::Measure(*body_, *measure_ground_, set_, ToMeasure(), pool_, clock_);
     result_.metrics.max_gap_m = max_gap_m_;
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
     if (options_.want_vertex_gaps) {
@@ -352,7 +355,7 @@ class BodyFit {
   geometry::Similarity caller_from_body_;
   tighten::CoverTarget target_;
   std::optional<coverage::CoverGround> cover_ground_;
-  metrics::MeasureGround measure_ground_;
+  std::optional<metrics::MeasureGround> measure_ground_;
   capsule::PrimitiveSet set_;
   // The published method's, beside set_: the smaller one is taken, once both cover.
   std::optional<capsule::PrimitiveSet> papers_;

@@ -71,6 +71,58 @@ TEST(ColumnGridTest, FindsTheFirstColumnAtOrAfterAPlace) {
   }
 }
 
+TEST(WidenTest, AddsCellsAroundThoseThatStay) {
+  const ColumnGrid grid = MakeColumnGrid({Vector3d(-1, 0, 0), Vector3d(1, 2, 1)}, 20);
+  const auto wider = Widen(grid, {Vector3d(-0.5, -0.25, -5), Vector3d(1.35, 2.4, 5)});
+  ASSERT_TRUE(wider.has_value());
+  EXPECT_EQ(wider->margin.beside, 4u);  // of 0.1
+  EXPECT_EQ(wider->margin.below, 3u);
+  ASSERT_EQ(wider->grid.x.size(), 28u);
+  ASSERT_EQ(wider->grid.y.size(), 27u);
+  EXPECT_DOUBLE_EQ(wider->grid.cell_area(), grid.cell_area());
+  EXPECT_TRUE(std::equal(grid.x.begin(), grid.x.end(), wider->grid.x.begin() + 4));
+  EXPECT_TRUE(std::equal(grid.y.begin(), grid.y.end(), wider->grid.y.begin() + 3));
+  for (std::size_t i = 0; i < 28; ++i) {
+    EXPECT_EQ(wider->grid.x[i], -wider->grid.x[27 - i]);
+    EXPECT_NEAR(wider->grid.x[i], -1.35 + 0.1 * static_cast<double>(i), 0.0051);
+    EXPECT_EQ(wider->grid.FirstColumn(wider->grid.x[i]), i);
+  }
+  for (std::size_t j = 0; j < 27; ++j) {
+    EXPECT_NEAR(wider->grid.y[j], -0.25 + 0.1 * static_cast<double>(j), 0.0051);
+    EXPECT_EQ(wider->grid.FirstRow(wider->grid.y[j]), j);
+  }
+}
+
+TEST(WidenTest, ABoxWithinTakesNoMoreAndOneFarBeyondIsRefused) {
+  const ColumnGrid grid = MakeColumnGrid({Vector3d(-1, 0, 0), Vector3d(1, 2, 1)}, 20);
+  const auto same = Widen(grid, {Vector3d(-0.9, 0.1, 0), Vector3d(0.5, 1.9, 1)});
+  ASSERT_TRUE(same.has_value());
+  EXPECT_EQ(same->grid.x, grid.x);
+  EXPECT_EQ(same->grid.y, grid.y);
+  EXPECT_FALSE(Widen(grid, {Vector3d(-0.9, 0.1, 0), Vector3d(2.2, 1.9, 1)}).has_value());
+  EXPECT_FALSE(Widen(grid, {Vector3d(-0.9, -1.5, 0), Vector3d(0.5, 3.5, 1)}).has_value());
+  EXPECT_FALSE(Widen(grid, {Vector3d(-1e300, 0, 0), Vector3d(1, 2, 1)}).has_value());
+}
+
+TEST(BodyRowsTest, AMarginShiftsWhatTheColumnsMeet) {
+  const mesh::BodyMesh mesh = test_shapes::Bracket();
+  const ColumnGrid grid = GridOver(mesh, 24);
+  const FittedSurface surface = SurfaceOf(mesh);
+  const BodyRows rows(surface, grid, SerialPool());
+  const GridMargin margin{5, 3};
+  for (std::size_t row = 0; row < grid.y.size() + 8; ++row) {
+    const RowIntervals shifted = rows.Cut(row, margin).body;
+    const bool is_own = row >= 3 && row < 3 + grid.y.size();
+    const RowIntervals own = is_own ? rows.Cut(row - 3).body : RowIntervals({}, grid.x.size());
+    EXPECT_EQ(shifted.Length(), own.Length());
+    for (std::size_t i = 0; i < grid.x.size(); ++i) {
+      ASSERT_EQ(shifted.Column(i + 5).size(), own.Column(i).size());
+    }
+    EXPECT_TRUE(shifted.Column(4).empty());
+    EXPECT_TRUE(shifted.Column(5 + grid.x.size()).empty());
+  }
+}
+
 TEST(CommonLengthTest, AddsUpWhatIsInBoth) {
   const std::vector<Interval> a = {{0, 2}, {3, 5}, {8, 9}};
   const std::vector<Interval> b = {{1, 4}, {4.5, 8.5}};

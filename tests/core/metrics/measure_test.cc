@@ -93,6 +93,21 @@ TEST(MeasureTest, BallAroundACube) {
   EXPECT_NEAR(m.iou, 1 / BallVolume(0.9), 1e-3);
 }
 
+// The columns are laid over the body before there is a set; far from it there are as many for all.
+TEST(MeasureTest, WhatLiesBesideOrFarFromTheBodyCountsInFull) {
+  struct Case {
+    Sphere beside;
+    double accuracy;
+  };
+  for (const auto& [beside, accuracy] :
+       {Case{{{0.75, 0.7, 0}, 0.15}, 3e-4}, Case{{{-0.2, -0.8, 1}, 0.25}, 3e-4},
+        Case{{{3, 0, 0}, 0.45}, 0.01}, Case{{{-0.2, -5, 0.3}, 0.45}, 0.01}}) {
+    const Metrics m = MeasureAll(BodyOf(UnitCube()), SetOf({{{0, 0, 0}, 0.4}, beside}));
+    EXPECT_NEAR(m.outside, BallVolume(beside.radius_m), accuracy) << beside.center_m.transpose();
+    EXPECT_NEAR(m.uncovered, 1 - BallVolume(0.4), accuracy) << beside.center_m.transpose();
+  }
+}
+
 TEST(MeasureTest, CapsuleAroundACapsule) {
   const Sphere a{{-0.5, 0.2, 0}, 0.2};
   const Sphere b{{0.5, 1.0, 0.1}, 0.35};
