@@ -210,7 +210,7 @@ IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy, const CoarseSurface& 
   const std::span<const Eigen::Vector3d> points = coarse.points;
   const std::vector<char> is_limb = LimbMask(points.size(), extremities);
   const Rings rings = RingsOf(points, coarse.areas, extremities, is_limb);
-  MirrorPlane plane = SymmetryPlane(rings);
+  MirrorPlane plane = SymmetryPlane(rings, pool);
   if (mirror != nullptr) plane = SharpenedPlane(plane, *mirror, pool);
   IntrinsicFrame frame;
   const Eigen::Vector3d trunk = TrunkAxis(rings, rig);

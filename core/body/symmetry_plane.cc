@@ -4,8 +4,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace capfit::body {
@@ -132,12 +134,38 @@ class Sharpener {
   }
 
   // A step of Gauss and Newton: two turns of the plane's normal, and its offset.
-  [[nodiscard]] MirrorPlane Step(const MirrorPlane& plane, double tolerance) const {
+  [[nodiscard]] MirrorPlane Step(const MirrorPlane& plane, double tolerance,
+                                 const ThreadPool& pool) const {
     const Eigen::Vector3d first = plane.normal.unitOrthogonal();
     const Eigen::Vector3d second = plane.normal.cross(first);
+    std::vector<Slopes> parts((pairs_.size() + kSharpenerChunk - 1) / kSharpenerChunk);
+    pool.ForChunks(pairs_.size(), kSharpenerChunk, [&](std::size_t begin, std::size_t end) {
+      parts[begin / kSharpenerChunk] = SlopesOf(std::span(pairs_).subspan(begin, end - begin),
+                                                plane, {first, second}, tolerance);
+    });
+    Slopes sum;
+    for (const Slopes& part : parts) {
+      sum.matrix += part.matrix;
+      sum.gradient += part.gradient;
+    }
+    const Eigen::Vector3d change = -sum.matrix.ldlt().solve(sum.gradient);
+    if (!change.allFinite()) return plane;
+    return {(plane.normal + change[0] * first + change[1] * second).normalized(),
+            plane.offset + change[2]};
+  }
+
+ private:
+  struct Slopes {
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-    for (const auto& [node, beside] : pairs_) {
+  };
+
+  [[nodiscard]] Slopes SlopesOf(std::span<const ImagePair> pairs, const MirrorPlane& plane,
+                                const std::array<Eigen::Vector3d, 2>& turns,
+                                double tolerance) const {
+    const auto& [first, second] = turns;
+    Slopes sum;
+    for (const auto& [node, beside] : pairs) {
       const Eigen::Vector3d& point = surface_.points[node];
       const Eigen::Vector3d& own = surface_.normals[node];
       const Eigen::Vector3d& normal = surface_.normals[beside];
@@ -150,16 +178,12 @@ class Sharpener {
       const Eigen::Vector3d slope(-2.0 * (first.dot(point) * along + height * normal.dot(first)),
                                   -2.0 * (second.dot(point) * along + height * normal.dot(second)),
                                   2.0 * along);
-      matrix += weight * slope * slope.transpose();
-      gradient += weight * off * slope;
+      sum.matrix += weight * slope * slope.transpose();
+      sum.gradient += weight * off * slope;
     }
-    const Eigen::Vector3d change = -matrix.ldlt().solve(gradient);
-    if (!change.allFinite()) return plane;
-    return {(plane.normal + change[0] * first + change[1] * second).normalized(),
-            plane.offset + change[2]};
+    return sum;
   }
 
- private:
   const MirrorSurface& surface_;
   std::vector<ImagePair> pairs_;
 };
@@ -180,7 +204,7 @@ MirrorPlane SharpenedPlane(const MirrorPlane& plane, const MirrorSurface& surfac
   for (int i = 0; i < kSharpenings; ++i) {
     // What lies beside an image hardly changes once the plane is near.
     if (i % (kSharpenings / 2) == 0) sharpener.FindPairs(sharp, pool);
-    sharp = sharpener.Step(sharp, tolerance);
+    sharp = sharpener.Step(sharp, tolerance, pool);
     tolerance = std::max(0.5 * tolerance, kLastOffSurface);
   }
   return sharp;
@@ -188,7 +212,7 @@ MirrorPlane SharpenedPlane(const MirrorPlane& plane, const MirrorSurface& surfac
 
 // The best of several starts: everything; the legs; the arms; the roots of the limbs, which stay
 // put when a body walks or waves.
-MirrorPlane SymmetryPlane(const Rings& rings) {
+MirrorPlane SymmetryPlane(const Rings& rings, const ThreadPool& pool) {
   std::vector<MirrorPair> legs, arms, roots, all;
   AddPairs(rings, Tip::kFootA, Tip::kFootB, kLevels, legs);
   AddPairs(rings, Tip::kHandA, Tip::kHandB, kLevels, arms);
@@ -202,17 +226,19 @@ MirrorPlane SymmetryPlane(const Rings& rings) {
       all.push_back({c, c, kSelfPairWeight});
     }
   }
-  MirrorPlane best;
-  double best_cost = std::numeric_limits<double>::infinity();
-  for (const std::vector<MirrorPair>* start : {&all, &legs, &arms, &roots}) {
-    if (start->empty()) continue;
-    const MirrorPlane plane = FitMirrorRobustly(FitMirror(*start), all);
-    const double cost = RobustCost(plane, all, kMirrorTolerance);
-    if (cost >= best_cost) continue;
-    best_cost = cost;
-    best = plane;
-  }
-  return best;
+  struct Found {
+    MirrorPlane plane;
+    double cost = std::numeric_limits<double>::infinity();
+  };
+  const std::array<const std::vector<MirrorPair>*, 4> starts = {&all, &legs, &arms, &roots};
+  std::array<Found, 4> found;
+  pool.ForEach(starts.size(), [&](std::size_t i) {
+    if (starts[i]->empty()) return;
+    const MirrorPlane plane = FitMirrorRobustly(FitMirror(*starts[i]), all);
+    found[i] = {plane, RobustCost(plane, all, kMirrorTolerance)};
+  });
+  const auto is_better = [](const Found& a, const Found& b) { return a.cost < b.cost; };
+  return std::min_element(found.begin(), found.end(), is_better)->plane;
 }
 
 }  // namespace capfit::body

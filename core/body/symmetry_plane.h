@@ -22,7 +22,7 @@ struct MirrorPlane {
 // Robust least squares over what mirrors what: rings of left and right limbs, rings of trunk and
 // head onto themselves. Limbs in different poses lose their say. In units of the square root of the
 // surface's area.
-[[nodiscard]] MirrorPlane SymmetryPlane(const Rings& rings);
+[[nodiscard]] MirrorPlane SymmetryPlane(const Rings& rings, const ThreadPool& pool);
 
 // The surface as a mirror image is laid beside it. Needs no plane yet, so that it can be made
 // beside the search for one.
