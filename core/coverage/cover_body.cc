@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/chunk_sums.h"
 #include "core/capsule/capsule_profile.h"
 #include "core/coverage/grow.h"
 #include "core/coverage/surface_probe.h"
@@ -37,13 +38,12 @@ constexpr double kRowSpacing = 0.025;
 // start, each sphere is caught in the circle it came with. A programme's optimum is no better to go
 // to than a point of its central path, which costs half as much and follows the points smoothly. A
 // point less central wins nothing; a more central one costs E_r (5 % at 250 primitives with 1e-3).
-constexpr tighten::TightenPhase kThoroughLoosening{
-    .steps = 24,
-    .first_trust = 0.012,
-    .last_trust = 0.003,
-    .first_penalty = 1.2,
-    .last_penalty = 12.0,
-    .solve_to = {.centrality = 1e-4}};
+constexpr tighten::TightenPhase kThoroughLoosening{.steps = 24,
+                                                   .first_trust = 0.012,
+                                                   .last_trust = 0.003,
+                                                   .first_penalty = 1.2,
+                                                   .last_penalty = 12.0,
+                                                   .solve_to = {.centrality = 1e-4}};
 // Ten steps lead nearly as far when the first ones may be twice as long: 2 to 7 % more E_r. Longer
 // ones win a per cent more, but follow the points less smoothly: of 160 made bodies whose vertices
 // moved by rounding alone 118 to 126 kept their spheres to a hundredth of a millimetre in place of
@@ -119,7 +119,7 @@ class Coverer {
     if (options_.keeps_swallowed) ShowSwallowed();
     report_.max_vertex_distance_m = MaxVertexDistance();
     report_.volume_m3 = Volume();
-    report_.certified_gap_m = CertifiedGap(target_, AtVertices(), capsule::Solids(set_),
+    report_.certified_gap_m = CertifiedGap(target_, AtVertices(), capsule::Solids(set_), KnownGap(),
                                            0.05 * options_.max_gap_m, pool_);
     // Growing ends with a proof for every triangle, which may be sharper by the tolerance.
     report_.certified_gap_m = std::min(report_.certified_gap_m, MaxGap());
@@ -240,13 +240,25 @@ class Coverer {
     if (IsMeasured()) return at_vertices_;
     measured_ = set_.spheres;
     at_points_ = ground_.points.DistancesTo(capsule::Solids(set_), -ground_.size_m, pool_);
-    at_vertices_ = InCallersOrder(ground_.points, at_points_);
-    for (std::size_t i = 0; i < at_vertices_.solid.size(); ++i) {
-      if (target_.points_m[i].x() >= 0.0) continue;
-      std::int32_t& solid = at_vertices_.solid[i];
-      solid = static_cast<std::int32_t>(variables_.image_of_solid(static_cast<std::size_t>(solid)));
-    }
+    at_vertices_ = InCallersOrder(ground_.points, at_points_, pool_);
+    pool_.ForChunks(at_vertices_.solid.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (target_.points_m[i].x() >= 0.0) continue;
+        std::int32_t& solid = at_vertices_.solid[i];
+        solid =
+            static_cast<std::int32_t>(variables_.image_of_solid(static_cast<std::size_t>(solid)));
+      }
+    });
     return at_vertices_;
+  }
+
+  // How far the points between vertices that had to be asked for still stick out.
+  double KnownGap() const {
+    const tighten::UnionDistances at =
+        tighten::PointGrid(between_).DistancesTo(capsule::Solids(set_), 0.0, pool_);
+    double gap = 0.0;
+    for (const double distance : at.distance_m) gap = std::max(gap, distance - kGridAccuracyM);
+    return gap;
   }
 
   // Vertices first, then what lies between them. Solids only grow here: no point is met twice, what

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/chunk_sums.h"
+
 namespace capfit::coverage {
 namespace {
 
@@ -210,13 +212,16 @@ double GapOf(const TriangleProbe& probe, double tolerance_m) {
 }  // namespace
 
 tighten::UnionDistances InCallersOrder(const tighten::PointGrid& points,
-                                       const tighten::UnionDistances& distances) {
+                                       const tighten::UnionDistances& distances,
+                                       const ThreadPool& pool) {
   tighten::UnionDistances sorted{std::vector<double>(points.size()),
                                  std::vector<std::int32_t>(points.size())};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    sorted.distance_m[points.order()[i]] = distances.distance_m[i];
-    sorted.solid[points.order()[i]] = distances.solid[i];
-  }
+  pool.ForChunks(points.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      sorted.distance_m[points.order()[i]] = distances.distance_m[i];
+      sorted.solid[points.order()[i]] = distances.solid[i];
+    }
+  });
   return sorted;
 }
 
@@ -249,14 +254,14 @@ double CertifiedGap(const tighten::CoverTarget& target, const capsule::Primitive
   if (solids.empty()) return std::numeric_limits<double>::infinity();
   const tighten::PointGrid grid(target.points_m);
   const tighten::UnionDistances at_vertices = InCallersOrder(
-      grid, grid.DistancesTo(solids, -std::numeric_limits<double>::infinity(), pool));
-  return CertifiedGap(target, at_vertices, solids, tolerance_m, pool);
+      grid, grid.DistancesTo(solids, -std::numeric_limits<double>::infinity(), pool), pool);
+  return CertifiedGap(target, at_vertices, solids, 0.0, tolerance_m, pool);
 }
 
 double CertifiedGap(const tighten::CoverTarget& target, const tighten::UnionDistances& at_vertices,
-                    const std::vector<TaperedCapsule>& solids, double tolerance_m,
-                    const ThreadPool& pool) {
-  double gap = 0.0;
+                    const std::vector<TaperedCapsule>& solids, double at_least_m,
+                    double tolerance_m, const ThreadPool& pool) {
+  double gap = std::max(0.0, at_least_m);
   for (std::size_t v = 0; v < target.points_m.size(); ++v) {
     if (at_vertices.distance_m[v] <= -kGridAccuracy) continue;
     gap = std::max(gap, solids[static_cast<std::size_t>(at_vertices.solid[v])].SignedDistance(
@@ -264,12 +269,12 @@ double CertifiedGap(const tighten::CoverTarget& target, const tighten::UnionDist
   }
   const std::size_t count = target.triangles.size();
   std::vector<double> gaps((count + kChunk - 1) / kChunk, gap);
-  const double at_least = std::max(tolerance_m, 1e-7);
+  const double tolerance = std::max(tolerance_m, 1e-7);
   pool.ForChunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
     double& most = gaps[begin / kChunk];
     for (std::size_t i = begin; i < end; ++i) {
       if (IsPlainlyNear(target, i, at_vertices, solids, most)) continue;
-      most = std::max(most, GapOf(TriangleProbe(CornersOf(target, i), solids), at_least));
+      most = std::max(most, GapOf(TriangleProbe(CornersOf(target, i), solids), tolerance));
     }
   });
   for (const double most : gaps) gap = std::max(gap, most);

@@ -41,14 +41,17 @@ struct Unproved {
                                          double asked_m, double max_gap_m, const ThreadPool& pool);
 
 // The CertifiedGap of cover_body.h where the distances of the target's points are known already.
+// The more of the gap is known as well (`at_least_m`: the triangles stick out as far somewhere),
+// the fewer triangles have to be looked at closely.
 [[nodiscard]] double CertifiedGap(const tighten::CoverTarget& target,
                                   const tighten::UnionDistances& at_vertices,
                                   const std::vector<geometry::TaperedCapsule>& solids,
-                                  double tolerance_m, const ThreadPool& pool);
+                                  double at_least_m, double tolerance_m, const ThreadPool& pool);
 
 // Distances of the target's points by the target's index.
 [[nodiscard]] tighten::UnionDistances InCallersOrder(const tighten::PointGrid& points,
-                                                     const tighten::UnionDistances& distances);
+                                                     const tighten::UnionDistances& distances,
+                                                     const ThreadPool& pool);
 
 }  // namespace capfit::coverage
 

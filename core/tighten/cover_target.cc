@@ -14,6 +14,9 @@ CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts) {
   CoverTarget target;
   const body::EnclosedSurface surface = body.enclosed();
   std::vector<std::uint32_t> new_index(surface.vertices_m.size(), kLeftOut);
+  target.points_m.reserve(new_index.size());
+  target.vertices.reserve(new_index.size());
+  target.triangles.reserve(surface.triangles.size());
   for (std::size_t v = 0; v < new_index.size(); ++v) {
     const body::Part part = body::PartOf(surface.vertex_segments[v]);
     if (!parts.Includes(part)) continue;

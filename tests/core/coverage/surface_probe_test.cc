@@ -36,7 +36,8 @@ Unproved FindUnproved(const tighten::CoverTarget& target, const capsule::Primiti
                       double asked_m, double max_gap_m) {
   const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set);
   const tighten::PointGrid grid(target.points_m);
-  const tighten::UnionDistances at = InCallersOrder(grid, grid.DistancesTo(solids, -1.0, Alone()));
+  const tighten::UnionDistances at =
+      InCallersOrder(grid, grid.DistancesTo(solids, -1.0, Alone()), Alone());
   return FindPointsOutside(target, at, solids, asked_m, max_gap_m, Alone());
 }
 
@@ -128,7 +129,7 @@ TEST(SurfaceProbeTest, CallersOrderIsThatOfThePoints) {
   const Tent tent(0.3);
   const tighten::PointGrid grid(points);
   const tighten::UnionDistances at =
-      InCallersOrder(grid, grid.DistancesTo(capsule::Solids(tent.set), -9.0, Alone()));
+      InCallersOrder(grid, grid.DistancesTo(capsule::Solids(tent.set), -9.0, Alone()), Alone());
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR(at.distance_m[i], tighten::DistanceToUnion(tent.set, points[i]), 2e-6);
   }
