@@ -59,8 +59,8 @@ class BodyFit {
       }
     }
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
-    CAPFIT_RETURN_IF_ERROR(BuildBesideGround());
-    CAPFIT_RETURN_IF_ERROR(Cover());
+    CAPFIT_RETURN_IF_ERROR(Beside([this] { LayCoverGround(); }, [this] { return Build(); }));
+    CAPFIT_RETURN_IF_ERROR(Beside([this] { LayMeasureGround(); }, [this] { return Cover(); }));
     if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverMotion(soup));
     CAPFIT_RETURN_IF_ERROR(Measure());
     CAPFIT_RETURN_IF_ERROR(Bind(soup));
@@ -86,28 +86,29 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
-  // What coverage and metrics take from the body alone is made while the set is looked for: that
-  // search does not keep all threads busy all the time.
-  absl::Status BuildBesideGround() {
-    absl::Status built;
+  // What a later stage takes from the body alone is made beside an earlier one that does not keep
+  // all threads busy all the time.
+  template <typename LayGround, typename Work>
+  absl::Status Beside(const LayGround& lay_ground, const Work& work) const {
+    absl::Status status;
     pool_.ForEach(2, [&](std::size_t half) {
-      if (half == 0) built = BuildWithinLimits();
-      if (half == 1) LayGround();
+      if (half == 0) status = work();
+      if (half == 1) lay_ground();
     });
-    return built;
+    return status;
   }
 
-  void LayGround() {
-    if (options_.fit == FitMode::kEnclose && !target_.points_m.empty()) {
-      cover_ground_ = coverage::MakeCoverGround(target_, body_->is_symmetric,
-                                                CoverOptionsFor(HasShape()), pool_);
-    }
-    measure_ground_.emplace(*body_, ToMeasure(), pool_, clock_);
+  void LayCoverGround() {
+    if (options_.fit != FitMode::kEnclose || target_.points_m.empty()) return;
+    cover_ground_ =
+        coverage::MakeCoverGround(target_, body_->is_symmetric, CoverOptionsFor(HasShape()), pool_);
   }
+
+  void LayMeasureGround() { measure_ground_.emplace(*body_, ToMeasure(), pool_, clock_); }
 
   // Capsules that share no spheres cost more than the budget of capsules tells, where there are
   // spheres without a capsule beside them: then again with fewer.
-  absl::Status BuildWithinLimits() {
+  absl::Status Build() {
     if (options_.layout) return KeepLayout();
     const std::size_t warnings = result_.warnings.size();
     for (;;) {
