@@ -241,8 +241,10 @@ absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
     if (shape.arms[side]) FindElbow(shape, side, landmarks);
   }
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
-  FindNeck(shape, landmarks);
-  FindTrunkSections(shape, landmarks);
+  shape.pool->ForEach(2, [&](std::size_t place) {  // neither needs what the other finds
+    if (place == 0) FindTrunkSections(shape, landmarks);
+    if (place == 1) FindNeck(shape, landmarks);
+  });
   return absl::OkStatus();
 }
 

@@ -116,17 +116,17 @@ class MeshMender {
     BodyMesh mesh(positions_, std::move(surface_.triangles), std::move(themselves),
                   std::move(mates.mate), pool_);
     diagonal_ = mesh.diagonal();
-    bool is_fine = false;
+    bool is_one = false;
+    bool has_flat = false;
     Overlap overlap;
-    pool_.ForEach(2, [&](std::size_t check) {
-      if (check == 0) overlap = MeasureOverlap(mesh);
-      if (check == 1) {
-        is_fine = mesh.volume() > LeastVolume() &&
-                  IsOneSurface(mesh.triangles(), mesh.mates(), positions_.size(), pool_) &&
-                  !HasFlat(mesh.triangles());
-      }
+    pool_.ForEach(3, [&](std::size_t check) {
+      if (check == 0)
+        is_one = IsOneSurface(mesh.triangles(), mesh.mates(), positions_.size(), pool_);
+      if (check == 1) overlap = MeasureOverlap(mesh);
+      if (check == 2) has_flat = HasFlat(mesh.triangles());
     });
-    if (is_fine) return Finish(std::move(mesh), overlap);
+    if (is_one && !has_flat && mesh.volume() > LeastVolume())
+      return Finish(std::move(mesh), overlap);
     surface_.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
     mates.mate.assign(mesh.mates().begin(), mesh.mates().end());
     return std::nullopt;

@@ -75,7 +75,7 @@ class BodyFit {
     result_.body_from_caller = body_->body_from_caller;
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
     caller_from_body_ = body_->body_from_caller.Inverse();
-    target_ = tighten::TargetOf(*body_, options_.parts);
+    target_ = tighten::TargetOf(*body_, options_.parts, pool_);
     result_.effective_options = EffectiveOptions(asked_, body_->body_from_caller);
     result_.body = FactsOf(soup, *body_);
     result_.body.parts = std::move(taken.parts);

@@ -9,26 +9,31 @@
 
 namespace capfit::tighten {
 
-CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts) {
+CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts,
+                     const ThreadPool& pool) {
   constexpr std::uint32_t kLeftOut = std::numeric_limits<std::uint32_t>::max();
   CoverTarget target;
   const body::EnclosedSurface surface = body.enclosed();
   std::vector<std::uint32_t> new_index(surface.vertices_m.size(), kLeftOut);
-  target.points_m.reserve(new_index.size());
   target.vertices.reserve(new_index.size());
-  target.triangles.reserve(surface.triangles.size());
-  for (std::size_t v = 0; v < new_index.size(); ++v) {
-    const body::Part part = body::PartOf(surface.vertex_segments[v]);
-    if (!parts.Includes(part)) continue;
-    new_index[v] = static_cast<std::uint32_t>(target.points_m.size());
-    target.points_m.push_back(surface.vertices_m[v]);
-    target.vertices.push_back(static_cast<std::uint32_t>(v));
+  for (std::uint32_t v = 0; v < new_index.size(); ++v) {
+    if (!parts.Includes(body::PartOf(surface.vertex_segments[v]))) continue;
+    new_index[v] = static_cast<std::uint32_t>(target.vertices.size());
+    target.vertices.push_back(v);
   }
-  for (const mesh::Triangle& t : surface.triangles) {
-    const mesh::Triangle kept = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
-    if (kept[0] == kLeftOut || kept[1] == kLeftOut || kept[2] == kLeftOut) continue;
-    target.triangles.push_back(kept);
-  }
+  const auto put_points = [&] {
+    target.points_m.reserve(target.vertices.size());
+    for (const std::uint32_t v : target.vertices) target.points_m.push_back(surface.vertices_m[v]);
+  };
+  const auto put_triangles = [&] {
+    target.triangles.reserve(surface.triangles.size());
+    for (const mesh::Triangle& t : surface.triangles) {
+      const mesh::Triangle kept = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
+      if (kept[0] == kLeftOut || kept[1] == kLeftOut || kept[2] == kLeftOut) continue;
+      target.triangles.push_back(kept);
+    }
+  };
+  pool.ForEach(2, [&](std::size_t half) { half == 0 ? put_triangles() : put_points(); });
   return target;
 }
 

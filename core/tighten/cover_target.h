@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/body/body.h"
 
 namespace capfit::tighten {
@@ -18,7 +19,8 @@ struct CoverTarget {
 };
 
 // The vertices of the selected parts, and the triangles whose three corners are all among them.
-[[nodiscard]] CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts);
+[[nodiscard]] CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts,
+                                   const ThreadPool& pool = ThreadPool(1));
 
 // What lengths of tightening are relative to: the square root of the triangles' area, without
 // triangles the diagonal of the points' box. There must be a point.
