@@ -120,8 +120,9 @@ int EndBalls::Of(body::Part part) const {
   }
 }
 
-void AddEndBalls(const body::Body& body, const body::PartSelection& parts, const EndBalls& balls,
-                 PrimitiveSet& set) {
+PrimitiveSet MakeEndBalls(const body::Body& body, const body::PartSelection& parts,
+                          const EndBalls& balls) {
+  PrimitiveSet set;
   const PointsByPart points = GroupByPart(body);
   for (int index = body::kChainCount; index < body::kPartCount; ++index) {
     const body::Part part = static_cast<body::Part>(index);
@@ -135,6 +136,16 @@ void AddEndBalls(const body::Body& body, const body::PartSelection& parts, const
     } else if (part < body::MirrorPart(part)) {
       AddPairs(part, own, others, balls.Of(part), set);
     }
+  }
+  return set;
+}
+
+void AddBalls(const PrimitiveSet& balls, PrimitiveSet& set) {
+  const int before = static_cast<int>(set.spheres.size());
+  set.spheres.insert(set.spheres.end(), balls.spheres.begin(), balls.spheres.end());
+  for (SphereOrigin origin : balls.origins) {
+    if (origin.mirror >= 0) origin.mirror += before;
+    set.origins.push_back(origin);
   }
 }
 

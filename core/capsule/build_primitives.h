@@ -31,13 +31,16 @@ struct EndBalls {
   [[nodiscard]] int Of(body::Part part) const;  // 0 for chains
 };
 
-// Adds the smallest enclosing ball of each selected head, hand and foot that the body has, around
-// the vertices of that segment; where more than one is asked for (not in the paper), of stretches
-// of equal length of its longest extent, in order. On a symmetric body hands and feet are exact
-// images of each other, each around both sides' vertices, and the head's balls are centred.
+// A set of the smallest enclosing ball of each selected head, hand and foot that the body has,
+// around the vertices of that segment; where more than one is asked for (not in the paper), of
+// stretches of equal length of its longest extent, in order. On a symmetric body hands and feet are
+// exact images of each other, each around both sides' vertices, and the head's balls are centred.
 // O(vertices).
-void AddEndBalls(const body::Body& body, const body::PartSelection& parts, const EndBalls& balls,
-                 PrimitiveSet& set);
+[[nodiscard]] PrimitiveSet MakeEndBalls(const body::Body& body, const body::PartSelection& parts,
+                                        const EndBalls& balls);
+
+// Adds spheres, behind those of the set.
+void AddBalls(const PrimitiveSet& balls, PrimitiveSet& set);
 
 // One of `from` and one of `to`, indices of spheres: the first pair with the least gap between the
 // centre of the one and the surface of the other. {-1, -1} where there are none.

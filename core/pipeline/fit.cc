@@ -195,7 +195,8 @@ class BodyFit {
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
 
     clock_.Begin(Stage::kCapsule);
-    PrimitiveStage stage = BuildUnderBudget(*body_, options_, features.polygons, drafts, curves);
+    PrimitiveStage stage =
+        BuildUnderBudget(*body_, options_, features.polygons, drafts, curves, pool_);
     set_ = std::move(stage.set);
     if (!IsSearched() && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);

@@ -20,17 +20,16 @@ constexpr int kMaxSettlings = 3;
 constexpr double kRateFromCirclesM = 0.008;
 constexpr double kRateFromCutsM = 0.003;
 
-PrimitiveStage Build(const body::Body& body, const FitOptions& options,
-                     std::span<const section::FeaturePolygon> polygons,
+PrimitiveStage Build(std::span<const section::FeaturePolygon> polygons,
                      const std::vector<int>& circle_counts, const Overhead& overhead,
-                     const circle::ErrorCurves& curves) {
+                     const capsule::PrimitiveSet& end_balls, const circle::ErrorCurves& curves) {
   PrimitiveStage stage;
   curves.Prepare(circle_counts);
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     stage.approximations.push_back(curves.Approximation(static_cast<int>(i), circle_counts[i]));
   }
   stage.set = capsule::BuildPrimitives(polygons, stage.approximations, overhead.limb_links > 0);
-  capsule::AddEndBalls(body, options.parts, overhead.end_balls, stage.set);
+  capsule::AddBalls(end_balls, stage.set);
   capsule::RemoveCoveredCapsules(stage.set);
   if (overhead.ball_links > 0) capsule::LinkEndBalls(stage.set);
   return stage;
@@ -43,7 +42,9 @@ PrimitiveStage BuildByThreshold(const body::Body& body, const FitOptions& option
       polygons, *options.polygon_error, curves.max_circles(), curves.AsErrorOf());
   capsule::Budget as_large;
   as_large.max_primitives = capsule::CountPrimitives(polygons, counts).total();
-  return Build(body, options, polygons, counts, OverheadOf(body, options, as_large), curves);
+  const Overhead overhead = OverheadOf(body, options, as_large);
+  return Build(polygons, counts, overhead,
+               capsule::MakeEndBalls(body, options.parts, overhead.end_balls), curves);
 }
 
 // `budget` with `more` primitives on top of each limit that is set.
@@ -59,7 +60,7 @@ capsule::Budget Raised(capsule::Budget budget, int more) {
 PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
                                 std::span<const section::FeaturePolygon> polygons,
                                 const circle::ErrorCurves& drafts,
-                                const circle::ErrorCurves& curves) {
+                                const circle::ErrorCurves& curves, const ThreadPool& pool) {
   const capsule::Budget total = TotalBudget(options);
   if (options.polygon_error.has_value()) {
     PrimitiveStage stage = BuildByThreshold(body, options, polygons, curves);
@@ -68,16 +69,24 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
   }
   const Overhead overhead = OverheadOf(body, options, total);
   const capsule::Budget chains = ChainBudget(total, overhead);
-  PrimitiveStage best;
-  std::vector<int> tried;
   int bonus = 0;  // what pruning is expected to free again
+  const auto allocate = [&] {
+    return capsule::AllocateUnderBudget(polygons, Raised(chains, bonus), drafts.max_circles(),
+                                        drafts.AsErrorOf());
+  };
+  std::vector<int> counts;
+  capsule::PrimitiveSet end_balls;
+  pool.ForEach(2, [&](std::size_t half) {
+    if (half == 0) counts = allocate();
+    if (half == 1) end_balls = capsule::MakeEndBalls(body, options.parts, overhead.end_balls);
+  });
+  PrimitiveStage best;
   for (int round = 0; round < kMaxRounds; ++round) {
-    const std::vector<int> counts = capsule::AllocateUnderBudget(
-        polygons, Raised(chains, bonus), drafts.max_circles(), drafts.AsErrorOf());
-    if (round > 0 && counts == tried)
-      break;  // the first of none is none, where there are only balls
-    tried = counts;
-    PrimitiveStage stage = Build(body, options, polygons, counts, overhead, curves);
+    if (round > 0) {
+      const std::vector<int> tried = std::exchange(counts, allocate());
+      if (counts == tried) break;
+    }
+    PrimitiveStage stage = Build(polygons, counts, overhead, end_balls, curves);
     const bool fits = total.Allows(stage.set.count());
     const int unused = total.Unused(stage.set.count());
     if (round == 0 || (fits && unused < total.Unused(best.set.count()))) best = std::move(stage);

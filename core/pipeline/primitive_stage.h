@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/capsule/allocation.h"
 #include "core/capsule/primitive_set.h"
@@ -30,7 +31,8 @@ struct PrimitiveStage {
 [[nodiscard]] PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& options,
                                               std::span<const section::FeaturePolygon> polygons,
                                               const circle::ErrorCurves& drafts,
-                                              const circle::ErrorCurves& curves);
+                                              const circle::ErrorCurves& curves,
+                                              const ThreadPool& pool);
 
 // A best fit of quality paper, which nothing encloses later: circles and capsules stay as the
 // topology, centres and radii move to the smallest E_r (core/refine), capsules that others cover by

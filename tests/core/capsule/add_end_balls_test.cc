@@ -56,7 +56,7 @@ TEST(AddEndBallsTest, BallsAroundHeadHandsAndFeetOnly) {
                                    {Segment::kLeftFoot, {0.1, 0, 0.1}}},
                                   false);
   PrimitiveSet set;
-  AddEndBalls(body, kAll, {}, set);
+  AddBalls(MakeEndBalls(body, kAll, {}), set);
   ASSERT_EQ(set.spheres.size(), 4u);
   EXPECT_EQ(set.origins[0].part, Part::kHead);
   EXPECT_EQ(set.origins[1].part, Part::kLeftHand);
@@ -78,7 +78,7 @@ TEST(AddEndBallsTest, OnASymmetricBodyTheyAreExactImagesAroundBothSides) {
                                    {Segment::kRightHand, {-0.51, 1, 0.02}}},
                                   true);
   PrimitiveSet set;
-  AddEndBalls(body, kAll, {}, set);
+  AddBalls(MakeEndBalls(body, kAll, {}), set);
   ASSERT_EQ(set.spheres.size(), 3u);
   EXPECT_EQ(set.spheres[0].center_m.x(), 0.0);
   EXPECT_EQ(set.origins[0].mirror, 0);
@@ -101,7 +101,7 @@ TEST(AddEndBallsTest, OnlyWhatIsAskedForIndicesGoOnFromTheSet) {
   PrimitiveSet set;
   set.spheres.push_back({{0, 1, 0}, 0.1});
   set.origins.emplace_back();
-  AddEndBalls(body, {true, true, true, true, false, false}, {}, set);
+  AddBalls(MakeEndBalls(body, {true, true, true, true, false, false}, {}), set);
   ASSERT_EQ(set.spheres.size(), 2u);
   EXPECT_EQ(set.origins[1].part, Part::kHead);
   EXPECT_EQ(set.origins[1].mirror, 1);
@@ -117,7 +117,7 @@ TEST(AddEndBallsTest, SeveralAreInARowAlongThePart) {
                                    {Segment::kRightFoot, {-0.2, 0.1, 0.4}}},
                                   true);
   PrimitiveSet set;
-  AddEndBalls(body, kAll, {.head = 2, .hand = 3, .foot = 2}, set);
+  AddBalls(MakeEndBalls(body, kAll, {.head = 2, .hand = 3, .foot = 2}), set);
   ASSERT_EQ(set.spheres.size(), 6u);
   for (const geometry::Sphere& ball : set.spheres) {
     EXPECT_NEAR(ball.radius_m, 0.1 * std::sqrt(3.0), 1e-9);
@@ -141,7 +141,7 @@ TEST(AddEndBallsTest, OfAHeadTheyAreInTheMiddlePlane) {
                                    {Segment::kHead, {0.0, 1.8, 0.0}}},
                                   true);
   PrimitiveSet set;
-  AddEndBalls(body, kAll, {.head = 2}, set);
+  AddBalls(MakeEndBalls(body, kAll, {.head = 2}), set);
   ASSERT_EQ(set.spheres.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(set.spheres[i].center_m.x(), 0.0);
