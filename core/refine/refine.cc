@@ -172,13 +172,14 @@ BestFitObjective MakeBestFitObjective(const body::Body& body, const RefineOption
 // body better than what a smaller one grows to, by a tenth at half its size; only of few primitives
 // either may end better, and much larger ones fall into more pieces.
 std::vector<capsule::MirroredSet> BestFitStarts(const body::Body& body,
-                                                const RefineOptions& options) {
+                                                const RefineOptions& options,
+                                                const ThreadPool& pool) {
   StartSizes sizes{.largest_grown = kLargestGrown};
   if (!IsOfFew(options.budget)) {
     sizes.least_spared = static_cast<int>(kMuchSpared * options.budget.UsualPrimitives());
   }
   std::vector<capsule::MirroredSet> starts =
-      StartingGraphs(FitKind::kBestFit, body, options.parts, options.budget, sizes);
+      StartingGraphs(FitKind::kBestFit, body, options.parts, options.budget, sizes, pool);
   if (!IsOfFew(options.budget)) starts.resize(1);
   return starts;
 }
@@ -186,7 +187,7 @@ std::vector<capsule::MirroredSet> BestFitStarts(const body::Body& body,
 capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& options,
                                  const ThreadPool& pool, WorkMeter& meter) {
   const BestFitObjective objective = MakeBestFitObjective(body, options, body.is_symmetric, pool);
-  std::vector<capsule::MirroredSet> starts = BestFitStarts(body, options);
+  std::vector<capsule::MirroredSet> starts = BestFitStarts(body, options, pool);
   capsule::MirroredSet best;
   double least = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -242,13 +243,13 @@ std::vector<capsule::MirroredSet> StandardStarts(const body::Body& body,
 
 // What the enclosing search starts from.
 std::vector<capsule::MirroredSet> StartsOf(const body::Body& body, const RefineOptions& options,
-                                           int primitives) {
+                                           int primitives, const ThreadPool& pool) {
   std::vector<capsule::MirroredSet> standard = StandardStarts(body, options, primitives);
   // What is spared in a larger layout leaves a better one than growth finds, but takes long and is
   // no better than a standard layout.
   std::vector<capsule::MirroredSet> starts = StartingGraphs(
       FitKind::kEnclose, body, options.parts, options.budget,
-      {.most_spared = standard.empty() ? capsule::kNoLimit : MostSparedBeside(primitives)});
+      {.most_spared = standard.empty() ? capsule::kNoLimit : MostSparedBeside(primitives)}, pool);
   std::move(standard.begin(), standard.end(), std::back_inserter(starts));
   return starts;
 }
@@ -262,13 +263,18 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
   std::optional<EnclosingTask> usual, fine, rough;
   const std::array task_of = {std::pair(&usual, spacings.usual), std::pair(&fine, spacings.fine),
                               std::pair(&rough, spacings.rough)};
-  pool.ForEach(spacings.rough > spacings.usual ? 3 : 2, [&](std::size_t i) {
-    task_of[i].first->emplace(target, body.is_symmetric, options.tolerance_m, task_of[i].second);
+  std::vector<capsule::MirroredSet> starts;
+  pool.ForEach(spacings.rough > spacings.usual ? 4 : 3, [&](std::size_t i) {
+    if (i == 0) {
+      starts = StartsOf(body, options, primitives, pool);
+      return;
+    }
+    const auto& [task, spacing] = task_of[i - 1];
+    task->emplace(target, body.is_symmetric, options.tolerance_m, spacing);
   });
   const int rounds = options.thorough ? RoundsFor(primitives) : kQuickRounds;
-  capsule::MirroredSet graph =
-      FindEnclosingGraph(rough ? *rough : *usual, *usual, options.budget,
-                         StartsOf(body, options, primitives), rounds, kSearched, pool, meter);
+  capsule::MirroredSet graph = FindEnclosingGraph(rough ? *rough : *usual, *usual, options.budget,
+                                                  starts, rounds, kSearched, pool, meter);
   meter.Expect(1.0, std::int64_t{kFineSteps + kFineTakeInSteps} * graph.primitive_count());
   fine->FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
   fine->TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graph);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/capsule/mirrored_set.h"
 #include "core/refine/layouts/layout.h"
@@ -24,7 +25,8 @@ struct StartSizes {
 [[nodiscard]] std::vector<capsule::MirroredSet> StartingGraphs(FitKind kind, const body::Body& body,
                                                                const body::PartSelection& parts,
                                                                const capsule::Budget& budget,
-                                                               const StartSizes& sizes);
+                                                               const StartSizes& sizes,
+                                                               const ThreadPool& pool);
 
 }  // namespace capfit::refine
 

@@ -85,9 +85,9 @@ class EnclosingLayoutSearch {
     if (task_.first_primitives > 0) first.primitives = task_.first_primitives;
     Graphs stored;
     for (const Subject& s : subjects_) {
-      stored.push_back(
-          StartingGraphs(FitKind::kEnclose, s.body, s.parts, BudgetOf(first), {.most_spared = 0})
-              .front());
+      stored.push_back(StartingGraphs(FitKind::kEnclose, s.body, s.parts, BudgetOf(first),
+                                      {.most_spared = 0}, alone_)
+                           .front());
     }
     Attempt best = Begun(std::move(stored));
     const auto compare = [&](const std::string& name, Graphs graphs) {
