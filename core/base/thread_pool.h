@@ -21,7 +21,8 @@ class ThreadPool {
 
   [[nodiscard]] int threads() const { return threads_; }
 
-  // Calls body(i) once for each i in [0, count), in any order, and waits for all.
+  // Calls body(i) once for each i in [0, count) and waits for all. They begin in order: where some
+  // take longer, put them first.
   void ForEach(std::size_t count, const std::function<void(std::size_t)>& body) const;
 
   // Calls body(begin, end) over fixed chunks of `chunk` indices that cover [0, count): the chunks

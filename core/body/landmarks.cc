@@ -49,14 +49,13 @@ struct Fields {
 };
 
 void MakeProfiles(const Fields& fields, Shape& shape) {
-  // A leg and an arm in turn: threads share a row of tasks out in halves.
+  // Legs take longest and come first.
   shape.pool->ForEach(4, [&](std::size_t limb) {
     if (shape.observer->IsCancelled()) return;
-    const std::size_t side = limb / 2;
-    const bool is_leg = limb % 2 == 0;
+    const std::size_t side = limb % 2;
     const Extremities& leg = fields.legs[side].distance.empty() ? *fields.body : fields.legs[side];
-    if (is_leg) MakeProfile(shape, leg, shape.legs[side], shape.leg_profiles[side]);
-    if (!is_leg) MakeProfile(shape, *fields.body, shape.arms[side], shape.arm_profiles[side]);
+    if (limb < 2) MakeProfile(shape, leg, shape.legs[side], shape.leg_profiles[side]);
+    if (limb >= 2) MakeProfile(shape, *fields.body, shape.arms[side], shape.arm_profiles[side]);
   });
 }
 
