@@ -72,8 +72,8 @@ void ThreadPool::ForChunks(std::size_t count, std::size_t chunk,
 #ifdef CAPFIT_POOL_OF_STD_THREADS
   RunOnStdThreads(threads_, chunks, run);
 #else
-  // Begun in order, whichever of oneTBB's tasks comes to run: where the longest come first, the last
-  // ones are short, and no thread is left alone with a long one.
+  // Begun in order, whichever of oneTBB's tasks comes to run: where the longest come first, the
+  // last ones are short, and no thread is left alone with a long one.
   std::atomic<std::size_t> next = 0;
   const auto run_next = [&](std::size_t) { run(next.fetch_add(1, std::memory_order_relaxed)); };
   arena_->arena.execute(
