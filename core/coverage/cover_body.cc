@@ -36,8 +36,8 @@ constexpr double kRowSpacing = 0.025;
 // The set finds its shape with points left out at a price, which rises; then they must all come in.
 // Starting with a low price matters most (a fifth of E_r): where everything must be inside from the
 // start, each sphere is caught in the circle it came with. A programme's optimum is no better to go
-// to than a point of its central path, which costs half as much and follows the points smoothly. A
-// point less central wins nothing; a more central one costs E_r (5 % at 250 primitives with 1e-3).
+// to than a point of its central path, which costs half as much and follows the points smoothly.
+// One nearer to the centre costs E_r (5 % at 250 primitives with 1e-3).
 constexpr tighten::TightenPhase kThoroughLoosening{.steps = 24,
                                                    .first_trust = 0.012,
                                                    .last_trust = 0.003,
@@ -56,9 +56,9 @@ constexpr tighten::TightenPhase kQuickLoosening{.steps = 10,
                                                 .solve_to = kThoroughLoosening.solve_to};
 // A step each, relative to the body's size; before each but the first what sticks out between
 // vertices is looked for anew. (Nine steps with three such looks, as many as they were, lead to the
-// same E_r. So do programmes solved to a gap, from 1e-2 to 1e-8, but where the iterations end hangs
-// on the last digits: of 160 made bodies whose vertices are rounded to floats 34 to 56 keep their
-// spheres to a hundredth of a millimetre then, in place of 132.)
+// same E_r. So do programmes solved to a gap, but where the iterations end hangs on the last
+// digits: of 160 made bodies whose vertices are rounded to floats 34 to 56 keep their spheres to a
+// hundredth of a millimetre then with gaps of 1e-2 to 1e-4, and 118 with 1e-7, in place of 132.)
 constexpr std::array kTightTrusts = {0.004, 0.0028, 0.002, 0.0014, 0.001};
 constexpr tighten::TightenPhase kTightStep{.steps = 1,
                                            .first_penalty = 0.4,
