@@ -64,7 +64,7 @@ constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
 // the time it takes.
 constexpr int kPrimitivesPerRound = 50;
 constexpr int kFewOfEnclosing = 60;
-constexpr int kRoundsOfFew = 4;
+constexpr RenewalPlan kRenewalsOfFew = {.rounds = 3, .kept = 6};
 constexpr int kLeastRounds = 2;
 constexpr int kMostRounds = 6;
 constexpr int kQuickRounds = 1;
@@ -218,9 +218,10 @@ Spacings SpacingsFor(int primitives) {
   return {kMostSpacing, usual, std::clamp(kFineSpacing * share, kLeastSpacing, usual)};
 }
 
-int RoundsFor(int primitives) {
-  if (primitives <= kFewOfEnclosing) return kRoundsOfFew;
-  return std::clamp(primitives / kPrimitivesPerRound, kLeastRounds, kMostRounds);
+RenewalPlan RenewalsFor(bool thorough, int primitives) {
+  if (!thorough) return {.rounds = kQuickRounds};
+  if (primitives <= kFewOfEnclosing) return kRenewalsOfFew;
+  return {.rounds = std::clamp(primitives / kPrimitivesPerRound, kLeastRounds, kMostRounds)};
 }
 
 // No more than this is spared where a standard layout serves, beyond the budget.
@@ -272,9 +273,9 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
     const auto& [task, spacing] = task_of[i - 1];
     task->emplace(target, body.is_symmetric, options.tolerance_m, spacing);
   });
-  const int rounds = options.thorough ? RoundsFor(primitives) : kQuickRounds;
+  const RenewalPlan plan = RenewalsFor(options.thorough, primitives);
   capsule::MirroredSet graph = FindEnclosingGraph(rough ? *rough : *usual, *usual, options.budget,
-                                                  starts, rounds, kSearched, pool, meter);
+                                                  plan, starts, kSearched, pool, meter);
   meter.Expect(1.0, std::int64_t{kFineSteps + kFineTakeInSteps} * graph.primitive_count());
   fine->FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
   fine->TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graph);

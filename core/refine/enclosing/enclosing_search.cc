@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <tuple>
@@ -32,7 +33,7 @@ constexpr double kLeastSpared = 0.06;  // of the graph
 constexpr int kUsedUp = 3;             // a graph this near to the budget is not grown
 constexpr double kLeastImprovement = 1e-4;
 constexpr std::size_t kTies = 8;
-// Much is given up and spent anew at once: in these ways side by side in each round. Half as many
+// Much is given up and spent anew at once, in these ways side by side. Of one graph, half as many
 // in twice the rounds lead to no better sets and keep fewer threads busy.
 struct Renewal {
   double given_up;   // part of the primitives
@@ -53,20 +54,22 @@ constexpr std::uint64_t kFirstSeed = 10;
 class Search {
  public:
   Search(const EnclosingTask& rough, const EnclosingTask& task, const capsule::Budget& budget,
-         double until, const ThreadPool& pool, WorkMeter& meter)
+         const RenewalPlan& plan, double until, const ThreadPool& pool, WorkMeter& meter)
       : rough_(rough),
         task_(task),
         budget_(budget),
+        plan_(plan),
         primitives_(budget.MostPrimitives()),
         until_(until),
         pool_(pool),
         meter_(meter) {}
 
-  capsule::MirroredSet Run(const std::vector<capsule::MirroredSet>& starts, int rounds) {
-    Attempt best = BestStart(starts);
-    for (int round = 0; round < rounds && !meter_.IsCancelled(); ++round) {
-      Renew(kGrown + (kRenewed - kGrown) * (round + 1) / rounds, best);
+  capsule::MirroredSet Run(const std::vector<capsule::MirroredSet>& starts) {
+    std::vector<Attempt> kept = BestStarts(starts);
+    for (int round = 0; round < plan_.rounds && !meter_.IsCancelled(); ++round) {
+      Renew(round, kept);
     }
+    Attempt best = std::move(kept.front());
     Tie(best);
     return std::move(best.graph);
   }
@@ -84,7 +87,8 @@ class Search {
     return {std::move(graph), task_.Value(settled, pool_)};
   }
 
-  Attempt BestStart(const std::vector<capsule::MirroredSet>& starts) {
+  // The best first, as many as the plan keeps.
+  std::vector<Attempt> BestStarts(const std::vector<capsule::MirroredSet>& starts) {
     std::vector<Attempt> attempts(starts.size());
     std::int64_t work = 0;
     for (const capsule::MirroredSet& start : starts) {
@@ -110,8 +114,21 @@ class Search {
       Grow(small.front());
       attempts.push_back(std::move(small.front()));
     }
+    KeepBest(attempts);
+    return attempts;
+  }
+
+  // Of graphs that are worth the same one is enough; what is over the budget is the last resort.
+  void KeepBest(std::vector<Attempt>& attempts) const {
     Sort(attempts);
-    return attempts.front();
+    std::size_t kept = 1;
+    for (std::size_t i = 1; i < attempts.size() && kept < U(plan_.kept); ++i) {
+      const bool is_other =
+          attempts[i].value > (1.0 + kLeastImprovement) * attempts[kept - 1].value;
+      if (budget_.Excess(attempts[i].graph.count()) > 0) break;
+      if (is_other) std::swap(attempts[kept++], attempts[i]);
+    }
+    attempts.resize(kept);
   }
 
   static std::int64_t WorkOf(std::size_t steps, const capsule::MirroredSet& graph) {
@@ -240,14 +257,25 @@ class Search {
     return Settled(std::move(graph), seed);
   }
 
-  // `share`: of the search, that is done then.
-  void Renew(double share, Attempt& best) {
-    std::array<Attempt, kRenewals.size()> attempts;
-    meter_.Expect(until_ * share, WorkOf(kStepsOfGrowth * attempts.size(), best.graph));
+  // Each of the kept graphs, in half of the ways where there are several: in the other half next
+  // time. The best of the old and the new ones are kept.
+  void Renew(int round, std::vector<Attempt>& kept) {
+    const std::size_t apart = plan_.kept > 1 ? 2 : 1;
+    const std::size_t ways = kRenewals.size() / apart;
+    std::vector<Attempt> attempts(kept.size() * ways);
+    meter_.Expect(until_ * (kGrown + (kRenewed - kGrown) * (round + 1) / plan_.rounds),
+                  WorkOf(kStepsOfGrowth * attempts.size(), kept.front().graph));
     pool_.ForEach(attempts.size(), [&](std::size_t i) {
-      attempts[i] = Renewed(best.graph, kRenewals[i], seed_ + i);
+      const std::size_t from = i / ways;
+      const std::size_t way = i % ways * apart + (from + U(round)) % apart;
+      attempts[i] = Renewed(kept[from].graph, kRenewals[way], seed_ + i);
     });
-    TakeBest(attempts, best);
+    seed_ += attempts.size();
+    if (meter_.IsCancelled()) return;
+    const auto is_none = [](const Attempt& a) { return a.graph.spheres().empty(); };
+    std::erase_if(attempts, is_none);
+    std::move(attempts.begin(), attempts.end(), std::back_inserter(kept));
+    KeepBest(kept);
   }
 
   // The best of the attempts takes the place of `best`, if it is better; whether it was.
@@ -295,6 +323,7 @@ class Search {
   const EnclosingTask& rough_;  // to begin with
   const EnclosingTask& task_;
   const capsule::Budget& budget_;
+  const RenewalPlan& plan_;
   int primitives_;  // at most
   double until_;    // what the meter shows at the end
   const ThreadPool& pool_;
@@ -305,10 +334,10 @@ class Search {
 }  // namespace
 
 capsule::MirroredSet FindEnclosingGraph(const EnclosingTask& rough, const EnclosingTask& task,
-                                        const capsule::Budget& budget,
-                                        const std::vector<capsule::MirroredSet>& starts, int rounds,
+                                        const capsule::Budget& budget, const RenewalPlan& plan,
+                                        const std::vector<capsule::MirroredSet>& starts,
                                         double until, const ThreadPool& pool, WorkMeter& meter) {
-  return Search(rough, task, budget, until, pool, meter).Run(starts, rounds);
+  return Search(rough, task, budget, plan, until, pool, meter).Run(starts);
 }
 
 }  // namespace capfit::refine

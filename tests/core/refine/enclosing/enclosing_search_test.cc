@@ -9,15 +9,17 @@
 namespace capfit::refine {
 namespace {
 
-constexpr int kRounds = 4;
+constexpr RenewalPlan kNone = {.rounds = 0};
+constexpr RenewalPlan kOfOne = {.rounds = 4};
+constexpr RenewalPlan kOfSeveral = {.rounds = 3, .kept = 5};
 
 capsule::MirroredSet Find(const capsule::Budget& budget,
                           const std::vector<capsule::MirroredSet>& starts, int threads,
-                          int rounds = kRounds) {
+                          const RenewalPlan& plan = kOfOne) {
   const ThreadPool pool(threads);
   NullObserver observer;
   WorkMeter meter(observer);
-  return FindEnclosingGraph(TubeTask(), TubeTask(), budget, starts, rounds, /*until=*/1.0, pool,
+  return FindEnclosingGraph(TubeTask(), TubeTask(), budget, plan, starts, /*until=*/1.0, pool,
                             meter);
 }
 
@@ -34,8 +36,8 @@ TEST(EnclosingSearchTest, KeepsToEveryLimit) {
   for (const capsule::Budget& budget : {capsule::Budget{3, kNo, kNo}, capsule::Budget{8, kNo, kNo},
                                         capsule::Budget{kNo, 4, 2}, capsule::Budget{kNo, 3, 10}}) {
     // One start below and one above it.
-    for (const int rounds : {0, kRounds}) {
-      const capsule::MirroredSet graph = Find(budget, {Chain(2), Chain(7)}, 1, rounds);
+    for (const RenewalPlan& plan : {kNone, kOfOne, kOfSeveral}) {
+      const capsule::MirroredSet graph = Find(budget, {Chain(2), Chain(7)}, 1, plan);
       EXPECT_TRUE(budget.Allows(graph.count()));
       EXPECT_GT(graph.sphere_count(), 0);
     }
@@ -55,19 +57,23 @@ TEST(EnclosingSearchTest, IsNoWorseThanItsStart) {
 TEST(EnclosingSearchTest, RoundsAreNotWorseThanNone) {
   for (const int budget : {5, 9, 13}) {
     const capsule::Budget limit{budget, capsule::kNoLimit, capsule::kNoLimit};
-    const double none = TakenIn(Find(limit, {Chain(2), Chain(7)}, 2, /*rounds=*/0));
-    EXPECT_LE(TakenIn(Find(limit, {Chain(2), Chain(7)}, 2)), 1.01 * none) << budget;
+    const double none = TakenIn(Find(limit, {Chain(2), Chain(7)}, 2, kNone));
+    for (const RenewalPlan& plan : {kOfOne, kOfSeveral}) {
+      EXPECT_LE(TakenIn(Find(limit, {Chain(2), Chain(7)}, 2, plan)), 1.01 * none) << budget;
+    }
   }
 }
 
 TEST(EnclosingSearchTest, SameBitsForAnyNumberOfThreads) {
   const capsule::Budget budget{9, capsule::kNoLimit, capsule::kNoLimit};
-  const auto one = Find(budget, {Chain(2)}, 1);
-  const auto three = Find(budget, {Chain(2)}, 3);
-  ASSERT_EQ(one.capsules(), three.capsules());
-  for (int v = 0; v < one.sphere_count(); ++v) {
-    EXPECT_EQ(one.sphere(v).center_m, three.sphere(v).center_m);
-    EXPECT_EQ(one.sphere(v).radius_m, three.sphere(v).radius_m);
+  for (const RenewalPlan& plan : {kOfOne, kOfSeveral}) {
+    const auto one = Find(budget, {Chain(2), Chain(5)}, 1, plan);
+    const auto three = Find(budget, {Chain(2), Chain(5)}, 3, plan);
+    ASSERT_EQ(one.capsules(), three.capsules());
+    for (int v = 0; v < one.sphere_count(); ++v) {
+      EXPECT_EQ(one.sphere(v).center_m, three.sphere(v).center_m);
+      EXPECT_EQ(one.sphere(v).radius_m, three.sphere(v).radius_m);
+    }
   }
 }
 
