@@ -94,6 +94,17 @@ bool Serves(const CoverGround* ground, bool mirrored, const CoverOptions& option
          (!Loosens(options) || !ground->weights.empty());
 }
 
+// Relative to the body's size.
+double SparseSpacing(int primitives) {
+  return std::min(kMostSparse, kSparseSpacing / std::sqrt(static_cast<double>(primitives)));
+}
+
+SparseGround MakeSparseGround(const CoverGround& ground, double spacing, const ThreadPool& pool) {
+  tighten::SparsePoints sparse =
+      tighten::MakeSparse(ground.points.points_m(), ground.weights, spacing * ground.size_m, pool);
+  return {spacing, tighten::PointGrid(sparse.points_m), std::move(sparse.weights)};
+}
+
 class Coverer {
  public:
   Coverer(const tighten::CoverTarget& target, const CoverOptions& options, const ThreadPool& pool,
@@ -104,10 +115,10 @@ class Coverer {
         meter_(observer),
         set_(set),
         variables_(set),
-        own_ground_(
-            Serves(ground, variables_.is_symmetric(), options)
-                ? std::nullopt
-                : std::optional(MakeCoverGround(target, variables_.is_symmetric(), options, pool))),
+        own_ground_(Serves(ground, variables_.is_symmetric(), options)
+                        ? std::nullopt
+                        : std::optional(MakeCoverGround(target, variables_.is_symmetric(), options,
+                                                        set.primitive_count(), pool))),
         ground_(own_ground_ ? *own_ground_ : *ground) {}
 
   CoverReport Run() {
@@ -180,13 +191,16 @@ class Coverer {
 
   void Tighten() {
     if (Loosens(options_) && !meter_.IsCancelled()) {
-      const tighten::SparsePoints sparse = tighten::MakeSparse(
-          ground_.points.points_m(), ground_.weights, SparseSpacing() * ground_.size_m, pool_);
-      const tighten::PointGrid grid(sparse.points_m);
+      const double spacing = SparseSpacing(set_.primitive_count());
+      const std::optional<SparseGround> own =
+          spacing == ground_.sparse.spacing
+              ? std::nullopt
+              : std::optional(MakeSparseGround(ground_, spacing, pool_));
+      const SparseGround& sparse = own ? *own : ground_.sparse;
       const tighten::TightenPhase& phase =
           options_.loosening == Loosening::kQuick ? kQuickLoosening : kThoroughLoosening;
       meter_.Expect(kLooseUntil, std::int64_t{phase.steps} * set_.primitive_count());
-      RunPhase(phase, {{grid, AllowedAtVertices(), sparse.weights}}, /*seed=*/1);
+      RunPhase(phase, {{sparse.points, AllowedAtVertices(), sparse.weights}}, /*seed=*/1);
     }
     // What sticks out between vertices shows only where the vertices are in, and asking for it
     // moves the set on to other such places: looked at before each step, little is left to growing.
@@ -201,11 +215,6 @@ class Coverer {
       if (IsMeasured()) vertices.at_first = &at_points_;
       RunPhase(step, {vertices, {between, AllowedBetween()}}, 101 + i);
     }
-  }
-
-  double SparseSpacing() const {
-    return std::min(kMostSparse,
-                    kSparseSpacing / std::sqrt(static_cast<double>(set_.primitive_count())));
   }
 
   void RunPhase(tighten::TightenPhase phase, const std::vector<tighten::PointsToHold>& points,
@@ -330,7 +339,7 @@ class Coverer {
 }  // namespace
 
 CoverGround MakeCoverGround(const tighten::CoverTarget& target, bool mirrored,
-                            const CoverOptions& options, const ThreadPool& pool) {
+                            const CoverOptions& options, int primitives, const ThreadPool& pool) {
   CoverGround ground;
   if (mirrored) ground.fold = tighten::PointGrid::Fold::kToPositiveX;
   std::vector<double> weights;
@@ -343,6 +352,7 @@ CoverGround MakeCoverGround(const tighten::CoverTarget& target, bool mirrored,
   });
   if (weights.empty()) return ground;
   for (const std::uint32_t i : ground.points.order()) ground.weights.push_back(weights[i]);
+  ground.sparse = MakeSparseGround(ground, SparseSpacing(primitives), pool);
   return ground;
 }
 

@@ -57,6 +57,13 @@ struct CoverReport {
   double certified_gap_m = 0.0;        // no point of the surface is further out than this (proved)
 };
 
+// Few points that stand for all while the set finds its shape (see tighten::MakeSparse).
+struct SparseGround {
+  double spacing = 0.0;  // relative to the body's size
+  tighten::PointGrid points{{}};
+  std::vector<double> weights;  // by the index that the points came with
+};
+
 // What covering takes from the points alone: made once for several sets, and before there is one.
 struct CoverGround {
   tighten::PointGrid::Fold fold = tighten::PointGrid::Fold::kNone;
@@ -64,12 +71,14 @@ struct CoverGround {
   double size_m = 0.0;            // tighten::SizeOf
   // tighten::AreaWeights in the order of `points`; none where nothing is loosened.
   std::vector<double> weights;
+  SparseGround sparse;  // likewise; of another number of primitives another may be needed
 };
 
 // For sets that are `mirrored`, that is their own mirror images, or for others. There must be a
-// point. O(points + triangles).
+// point. `primitives`: that the set will have, about. O(points + triangles).
 [[nodiscard]] CoverGround MakeCoverGround(const tighten::CoverTarget& target, bool mirrored,
-                                          const CoverOptions& options, const ThreadPool& pool);
+                                          const CoverOptions& options, int primitives,
+                                          const ThreadPool& pool);
 
 // Moves, shrinks and grows spheres until every point is inside and no triangle sticks out by more
 // than options.max_gap_m, with the least volume it can find. Spheres and capsules stay the same

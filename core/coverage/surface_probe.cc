@@ -108,6 +108,18 @@ bool IsDeepEnough(const tighten::CoverTarget& target, const mesh::Triangle& t,
   return is_within(t[(deepest + 1) % 3]) && is_within(t[(deepest + 2) % 3]);
 }
 
+// Whether all corners are within `limit_m` of one solid. Of those that it is nearest to that is
+// known.
+bool IsNearTo(const tighten::CoverTarget& target, const mesh::Triangle& t,
+              const tighten::UnionDistances& at, std::int32_t solid,
+              const std::vector<TaperedCapsule>& solids, double limit_m) {
+  return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
+    if (at.solid[corner] == solid && at.distance_m[corner] <= limit_m - kGridAccuracy) return true;
+    return solids[static_cast<std::size_t>(solid)].SignedDistance(target.points_m[corner]) <=
+           limit_m;
+  });
+}
+
 // All corners within `limit_m` of the same solid, or one deep inside: true of nearly every
 // triangle, and quick to see.
 bool IsPlainlyNear(const tighten::CoverTarget& target, std::size_t triangle,
@@ -119,12 +131,11 @@ bool IsPlainlyNear(const tighten::CoverTarget& target, std::size_t triangle,
            limit_m - kGridAccuracy;
   }
   if (IsDeepEnough(target, t, at, limit_m)) return true;
-  return std::any_of(t.begin(), t.end(), [&](std::uint32_t nearest_to) {
-    const TaperedCapsule& solid = solids[static_cast<std::size_t>(at.solid[nearest_to])];
-    return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
-      return solid.SignedDistance(target.points_m[corner]) <= limit_m;
-    });
-  });
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (k > 0 && at.solid[t[k]] == at.solid[t[k - 1]]) continue;
+    if (IsNearTo(target, t, at, at.solid[t[k]], solids, limit_m)) return true;
+  }
+  return false;
 }
 
 bool HasCornerOutside(const mesh::Triangle& t, const tighten::UnionDistances& at, double limit_m) {

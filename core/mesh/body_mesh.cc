@@ -1,6 +1,8 @@
 #include "core/mesh/body_mesh.h"
 
 #include <Eigen/Geometry>  // cross
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/base/chunk_sums.h"
@@ -24,10 +26,12 @@ struct Box {
 struct Measures {
   double volume = 0.0;
   double area = 0.0;
+  double least_triangle_area = std::numeric_limits<double>::infinity();
 
   Measures& operator+=(const Measures& other) {
     volume += other.volume;
     area += other.area;
+    least_triangle_area = std::min(least_triangle_area, other.least_triangle_area);
     return *this;
   }
 };
@@ -63,14 +67,15 @@ void BodyMesh::Measure(const ThreadPool& pool) {
       const Eigen::Vector3d a = vertices_[t[0]] - middle;
       const Eigen::Vector3d b = vertices_[t[1]] - middle;
       const Eigen::Vector3d c = vertices_[t[2]] - middle;
-      sum.volume += SignedVolume(a, b, c);
-      sum.area += (b - a).cross(c - a).norm() / 2.0;
+      const double area = (b - a).cross(c - a).norm() / 2.0;
+      sum += {SignedVolume(a, b, c), area, area};
     }
     return sum;
   };
   const Measures measures = SumOverChunks(pool, triangles_.size(), Measures{}, part);
   volume_ = measures.volume;
   area_ = measures.area;
+  least_triangle_area_ = measures.least_triangle_area;
 }
 
 BodyMesh BodyMesh::Transformed(const geometry::Similarity& similarity) const {

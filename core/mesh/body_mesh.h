@@ -41,6 +41,7 @@ class BodyMesh {
 
   [[nodiscard]] double volume() const { return volume_; }  // cube of the mesh's unit, > 0
   [[nodiscard]] double area() const { return area_; }      // square of the mesh's unit
+  [[nodiscard]] double least_triangle_area() const { return least_triangle_area_; }
   [[nodiscard]] const Eigen::Vector3d& box_min() const { return box_min_; }
   [[nodiscard]] const Eigen::Vector3d& box_max() const { return box_max_; }
   [[nodiscard]] double diagonal() const { return (box_max_ - box_min_).norm(); }
@@ -57,6 +58,7 @@ class BodyMesh {
   std::vector<HalfEdge> mates_;
   double volume_ = 0.0;
   double area_ = 0.0;
+  double least_triangle_area_ = 0.0;
   Eigen::Vector3d box_min_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d box_max_ = Eigen::Vector3d::Zero();
 };

@@ -11,6 +11,8 @@ namespace {
 // A surface passes through about the square of the cells along its longest side.
 constexpr double kVerticesPerCell = 2.0;
 constexpr int kMostCellsAlong = 256;
+// Of a cell: rounding must not carry a vertex beyond the cell that it was put into.
+constexpr double kRounding = 1e-6;
 
 }  // namespace
 
@@ -62,6 +64,12 @@ std::size_t NearestVertex::IndexOf(const Cell& cell) const {
          at(0);
 }
 
+double NearestVertex::SquaredBeside(const Eigen::Vector3d& point, int axis, int cell) const {
+  const double at = point[axis] - low_[axis];
+  const double beside = std::max(cell * cell_ - at, at - (cell + 1) * cell_) - kRounding * cell_;
+  return beside > 0.0 ? beside * beside : 0.0;
+}
+
 std::uint32_t NearestVertex::At(const Eigen::Vector3d& point) const {
   const Cell middle = CellOf(point);
   // What the point lies beside the box is as far from every cell.
@@ -84,14 +92,20 @@ std::uint32_t NearestVertex::At(const Eigen::Vector3d& point) const {
     const auto low = [&](std::size_t k) { return std::max(0, middle[k] - ring); };
     const auto high = [&](std::size_t k) { return std::min(size_[k] - 1, middle[k] + ring); };
     for (int z = low(2); z <= high(2); ++z) {
+      const double beside_z = SquaredBeside(point, 2, z);
+      if (beside_z > best_squared) continue;
       for (int y = low(1); y <= high(1); ++y) {
+        const double beside_zy = beside_z + SquaredBeside(point, 1, y);
+        const auto look_at = [&](int x) {
+          if (beside_zy + SquaredBeside(point, 0, x) <= best_squared) look({x, y, z});
+        };
         const bool is_face = std::abs(z - middle[2]) == ring || std::abs(y - middle[1]) == ring;
         if (is_face) {
-          for (int x = low(0); x <= high(0); ++x) look({x, y, z});
+          for (int x = low(0); x <= high(0); ++x) look_at(x);
           continue;
         }
-        if (middle[0] - ring >= 0) look({middle[0] - ring, y, z});
-        if (ring > 0 && middle[0] + ring < size_[0]) look({middle[0] + ring, y, z});
+        if (middle[0] - ring >= 0) look_at(middle[0] - ring);
+        if (ring > 0 && middle[0] + ring < size_[0]) look_at(middle[0] + ring);
       }
     }
   }

@@ -26,6 +26,8 @@ class NearestVertex {
 
   [[nodiscard]] Cell CellOf(const Eigen::Vector3d& point) const;
   [[nodiscard]] std::size_t IndexOf(const Cell& cell) const;
+  // How far the point lies beside a layer of cells along one axis, squared; 0 within.
+  [[nodiscard]] double SquaredBeside(const Eigen::Vector3d& point, int axis, int cell) const;
 
   std::span<const Eigen::Vector3d> vertices_;
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();

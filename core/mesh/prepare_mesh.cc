@@ -22,7 +22,6 @@
 #include "core/mesh/main_part.h"
 #include "core/mesh/mend_flat_triangles.h"
 #include "core/mesh/one_surface.h"
-#include "core/mesh/overlap.h"
 #include "core/mesh/split_vertices.h"
 #include "core/mesh/surface.h"
 #include "core/mesh/surface_parts.h"
@@ -42,9 +41,6 @@ constexpr double kLeastVolumeShare = 1e-9;
 // Triangles lower than this share of the diagonal have no area: 2 nm on a body, which neither text
 // nor float coordinates can mean.
 constexpr double kFlatShare = 1e-9;
-
-// Overlap above this share of the volume is more than lips or armpits that touch.
-constexpr double kTellingOverlap = 1e-3;
 
 std::string PointText(const Eigen::Vector3d& p) {
   return absl::StrFormat("(%.4g, %.4g, %.4g)", p.x(), p.y(), p.z());
@@ -92,8 +88,7 @@ class MeshMender {
     CAPFIT_RETURN_IF_ERROR(CheckManifold());
     BodyMesh mesh =
         MeshOfUsed(positions_, {stand_in_, copied_, merged_}, std::move(surface_), pool_);
-    const Overlap overlap = MeasureOverlap(mesh);
-    return Finish(std::move(mesh), overlap);
+    return Finish(std::move(mesh));
   }
 
  private:
@@ -116,17 +111,13 @@ class MeshMender {
     BodyMesh mesh(positions_, std::move(surface_.triangles), std::move(themselves),
                   std::move(mates.mate), pool_);
     diagonal_ = mesh.diagonal();
-    bool is_one = false;
-    bool has_flat = false;
-    Overlap overlap;
-    pool_.ForEach(3, [&](std::size_t check) {
-      if (check == 0)
-        is_one = IsOneSurface(mesh.triangles(), mesh.mates(), positions_.size(), pool_);
-      if (check == 1) overlap = MeasureOverlap(mesh);
-      if (check == 2) has_flat = HasFlat(mesh.triangles());
-    });
-    if (is_one && !has_flat && mesh.volume() > LeastVolume())
-      return Finish(std::move(mesh), overlap);
+    // A flat one, no longer than the diagonal, has half of this area at most.
+    const double flat_area = kFlatShare * diagonal_ * diagonal_;
+    const bool has_flat = mesh.least_triangle_area() <= flat_area && HasFlat(mesh.triangles());
+    if (!has_flat && mesh.volume() > LeastVolume() &&
+        IsOneSurface(mesh.triangles(), mesh.mates(), positions_.size(), pool_)) {
+      return Finish(std::move(mesh));
+    }
     surface_.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
     mates.mate.assign(mesh.mates().begin(), mesh.mates().end());
     return std::nullopt;
@@ -289,18 +280,9 @@ class MeshMender {
                                 "program"));
   }
 
-  PreparedMesh Finish(BodyMesh mesh, const Overlap& overlap) {
+  PreparedMesh Finish(BodyMesh mesh) {
     WarnOfDropped();
-    WarnOfOverlap(overlap, mesh.volume());
     return {std::move(mesh), std::move(warnings_), left_out_share_};
-  }
-
-  void WarnOfOverlap(const Overlap& overlap, double volume) {
-    if (overlap.volume <= kTellingOverlap * volume) return;
-    Warn("SURFACE_OVERLAPS", 0,
-         absl::StrFormat("the surface cuts through itself: %.2g %% of its volume, around %s, is "
-                         "enclosed more than once",
-                         100.0 * overlap.volume / volume, PointText(overlap.middle)));
   }
 
   void WarnOfDropped() {

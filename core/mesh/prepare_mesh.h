@@ -46,8 +46,7 @@ struct PreparedMesh {
 //  11. Faces without area (lower than 1e-9 of the diagonal) are mended.        FLAT_FACES
 //
 // The copies from step 10 are nobody's in `vertex_of_source`. A surface that cuts through itself is
-// left as it is; SURFACE_OVERLAPS tells of it where it encloses more than a thousandth of its
-// volume twice.
+// left as it is.
 //
 // `is_left_out`: for each face whether it is taken as not there; empty: all are.
 //

@@ -12,6 +12,7 @@
 #include "core/pipeline/cover_poses.h"
 #include "core/pipeline/effective_options.h"
 #include "core/pipeline/engines.h"
+#include "core/pipeline/overlap_warning.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
 #include "core/pipeline/sphere_names.h"
@@ -59,7 +60,17 @@ class BodyFit {
       }
     }
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
-    CAPFIT_RETURN_IF_ERROR(Beside([this] { LayCoverGround(); }, [this] { return Build(); }));
+    std::optional<Warning> overlap;
+    // Build changes the options.
+    const int primitives =
+        options_.polygon_error ? kUsualPrimitives : TotalBudget(options_).UsualPrimitives();
+    const auto look_at_body = [&] {
+      LayCoverGround(primitives);
+      overlap = WarningOfOverlap(*body_);
+    };
+    const absl::Status built = Beside(look_at_body, [this] { return Build(); });
+    if (overlap) result_.warnings.push_back(*std::move(overlap));
+    CAPFIT_RETURN_IF_ERROR(built);
     CAPFIT_RETURN_IF_ERROR(Beside([this] { LayMeasureGround(); }, [this] { return Cover(); }));
     if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverMotion(soup));
     CAPFIT_RETURN_IF_ERROR(Measure());
@@ -98,10 +109,10 @@ class BodyFit {
     return status;
   }
 
-  void LayCoverGround() {
+  void LayCoverGround(int primitives) {
     if (options_.fit != FitMode::kEnclose || target_.points_m.empty()) return;
-    cover_ground_ =
-        coverage::MakeCoverGround(target_, body_->is_symmetric, CoverOptionsFor(HasShape()), pool_);
+    cover_ground_ = coverage::MakeCoverGround(target_, body_->is_symmetric,
+                                              CoverOptionsFor(HasShape()), primitives, pool_);
   }
 
   void LayMeasureGround() { measure_ground_.emplace(*body_, ToMeasure(), pool_, clock_); }
@@ -345,6 +356,7 @@ class BodyFit {
   static constexpr int kMaxCirclesPerPolygon = 8;
   // Every polygon's share is weighed with at least so many; the rest is fitted when asked for.
   static constexpr int kCirclesFittedAhead = 2;
+  static constexpr int kUsualPrimitives = 64;  // where the budget does not tell
   static constexpr int kFewPrimitives = 48;
   static constexpr double kGapAccuracyM = 1e-3;  // of the best fit's certificate
 
