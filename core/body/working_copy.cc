@@ -27,6 +27,7 @@ std::uint32_t Spread(std::uint32_t x) {
 
 constexpr std::size_t kDigits = 4096;
 constexpr std::size_t kSortChunk = 4 * kMeshChunk;
+constexpr std::size_t kLeastShare = 8192;  // vertices
 
 // One pass of a counting sort: `order` by 12 bits of the keys.
 void SortByDigit(const std::vector<std::uint32_t>& keys, int shift, const ThreadPool& pool,
@@ -160,11 +161,26 @@ class TriangleSorter {
     if (observer_.IsCancelled()) return;
     std::vector<std::uint32_t>& first = copy_.first_triangle;
     first.assign(rank_.size() + 1, 0);
-    for (const std::uint32_t v : lowest) ++first[v];
+    ForShares(lowest, [&](std::uint32_t v, std::size_t) { ++first[v]; });
     for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
     dealt_.resize(count);
-    // From the back, so that the ends become the starts.
-    for (std::size_t i = 0; i < count; ++i) dealt_[--first[lowest[i]]] = renamed[i];
+    // The ends become the starts.
+    ForShares(lowest, [&](std::uint32_t v, std::size_t i) { dealt_[--first[v]] = renamed[i]; });
+  }
+
+  // Calls visit(lowest[i], i) for all i: each thread for those of its share of the vertices, as
+  // looking at all costs little.
+  template <typename Visit>
+  void ForShares(std::span<const std::uint32_t> lowest, const Visit& visit) const {
+    const std::size_t shares = std::clamp<std::size_t>(rank_.size() / kLeastShare, 1,
+                                                       static_cast<std::size_t>(pool_.threads()));
+    pool_.ForEach(shares, [&](std::size_t share) {
+      const auto begin = static_cast<std::uint32_t>(rank_.size() * share / shares);
+      const auto end = static_cast<std::uint32_t>(rank_.size() * (share + 1) / shares);
+      for (std::size_t i = 0; i < lowest.size(); ++i) {
+        if (lowest[i] - begin < end - begin) visit(lowest[i], i);
+      }
+    });
   }
 
   [[nodiscard]] RenamedTriangle Renamed(std::uint32_t triangle, std::uint32_t& lowest) const {

@@ -91,18 +91,7 @@ bool Loosens(const CoverOptions& options) {
 
 bool Serves(const CoverGround* ground, bool mirrored, const CoverOptions& options) {
   return ground != nullptr && (ground->fold != tighten::PointGrid::Fold::kNone) == mirrored &&
-         (!Loosens(options) || !ground->weights.empty());
-}
-
-// Relative to the body's size.
-double SparseSpacing(int primitives) {
-  return std::min(kMostSparse, kSparseSpacing / std::sqrt(static_cast<double>(primitives)));
-}
-
-SparseGround MakeSparseGround(const CoverGround& ground, double spacing, const ThreadPool& pool) {
-  tighten::SparsePoints sparse =
-      tighten::MakeSparse(ground.points.points_m(), ground.weights, spacing * ground.size_m, pool);
-  return {spacing, tighten::PointGrid(sparse.points_m), std::move(sparse.weights)};
+         (!Loosens(options) || !ground->sparse.weights.empty());
 }
 
 class Coverer {
@@ -191,16 +180,11 @@ class Coverer {
 
   void Tighten() {
     if (Loosens(options_) && !meter_.IsCancelled()) {
-      const double spacing = SparseSpacing(set_.primitive_count());
-      const std::optional<SparseGround> own =
-          spacing == ground_.sparse.spacing
-              ? std::nullopt
-              : std::optional(MakeSparseGround(ground_, spacing, pool_));
-      const SparseGround& sparse = own ? *own : ground_.sparse;
       const tighten::TightenPhase& phase =
           options_.loosening == Loosening::kQuick ? kQuickLoosening : kThoroughLoosening;
       meter_.Expect(kLooseUntil, std::int64_t{phase.steps} * set_.primitive_count());
-      RunPhase(phase, {{sparse.points, AllowedAtVertices(), sparse.weights}}, /*seed=*/1);
+      RunPhase(phase, {{ground_.sparse.points, AllowedAtVertices(), ground_.sparse.weights}},
+               /*seed=*/1);
     }
     // What sticks out between vertices shows only where the vertices are in, and asking for it
     // moves the set on to other such places: looked at before each step, little is left to growing.
@@ -351,8 +335,14 @@ CoverGround MakeCoverGround(const tighten::CoverTarget& target, bool mirrored,
     }
   });
   if (weights.empty()) return ground;
-  for (const std::uint32_t i : ground.points.order()) ground.weights.push_back(weights[i]);
-  ground.sparse = MakeSparseGround(ground, SparseSpacing(primitives), pool);
+  std::vector<double> in_order;
+  in_order.reserve(weights.size());
+  for (const std::uint32_t i : ground.points.order()) in_order.push_back(weights[i]);
+  const double spacing = std::min(
+      kMostSparse, kSparseSpacing / std::sqrt(std::max(1.0, static_cast<double>(primitives))));
+  tighten::SparsePoints sparse =
+      tighten::MakeSparse(ground.points.points_m(), in_order, spacing * ground.size_m, pool);
+  ground.sparse = {tighten::PointGrid(sparse.points_m), std::move(sparse.weights)};
   return ground;
 }
 

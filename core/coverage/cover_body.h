@@ -59,7 +59,6 @@ struct CoverReport {
 
 // Few points that stand for all while the set finds its shape (see tighten::MakeSparse).
 struct SparseGround {
-  double spacing = 0.0;  // relative to the body's size
   tighten::PointGrid points{{}};
   std::vector<double> weights;  // by the index that the points came with
 };
@@ -69,13 +68,12 @@ struct CoverGround {
   tighten::PointGrid::Fold fold = tighten::PointGrid::Fold::kNone;
   tighten::PointGrid points{{}};  // folded, all of the target's
   double size_m = 0.0;            // tighten::SizeOf
-  // tighten::AreaWeights in the order of `points`; none where nothing is loosened.
-  std::vector<double> weights;
-  SparseGround sparse;  // likewise; of another number of primitives another may be needed
+  SparseGround sparse;            // of `points`; none where nothing is loosened
 };
 
 // For sets that are `mirrored`, that is their own mirror images, or for others. There must be a
-// point. `primitives`: that the set will have, about. O(points + triangles).
+// point. `primitives`: about as many as the set will have; more need closer points to find their
+// shape by. O(points + triangles).
 [[nodiscard]] CoverGround MakeCoverGround(const tighten::CoverTarget& target, bool mirrored,
                                           const CoverOptions& options, int primitives,
                                           const ThreadPool& pool);

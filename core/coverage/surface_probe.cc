@@ -17,6 +17,7 @@ constexpr std::size_t kChunk = 2048;
 constexpr std::size_t kFewChunk = 32;  // where each is probed
 // Distances by tighten::PointGrid are good to this.
 constexpr double kGridAccuracy = 1e-6;
+constexpr double kFloatAccuracy = 1e-7;  // of distances up to a metre
 
 Eigen::Vector3d MiddleOf(const Corners& corners) {
   return (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -138,6 +139,47 @@ bool IsPlainlyNear(const tighten::CoverTarget& target, std::size_t triangle,
   return false;
 }
 
+// Where the same solid is nearest to all three corners, which holds for nine of ten triangles, and
+// no corner is out by more than the limit, nothing is. As many as pass are listed without branches.
+class NearbyTriangles {
+ public:
+  NearbyTriangles(const tighten::CoverTarget& target, const tighten::UnionDistances& at,
+                  const ThreadPool& pool)
+      : target_(target), at_(at.solid.size()) {
+    pool.ForChunks(at_.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        at_[v] = {static_cast<float>(at.distance_m[v]), at.solid[v]};
+      }
+    });
+  }
+
+  // Of the triangles [begin, end) those that are not so, in order; `others` has room for all.
+  [[nodiscard]] std::size_t ListOthers(std::size_t begin, std::size_t end, double limit_m,
+                                       std::span<std::uint32_t> others) const {
+    const auto limit = static_cast<float>(limit_m - kGridAccuracy - kFloatAccuracy);
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const mesh::Triangle& t = target_.triangles[i];
+      const AtVertex a = at_[t[0]];
+      const AtVertex b = at_[t[1]];
+      const AtVertex c = at_[t[2]];
+      const bool is_near = (a.solid == b.solid) & (a.solid == c.solid) & (a.distance_m <= limit) &
+                           (b.distance_m <= limit) & (c.distance_m <= limit);
+      others[count] = static_cast<std::uint32_t>(i);
+      count += is_near ? 0 : 1;
+    }
+    return count;
+  }
+
+ private:
+  struct AtVertex {
+    float distance_m;
+    std::int32_t solid;
+  };
+  const tighten::CoverTarget& target_;
+  std::vector<AtVertex> at_;
+};
+
 bool HasCornerOutside(const mesh::Triangle& t, const tighten::UnionDistances& at, double limit_m) {
   return std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]}) > limit_m;
 }
@@ -180,12 +222,12 @@ void Probe(const tighten::CoverTarget& target, std::size_t triangle,
   }
 }
 
-// What `look`(index, found) finds for each index, in their order.
+// What `look`(begin, end, found) finds in each chunk, in their order.
 template <typename Look>
 Unproved InChunks(std::size_t count, std::size_t chunk, const ThreadPool& pool, const Look& look) {
   std::vector<Unproved> found((count + chunk - 1) / chunk);
   pool.ForChunks(count, chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) look(i, found[begin / chunk]);
+    look(begin, end, found[begin / chunk]);
   });
   Unproved all;
   for (const Unproved& some : found) {
@@ -240,22 +282,33 @@ Unproved FindPointsOutside(const tighten::CoverTarget& target,
                            const tighten::UnionDistances& at_vertices,
                            const std::vector<TaperedCapsule>& solids, double asked_m,
                            double max_gap_m, const ThreadPool& pool) {
+  const NearbyTriangles nearby(target, at_vertices, pool);
   const auto may_stick_out = [&](std::size_t triangle) {
     return !IsPlainlyNear(target, triangle, at_vertices, solids, max_gap_m) &&
            !HasCornerOutside(target.triangles[triangle], at_vertices, max_gap_m);
   };
-  return InChunks(target.triangles.size(), kChunk, pool, [&](std::size_t i, Unproved& found) {
-    if (may_stick_out(i)) Probe(target, i, solids, {asked_m, max_gap_m}, found);
-  });
+  return InChunks(target.triangles.size(), kChunk, pool,
+                  [&](std::size_t begin, std::size_t end, Unproved& found) {
+                    std::array<std::uint32_t, kChunk> others;
+                    const std::size_t count = nearby.ListOthers(begin, end, max_gap_m, others);
+                    for (const std::uint32_t i : std::span(others).first(count)) {
+                      if (may_stick_out(i)) {
+                        Probe(target, i, solids, {asked_m, max_gap_m}, found);
+                      }
+                    }
+                  });
 }
 
 Unproved FindPointsOutside(const tighten::CoverTarget& target,
                            std::span<const std::uint32_t> triangles,
                            const std::vector<TaperedCapsule>& solids, double asked_m,
                            double max_gap_m, const ThreadPool& pool) {
-  return InChunks(triangles.size(), kFewChunk, pool, [&](std::size_t i, Unproved& found) {
-    Probe(target, triangles[i], solids, {asked_m, max_gap_m}, found);
-  });
+  return InChunks(triangles.size(), kFewChunk, pool,
+                  [&](std::size_t begin, std::size_t end, Unproved& found) {
+                    for (const std::uint32_t i : triangles.subspan(begin, end - begin)) {
+                      Probe(target, i, solids, {asked_m, max_gap_m}, found);
+                    }
+                  });
 }
 
 double CertifiedGap(const tighten::CoverTarget& target, const capsule::PrimitiveSet& set,
@@ -278,12 +331,15 @@ double CertifiedGap(const tighten::CoverTarget& target, const tighten::UnionDist
     gap = std::max(gap, solids[static_cast<std::size_t>(at_vertices.solid[v])].SignedDistance(
                             target.points_m[v]));
   }
+  const NearbyTriangles nearby(target, at_vertices, pool);
   const std::size_t count = target.triangles.size();
   std::vector<double> gaps((count + kChunk - 1) / kChunk, gap);
   const double tolerance = std::max(tolerance_m, 1e-7);
   pool.ForChunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
     double& most = gaps[begin / kChunk];
-    for (std::size_t i = begin; i < end; ++i) {
+    std::array<std::uint32_t, kChunk> others;
+    const std::size_t others_count = nearby.ListOthers(begin, end, most, others);
+    for (const std::uint32_t i : std::span(others).first(others_count)) {
       if (IsPlainlyNear(target, i, at_vertices, solids, most)) continue;
       most = std::max(most, GapOf(TriangleProbe(CornersOf(target, i), solids), tolerance));
     }

@@ -30,13 +30,6 @@ struct GridPlace {
   std::uint32_t row = 0;
 };
 
-// A point as the columns see it.
-struct GridPoint {
-  double x = 0.0;
-  double y = 0.0;
-  double along = 0.0;
-};
-
 // Where a triangle's edge passes a row.
 struct EdgeCrossing {
   double x = 0.0;
@@ -47,14 +40,11 @@ class TriangleCaster {
  public:
   TriangleCaster(std::span<const Eigen::Vector3d> points, const ColumnGrid& grid,
                  const ColumnCaster::Axes& axes, const ThreadPool& pool)
-      : grid_(grid), points_(points.size()), places_(points.size()) {
+      : grid_(grid), points_(points), axes_(axes), places_(points.size()) {
     pool.ForChunks(points.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        const double x = points[i][axes[0]];
-        const double y = points[i][axes[1]];
-        points_[i] = {x, y, points[i][axes[2]]};
-        places_[i] = {static_cast<std::uint32_t>(grid.FirstColumn(x)),
-                      static_cast<std::uint32_t>(grid.FirstRow(y))};
+        places_[i] = {static_cast<std::uint32_t>(grid.FirstColumn(points[i][axes[0]])),
+                      static_cast<std::uint32_t>(grid.FirstRow(points[i][axes[1]]))};
       }
     });
   }
@@ -101,12 +91,14 @@ class TriangleCaster {
 
   // The same bits from both triangles at the edge: the end with the lower index comes first.
   [[nodiscard]] EdgeCrossing CrossEdge(std::uint32_t from, std::uint32_t to, double y) const {
-    const GridPoint& a = points_[std::min(from, to)];
-    const GridPoint& b = points_[std::max(from, to)];
-    const double t = (y - a.y) / (b.y - a.y);
+    const Eigen::Vector3d& a = points_[std::min(from, to)];
+    const Eigen::Vector3d& b = points_[std::max(from, to)];
+    const auto [across, up, along] = axes_;
+    const double t = (y - a[up]) / (b[up] - a[up]);
     // Rounding must not carry it past a column that the ends do not reach.
-    const double x = std::clamp(a.x + t * (b.x - a.x), std::min(a.x, b.x), std::max(a.x, b.x));
-    return {x, a.along + t * (b.along - a.along)};
+    const double x = std::clamp(a[across] + t * (b[across] - a[across]),
+                                std::min(a[across], b[across]), std::max(a[across], b[across]));
+    return {x, a[along] + t * (b[along] - a[along])};
   }
 
   // One corner is on one side of the row, two are on the other; the edges beside the lone one cross
@@ -148,7 +140,8 @@ class TriangleCaster {
   }
 
   const ColumnGrid& grid_;
-  std::vector<GridPoint> points_;
+  std::span<const Eigen::Vector3d> points_;
+  ColumnCaster::Axes axes_;
   std::vector<GridPlace> places_;  // of each point
 };
 

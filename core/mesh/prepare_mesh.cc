@@ -106,21 +106,30 @@ class MeshMender {
   // What all of the steps below would leave as it is; else nothing, and they may begin. The
   // triangles are closed and oriented.
   std::optional<PreparedMesh> TakeAsItCame(EdgeMates& mates) {
-    std::vector<std::int32_t> themselves(positions_.size());
-    std::iota(themselves.begin(), themselves.end(), 0);
-    BodyMesh mesh(positions_, std::move(surface_.triangles), std::move(themselves),
-                  std::move(mates.mate), pool_);
+    const std::span<const Triangle> triangles = surface_.triangles;  // where they go they stay
+    const std::span<const HalfEdge> half_edges = mates.mate;
+    bool is_one = false;
+    std::optional<BodyMesh> taken;
+    pool_.ForEach(2, [&](std::size_t half) {
+      if (half == 0) is_one = IsOneSurface(triangles, half_edges, positions_.size(), pool_);
+      if (half == 1) taken = AsItCame(mates);
+    });
+    BodyMesh& mesh = *taken;
     diagonal_ = mesh.diagonal();
     // A flat one, no longer than the diagonal, has half of this area at most.
     const double flat_area = kFlatShare * diagonal_ * diagonal_;
     const bool has_flat = mesh.least_triangle_area() <= flat_area && HasFlat(mesh.triangles());
-    if (!has_flat && mesh.volume() > LeastVolume() &&
-        IsOneSurface(mesh.triangles(), mesh.mates(), positions_.size(), pool_)) {
-      return Finish(std::move(mesh));
-    }
+    if (is_one && !has_flat && mesh.volume() > LeastVolume()) return Finish(std::move(mesh));
     surface_.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
     mates.mate.assign(mesh.mates().begin(), mesh.mates().end());
     return std::nullopt;
+  }
+
+  BodyMesh AsItCame(EdgeMates& mates) {
+    std::vector<std::int32_t> themselves(positions_.size());
+    std::iota(themselves.begin(), themselves.end(), 0);
+    return BodyMesh(positions_, std::move(surface_.triangles), std::move(themselves),
+                    std::move(mates.mate), pool_);
   }
 
   [[nodiscard]] bool HasFlat(std::span<const Triangle> triangles) const {

@@ -75,10 +75,11 @@ void CloseCuts(const body::Body& body, const std::vector<Edge>& edges, FittedSur
   }
   for (auto& [root, middle] : middles) {
     middle.index = static_cast<std::uint32_t>(surface.points_m.size());
-    surface.points_m.push_back(middle.sum / middle.count);
+    surface.points_m.own().push_back(middle.sum / middle.count);
   }
   for (const Edge& edge : edges) {
-    surface.triangles.push_back({edge.first, edge.second, middles[cuts.Root(edge.first)].index});
+    surface.triangles.own().push_back(
+        {edge.first, edge.second, middles[cuts.Root(edge.first)].index});
     surface.parts.push_back(std::min(body::PartOf(body.vertex_segments[edge.first]),
                                      body::PartOf(body.vertex_segments[edge.second])));
   }
@@ -125,9 +126,8 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
                                 const ThreadPool& pool, const FitObserver& observer) {
   const std::span<const mesh::Triangle> triangles = body.mesh.triangles();
   FittedSurface surface;
-  surface.points_m.assign(body.mesh.vertices().begin(), body.mesh.vertices().end());
-  if (observer.IsCancelled()) return surface;
-  std::vector<Part> part_of(surface.points_m.size());
+  const std::span<const Eigen::Vector3d> vertices = body.mesh.vertices();
+  std::vector<Part> part_of(vertices.size());
   std::vector<std::uint8_t> selected(part_of.size());
   std::array<Part, body::kSegmentCount> part_of_segment{};
   std::array<std::uint8_t, body::kSegmentCount> is_selected{};
@@ -152,8 +152,14 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
                                    : std::count_if(triangles.begin(), triangles.end(), is_skin));
   surface.skin_begin = triangles.size() - skin;
   surface.skin_end = triangles.size();
-  surface.triangles.resize(triangles.size());
   surface.parts.resize(triangles.size());
+  if (surface.is_whole()) {
+    surface.points_m = LentOrOwn<Eigen::Vector3d>::Lent(vertices);
+    surface.triangles = LentOrOwn<mesh::Triangle>::Lent(triangles);
+  } else {
+    surface.points_m.own().assign(vertices.begin(), vertices.end());
+    surface.triangles.own().resize(triangles.size());
+  }
   if (observer.IsCancelled()) return surface;
   const std::vector<Edge> cut =
       surface.is_whole() ? std::vector<Edge>() : CutEdges(body.mesh, selected);
@@ -162,7 +168,7 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
   for (const mesh::Triangle& t : triangles) {
     const bool is_in = is_skin(t);
     const std::size_t at = is_in ? next_in++ : next_out++;
-    surface.triangles[at] = t;
+    if (!surface.is_whole()) surface.triangles.own()[at] = t;
     surface.parts[at] = MostOf(part_of[t[0]], part_of[t[1]], part_of[t[2]]);
     if (!is_in) continue;
     surface.has_part[static_cast<std::size_t>(surface.parts[at])] = true;

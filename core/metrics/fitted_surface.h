@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/fit_observer.h"
+#include "core/base/lent_or_own.h"
 #include "core/base/thread_pool.h"
 #include "core/body/anatomy.h"
 #include "core/body/body.h"
@@ -25,11 +26,11 @@ using PartNumbers = std::array<double, body::kPartCount>;
 // The part of a triangle is that of most of its corners (all different: the first in the list of
 // parts); that of a fan's triangle is the first part of its edge's two ends.
 struct FittedSurface {
-  std::vector<Eigen::Vector3d> points_m;  // the mesh's vertices, then the fans' middles
-  std::vector<mesh::Triangle> triangles;  // indices into points_m: left out, then skin, then caps
-  std::vector<body::Part> parts;          // of each of `triangles`
-  std::size_t skin_begin = 0;             // the body is [0, skin_end), the fitted surface
-  std::size_t skin_end = 0;               // [skin_begin, all)
+  LentOrOwn<Eigen::Vector3d> points_m;  // the mesh's vertices, then the fans' middles
+  LentOrOwn<mesh::Triangle> triangles;  // indices into points_m: left out, then skin, then caps
+  std::vector<body::Part> parts;        // of each of `triangles`
+  std::size_t skin_begin = 0;           // the body is [0, skin_end), the fitted surface
+  std::size_t skin_end = 0;             // [skin_begin, all)
   std::array<bool, body::kPartCount> has_part{};  // there is skin of this part
   std::vector<std::uint32_t> vertices;            // mesh vertices of the selected parts
   Eigen::AlignedBox3d box;                        // of the skin; empty when there is none
@@ -40,20 +41,24 @@ struct FittedSurface {
   PartNumbers middle_z{};
 
   [[nodiscard]] std::span<const mesh::Triangle> skin() const {
-    return std::span(triangles).subspan(skin_begin, skin_end - skin_begin);
+    return triangles.view().subspan(skin_begin, skin_end - skin_begin);
   }
   [[nodiscard]] std::span<const mesh::Triangle> fitted() const {
-    return std::span(triangles).subspan(skin_begin);
+    return triangles.view().subspan(skin_begin);
   }
   // Nothing is left out: the body's own surface.
   [[nodiscard]] bool is_whole() const { return skin_begin == 0; }
 };
 
-// O(n); the sums in parallel. Not whole where the observer cancels.
+// O(n); the sums in parallel. Not whole where the observer cancels. Where nothing is left out the
+// body's mesh lends its arrays: it must outlive the surface.
 [[nodiscard]] FittedSurface MakeFittedSurface(const body::Body& body,
                                               const body::PartSelection& parts,
                                               const ThreadPool& pool,
                                               const FitObserver& observer = NullObserver());
+FittedSurface MakeFittedSurface(body::Body&& body, const body::PartSelection& parts,
+                                const ThreadPool& pool,
+                                const FitObserver& observer = NullObserver()) = delete;
 
 }  // namespace capfit::metrics
 

@@ -277,6 +277,7 @@ void PutSurface(const body::Body& body, const MeasureGround& ground,
 }
 
 tighten::PointGrid VerticesOf(const FittedSurface& fitted) {
+  if (fitted.vertices.size() == fitted.points_m.size()) return tighten::PointGrid(fitted.points_m);
   std::vector<Eigen::Vector3d> points_m;
   points_m.reserve(fitted.vertices.size());
   for (const std::uint32_t v : fitted.vertices) points_m.push_back(fitted.points_m[v]);

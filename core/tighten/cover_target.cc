@@ -21,16 +21,23 @@ CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts,
     new_index[v] = static_cast<std::uint32_t>(target.vertices.size());
     target.vertices.push_back(v);
   }
+  if (target.vertices.size() == surface.vertices_m.size()) {
+    target.points_m = LentOrOwn<Eigen::Vector3d>::Lent(surface.vertices_m);
+    target.triangles = LentOrOwn<mesh::Triangle>::Lent(surface.triangles);
+    return target;
+  }
   const auto put_points = [&] {
-    target.points_m.reserve(target.vertices.size());
-    for (const std::uint32_t v : target.vertices) target.points_m.push_back(surface.vertices_m[v]);
+    std::vector<Eigen::Vector3d>& points_m = target.points_m.own();
+    points_m.reserve(target.vertices.size());
+    for (const std::uint32_t v : target.vertices) points_m.push_back(surface.vertices_m[v]);
   };
   const auto put_triangles = [&] {
-    target.triangles.reserve(surface.triangles.size());
+    std::vector<mesh::Triangle>& triangles = target.triangles.own();
+    triangles.reserve(surface.triangles.size());
     for (const mesh::Triangle& t : surface.triangles) {
       const mesh::Triangle kept = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
       if (kept[0] == kLeftOut || kept[1] == kLeftOut || kept[2] == kLeftOut) continue;
-      target.triangles.push_back(kept);
+      triangles.push_back(kept);
     }
   };
   pool.ForEach(2, [&](std::size_t half) { half == 0 ? put_triangles() : put_points(); });

@@ -35,14 +35,20 @@ struct Grid {
   std::size_t size() const { return std::size_t{counts[0]} * counts[1] * counts[2]; }
 };
 
-Grid MakeGrid(std::span<const Eigen::Vector3d> points) {
+Eigen::Vector3d Folded(const Eigen::Vector3d& point, PointGrid::Fold fold) {
+  if (fold == PointGrid::Fold::kNone) return point;
+  return {std::abs(point.x()), point.y(), point.z()};
+}
+
+Grid MakeGrid(std::span<const Eigen::Vector3d> points, PointGrid::Fold fold) {
   Grid grid;
   if (points.empty()) return grid;
-  Eigen::Array3d low = points[0];
-  Eigen::Array3d high = points[0];
+  Eigen::Array3d low = Folded(points[0], fold);
+  Eigen::Array3d high = low;
   for (const Eigen::Vector3d& p : points) {
-    low = low.min(p.array());
-    high = high.max(p.array());
+    const Eigen::Vector3d at = Folded(p, fold);
+    low = low.min(at.array());
+    high = high.max(at.array());
   }
   grid.low = low;
   const Eigen::Array3d extent = (high - low).max(1e-9);
@@ -86,23 +92,19 @@ struct AtCenter {
 
 PointGrid::PointGrid(std::span<const Eigen::Vector3d> points_m, Fold fold)
     : order_(points_m.size()), points_m_(points_m.size()) {
-  std::vector<Eigen::Vector3d> laid(points_m.begin(), points_m.end());
-  if (fold == Fold::kToPositiveX) {
-    for (Eigen::Vector3d& p : laid) p.x() = std::abs(p.x());
-  }
-  const Grid grid = MakeGrid(laid);
-  std::vector<std::uint32_t> cells(laid.size());
+  const Grid grid = MakeGrid(points_m, fold);
+  std::vector<std::uint32_t> cells(points_m.size());
   std::vector<std::uint32_t> ends(grid.size() + 1, 0);
-  for (std::size_t i = 0; i < laid.size(); ++i) {
-    cells[i] = grid.CellOf(laid[i]);
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    cells[i] = grid.CellOf(Folded(points_m[i], fold));
     ++ends[cells[i] + 1];
   }
   for (std::size_t c = 1; c < ends.size(); ++c) ends[c] += ends[c - 1];
   // ends[c] is where cell c begins; after placing its points it is where the cell ends.
-  for (std::size_t i = 0; i < laid.size(); ++i) {
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
     const std::uint32_t slot = ends[cells[i]]++;
     order_[slot] = static_cast<std::uint32_t>(i);
-    points_m_[slot] = laid[i];
+    points_m_[slot] = Folded(points_m[i], fold);
   }
   MakeBlocks(ends);
 }

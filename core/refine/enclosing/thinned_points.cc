@@ -49,7 +49,7 @@ ThinnedPoints ThinnedPointsOf(const tighten::CoverTarget& target, bool symmetric
   const double area = mesh::AddVertexAreas(target.points_m, target.triangles, areas);
   ThinnedPoints thinned;
   thinned.size_m = std::max(std::sqrt(area), 1e-6);
-  std::vector<Vec3> points = target.points_m;
+  std::vector<Vec3> points(target.points_m.begin(), target.points_m.end());
   AddPointsBetween(target, spacing * thinned.size_m, points, areas);
   if (symmetric) {
     for (Vec3& p : points) p.x() = std::abs(p.x());

@@ -27,8 +27,8 @@ VolumeError::VolumeError(const mesh::BodyMesh& mesh, int columns)
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * mesh.diagonal());
   grid_ = metrics::MakeColumnGrid({mesh.box_min() - margin, mesh.box_max() + margin}, columns);
   metrics::FittedSurface surface;
-  surface.points_m.assign(mesh.vertices().begin(), mesh.vertices().end());
-  surface.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
+  surface.points_m.own().assign(mesh.vertices().begin(), mesh.vertices().end());
+  surface.triangles.own().assign(mesh.triangles().begin(), mesh.triangles().end());
   surface.parts.resize(surface.triangles.size());
   surface.skin_end = surface.triangles.size();
   const metrics::BodyRows rows(surface, grid_, ThreadPool(1));

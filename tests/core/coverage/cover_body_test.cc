@@ -104,7 +104,7 @@ TEST(CoverBodyProperty, ScalingTheSceneScalesTheResult) {
   TubeBody body = MakeTubeBody(10, 0.0);
   capsule::PrimitiveSet adult = body.set;
   Cover(body, {.max_gap_m = 2e-3}, 1, adult);
-  for (Eigen::Vector3d& p : body.target.points_m) p *= 0.5;
+  for (Eigen::Vector3d& p : body.target.points_m.own()) p *= 0.5;
   for (geometry::Sphere& sphere : body.set.spheres) {
     sphere.center_m *= 0.5;
     sphere.radius_m *= 0.5;
@@ -121,7 +121,7 @@ double MovedByRounding(std::uint64_t seed, double rounding_m) {
   capsule::PrimitiveSet before = body.set;
   Cover(body, {}, 1, before);
   Random random(3);
-  for (Eigen::Vector3d& p : body.target.points_m) {
+  for (Eigen::Vector3d& p : body.target.points_m.own()) {
     for (double& x : p) x += random.NextIn(-rounding_m, rounding_m);
   }
   capsule::PrimitiveSet after = body.set;
@@ -188,7 +188,7 @@ TEST(CoverBodyTest, NothingToCoverAndNothingToCoverWith) {
 TEST(CoverBodyTest, PointsWithoutTrianglesAndASingleSphere) {
   const ThreadPool pool(1);
   tighten::CoverTarget target;
-  target.points_m = {{0, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
+  target.points_m.own() = {{0, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
   capsule::PrimitiveSet set;
   set.spheres.push_back({{0.5, 0.5, 0.5}, 0.01});
   set.origins.emplace_back();
@@ -256,8 +256,8 @@ TEST(CertifiedGapTest, FindsTheValleyThatNoVertexSees) {
   set.spheres = {{{-1, 0, 0}, 1.0}, {{1, 0, 0}, 1.0}};
   set.origins.resize(2);
   tighten::CoverTarget target;
-  target.points_m = {{-1, 0.9, 0}, {1, 0.9, 0}, {1, 0.9, 0.01}};
-  target.triangles = {{0, 1, 2}};
+  target.points_m.own() = {{-1, 0.9, 0}, {1, 0.9, 0}, {1, 0.9, 0.01}};
+  target.triangles.own() = {{0, 1, 2}};
   // Half-way between the centres the edge is sqrt(1 + 0.81) from both.
   EXPECT_NEAR(CertifiedGap(target, set, 1e-6, pool), std::sqrt(1.81) - 1.0, 5e-5);
   set.capsules.push_back({0, 1});

@@ -23,8 +23,8 @@ struct Tent {
   capsule::PrimitiveSet set;
 
   explicit Tent(double radius_m) {
-    target.points_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    target.triangles = {{0, 1, 2}};
+    target.points_m.own() = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    target.triangles.own() = {{0, 1, 2}};
     for (const Eigen::Vector3d& p : target.points_m) {
       set.spheres.push_back({p, radius_m});
       set.origins.emplace_back();

@@ -29,8 +29,8 @@ const ThreadPool& SerialPool() {
 // The mesh as the body and the fitted part alike.
 FittedSurface SurfaceOf(const mesh::BodyMesh& mesh) {
   FittedSurface surface;
-  surface.points_m.assign(mesh.vertices().begin(), mesh.vertices().end());
-  surface.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
+  surface.points_m.own().assign(mesh.vertices().begin(), mesh.vertices().end());
+  surface.triangles.own().assign(mesh.triangles().begin(), mesh.triangles().end());
   surface.parts.assign(surface.triangles.size(), body::Part::kTorso);
   surface.skin_end = surface.triangles.size();
   return surface;
@@ -203,20 +203,21 @@ TEST(BodyRowsTest, HalvesHaveThePartOfTheirEndAndSurfacesShareTriangles) {
   std::vector<mesh::Triangle> below;
   for (const mesh::Triangle& t : box.triangles()) {
     if (mesh::Middle(box.vertices(), t).z() > 2.0) {
-      surface.triangles.push_back(t);
+      surface.triangles.own().push_back(t);
     } else {
       below.push_back(t);
     }
   }
   surface.skin_begin = surface.triangles.size();
   surface.parts.assign(surface.skin_begin, kHigh);
-  surface.triangles.insert(surface.triangles.end(), below.begin(), below.end());
+  surface.triangles.own().insert(surface.triangles.own().end(), below.begin(), below.end());
   surface.skin_end = surface.triangles.size();
-  surface.points_m.assign(box.vertices().begin(), box.vertices().end());
+  surface.points_m.own().assign(box.vertices().begin(), box.vertices().end());
   const auto first = static_cast<std::uint32_t>(surface.points_m.size());
-  surface.points_m.insert(surface.points_m.end(), {{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}});
-  surface.triangles.push_back({first, first + 1, first + 2});
-  surface.triangles.push_back({first, first + 2, first + 3});
+  surface.points_m.own().insert(surface.points_m.own().end(),
+                                {{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}});
+  surface.triangles.own().push_back({first, first + 1, first + 2});
+  surface.triangles.own().push_back({first, first + 2, first + 3});
   surface.parts.resize(surface.triangles.size(), kLow);
   const ColumnGrid grid = GridOver(box, 10);
   const BodyRows rows(surface, grid, SerialPool());

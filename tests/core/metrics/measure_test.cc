@@ -193,11 +193,13 @@ TEST(MeasurePartsTest, OnlyTheFittedSurfaceAndVerticesCount) {
 }
 
 mesh::BodyMesh ClosedMesh(const FittedSurface& surface) {
-  return test_shapes::MeshOf(surface.points_m, {surface.fitted().begin(), surface.fitted().end()});
+  return test_shapes::MeshOf({surface.points_m.begin(), surface.points_m.end()},
+                             {surface.fitted().begin(), surface.fitted().end()});
 }
 
 TEST(FittedSurfaceTest, IsClosedByAFanOverEachCut) {
-  const FittedSurface surface = MakeFittedSurface(Tower(), {}, SingleThread());
+  const body::Body tower = Tower();
+  const FittedSurface surface = MakeFittedSurface(tower, {}, SingleThread());
   EXPECT_FALSE(surface.is_whole());
   const mesh::BodyMesh closed = ClosedMesh(surface);
   EXPECT_NEAR(closed.volume(), 2.0, 1e-12);
@@ -207,12 +209,13 @@ TEST(FittedSurfaceTest, IsClosedByAFanOverEachCut) {
 }
 
 TEST(FittedSurfaceTest, FluxAddsUpToTheVolumeWhereOneHeightIsUsed) {
-  const FittedSurface surface = MakeFittedSurface(Tower(), kAllParts, SingleThread());
+  const body::Body tower = Tower();
+  const FittedSurface surface = MakeFittedSurface(tower, kAllParts, SingleThread());
   double area = 0.0;
   for (const double one : surface.skin_areas_m2) area += one;
   EXPECT_NEAR(area, 14.0, 1e-12);
   const auto torso = static_cast<std::size_t>(body::Part::kTorso);
-  const FittedSurface fitted = MakeFittedSurface(Tower(), {}, SingleThread());
+  const FittedSurface fitted = MakeFittedSurface(tower, {}, SingleThread());
   EXPECT_NEAR(fitted.flux[torso], 2.0, 1e-12);  // closed in itself
 }
 
@@ -227,7 +230,8 @@ TEST(FittedSurfaceTest, TwoCutsHaveAFanEach) {
 }
 
 TEST(FittedSurfaceTest, AllPartsAreTheWholeBody) {
-  const FittedSurface surface = MakeFittedSurface(Tower(), kAllParts, SingleThread());
+  const body::Body tower = Tower();
+  const FittedSurface surface = MakeFittedSurface(tower, kAllParts, SingleThread());
   EXPECT_TRUE(surface.is_whole());
   EXPECT_EQ(surface.skin().size(), surface.triangles.size());
 }

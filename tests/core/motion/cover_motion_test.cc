@@ -23,12 +23,12 @@ struct Pipe {
     for (int i = -40; i <= 40; ++i) {
       for (int k = 0; k < 16; ++k) {
         const double angle = k * 0.39269908169872414;
-        target.points_m.emplace_back(0.01 * i, kRadius * std::cos(angle),
-                                     kRadius * std::sin(angle));
+        target.points_m.own().emplace_back(0.01 * i, kRadius * std::cos(angle),
+                                           kRadius * std::sin(angle));
       }
     }
     for (std::uint32_t i = 0; i + 17 < target.points_m.size(); ++i) {
-      target.triangles.push_back({i, i + 1, i + 16});
+      target.triangles.own().push_back({i, i + 1, i + 16});
     }
     for (const double x : {-0.4, 0.0, 0.4}) {
       set.spheres.push_back({Vec3(x, 0, 0), kRadius + 1e-4});
@@ -39,7 +39,7 @@ struct Pipe {
 
   // Points beyond 0 moved out from the axis by a bulge around x.
   [[nodiscard]] std::vector<Vec3> Bulging(double x, double by) const {
-    std::vector<Vec3> points = target.points_m;
+    std::vector<Vec3> points(target.points_m.begin(), target.points_m.end());
     for (Vec3& p : points) {
       const double share = by * std::exp(-std::pow((p.x() - x) / 0.08, 2.0));
       p.tail<2>() *= 1.0 + share / kRadius;
@@ -57,7 +57,7 @@ Carry Still(std::size_t frames) {
   };
 }
 
-double FurthestOut(const capsule::PrimitiveSet& set, const std::vector<Vec3>& points) {
+double FurthestOut(const capsule::PrimitiveSet& set, std::span<const Vec3> points) {
   double furthest = -std::numeric_limits<double>::infinity();
   for (const Vec3& p : points) {
     double least = std::numeric_limits<double>::infinity();

@@ -33,23 +33,23 @@ inline void AddTube(const std::vector<Eigen::Vector3d>& path, const std::vector<
   for (std::size_t i = 0; i < path.size(); ++i) {
     for (int k = 0; k < around; ++k) {
       const double angle = 2 * std::numbers::pi * k / around;
-      target.points_m.push_back(
+      target.points_m.own().push_back(
           path[i] + radii_m[i] * (std::cos(angle) * u + flatness * std::sin(angle) * v));
     }
   }
-  target.points_m.push_back(path.front());
-  target.points_m.push_back(path.back());
+  target.points_m.own().push_back(path.front());
+  target.points_m.own().push_back(path.back());
   const std::uint32_t ends[2] = {first + rings * n, first + rings * n + 1};
   const std::uint32_t last = first + (rings - 1) * n;
   for (std::uint32_t k = 0; k < n; ++k) {
     const std::uint32_t next = (k + 1) % n;
     for (std::uint32_t i = 0; i + 1 < rings; ++i) {
       const std::uint32_t a = first + i * n;
-      target.triangles.push_back({a + k, a + next, a + n + k});
-      target.triangles.push_back({a + next, a + n + next, a + n + k});
+      target.triangles.own().push_back({a + k, a + next, a + n + k});
+      target.triangles.own().push_back({a + next, a + n + next, a + n + k});
     }
-    target.triangles.push_back({first + next, first + k, ends[0]});
-    target.triangles.push_back({last + k, last + next, ends[1]});
+    target.triangles.own().push_back({first + next, first + k, ends[0]});
+    target.triangles.own().push_back({last + k, last + next, ends[1]});
   }
 }
 
@@ -93,7 +93,7 @@ inline TubeBody MakeTubeBody(std::uint64_t seed, double asymmetry_m, int around 
   tube(hip, neck, 0.16, 0.13, 0.65, false);
   tube(shoulder, hand, 0.05, 0.03, 0.9, true);
   tube(leg, foot, 0.08, 0.04, 0.95, true);
-  for (Eigen::Vector3d& p : body.target.points_m) {
+  for (Eigen::Vector3d& p : body.target.points_m.own()) {
     for (int k = 0; k < 3; ++k) p[k] += random.NextIn(-asymmetry_m, asymmetry_m);
   }
   const int hip_ball = centred(hip, 0.13), neck_ball = centred(neck, 0.12);

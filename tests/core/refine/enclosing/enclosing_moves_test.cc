@@ -13,8 +13,8 @@ namespace {
 // Two large triangles whose corners are in small balls.
 TEST(EnclosingMovesTest, WhatSticksOutBetweenFarVerticesCounts) {
   tighten::CoverTarget square;
-  square.points_m = {{0, 0, 0}, {0.4, 0, 0}, {0.4, 0.4, 0}, {0, 0.4, 0}};
-  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  square.points_m.own() = {{0, 0, 0}, {0.4, 0, 0}, {0.4, 0.4, 0}, {0, 0.4, 0}};
+  square.triangles.own() = {{0, 1, 2}, {0, 2, 3}};
   const EnclosingTask task(square, /*symmetric=*/false, 0.0, /*spacing=*/0.1);
   const ThreadPool pool(1);
   capsule::MirroredSet corners;

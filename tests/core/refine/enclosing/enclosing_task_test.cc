@@ -28,7 +28,7 @@ capsule::MirroredSet Around(double radius_m) {
 }
 
 tighten::CoverTarget Turned(tighten::CoverTarget target, const Eigen::Matrix3d& turn) {
-  for (Eigen::Vector3d& p : target.points_m) p = turn * p;
+  for (Eigen::Vector3d& p : target.points_m.own()) p = turn * p;
   return target;
 }
 

@@ -22,14 +22,14 @@ inline tighten::CoverTarget Tube() {
   for (int ring = 0; ring < kRings; ++ring) {
     for (int i = 0; i < kAround; ++i) {
       const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kAround;
-      target.points_m.emplace_back(kRadius * std::cos(angle), kLength * ring / (kRings - 1),
-                                   kRadius * std::sin(angle));
+      target.points_m.own().emplace_back(kRadius * std::cos(angle), kLength * ring / (kRings - 1),
+                                         kRadius * std::sin(angle));
       if (ring == 0) continue;
       const auto at = [&](int r, int k) {
         return static_cast<std::uint32_t>(r * kAround + k % kAround);
       };
-      target.triangles.push_back({at(ring - 1, i), at(ring, i), at(ring, i + 1)});
-      target.triangles.push_back({at(ring - 1, i), at(ring, i + 1), at(ring - 1, i + 1)});
+      target.triangles.own().push_back({at(ring - 1, i), at(ring, i), at(ring, i + 1)});
+      target.triangles.own().push_back({at(ring - 1, i), at(ring, i + 1), at(ring - 1, i + 1)});
     }
   }
   return target;
