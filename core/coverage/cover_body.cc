@@ -126,8 +126,10 @@ class Coverer {
     // Growing ends with a proof for every triangle, which may be sharper by the tolerance.
     report_.certified_gap_m = std::min(report_.certified_gap_m, MaxGap());
     report_.added_points = static_cast<int>(between_.size());
+    const std::size_t capsules = set_.capsules.size();
     if (!options_.keeps_swallowed) RemoveSwallowed();
-    return report_;
+    if (set_.capsules.size() == capsules) report_.at_vertices = std::move(at_vertices_);
+    return std::move(report_);
   }
 
  private:

@@ -55,6 +55,8 @@ struct CoverReport {
   double max_vertex_distance_m = 0.0;  // furthest vertex outside; <= 0 when all are inside
   double volume_m3 = 0.0;              // of the union
   double certified_gap_m = 0.0;        // no point of the surface is further out than this (proved)
+  // Of the target's points, with solids of the set as it is at the end; empty where one went.
+  tighten::UnionDistances at_vertices;
 };
 
 // Few points that stand for all while the set finds its shape (see tighten::MakeSparse).

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
+#include "core/base/chunk_sums.h"
 #include "core/metrics/boundary_distance.h"
 #include "core/metrics/fitted_surface.h"
 #include "core/metrics/volumes.h"
@@ -105,8 +107,22 @@ std::vector<SurfaceSample> SampleSurface(const FittedSurface& surface, int count
   return samples;
 }
 
-// Of each of the vertices, as far as one solid tells: outside the distance to the union, inside a
-// depth that the union's is not less than.
+tighten::PointGrid VerticesOf(const FittedSurface& fitted) {
+  if (fitted.vertices.size() == fitted.points_m.size()) return tighten::PointGrid(fitted.points_m);
+  std::vector<Eigen::Vector3d> points_m;
+  points_m.reserve(fitted.vertices.size());
+  for (const std::uint32_t v : fitted.vertices) points_m.push_back(fitted.points_m[v]);
+  return tighten::PointGrid(points_m);
+}
+
+// A point's distance, as far as one solid tells: outside that to the union, inside a depth that the
+// union's is not less than. What sticks out is told to the last digit.
+double SharpDistance(double distance_m, std::int32_t solid, const Eigen::Vector3d& point,
+                     const std::vector<geometry::TaperedCapsule>& solids) {
+  if (distance_m <= -kGridErrorM) return distance_m;
+  return solids[static_cast<std::size_t>(solid)].SignedDistance(point);
+}
+
 std::vector<double> VertexDistances(const tighten::PointGrid& grid,
                                     const std::vector<geometry::TaperedCapsule>& solids,
                                     const ThreadPool& pool) {
@@ -114,23 +130,32 @@ std::vector<double> VertexDistances(const tighten::PointGrid& grid,
       grid.DistancesTo(solids, -std::numeric_limits<double>::infinity(), pool);
   std::vector<double> distances(grid.size(), 0.0);
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    double distance = nearest.distance_m[i];
-    // What sticks out is told to the last digit.
-    if (distance > -kGridErrorM) {
-      distance = solids[static_cast<std::size_t>(nearest.solid[i])].SignedDistance(grid.point(i));
-    }
-    distances[grid.order()[i]] = distance;
+    distances[grid.order()[i]] =
+        SharpDistance(nearest.distance_m[i], nearest.solid[i], grid.point(i), solids);
   }
   return distances;
 }
 
 // The same by the mesh's own numbers: 0 for vertices that are not fitted.
 std::vector<double> FittedDistances(const MeasureGround& ground,
+                                    const tighten::UnionDistances& known,
                                     const std::vector<geometry::TaperedCapsule>& solids,
                                     const ThreadPool& pool) {
-  const std::vector<double> told = VertexDistances(ground.vertices, solids, pool);
-  std::vector<double> distances(ground.fitted.points_m.size(), 0.0);
-  for (std::size_t i = 0; i < told.size(); ++i) distances[ground.fitted.vertices[i]] = told[i];
+  const FittedSurface& fitted = ground.fitted;
+  std::vector<double> distances(fitted.points_m.size(), 0.0);
+  if (known.distance_m.size() == fitted.vertices.size()) {
+    pool.ForChunks(fitted.vertices.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::uint32_t v = fitted.vertices[i];
+        distances[v] =
+            SharpDistance(known.distance_m[i], known.solid[i], fitted.points_m[v], solids);
+      }
+    });
+    return distances;
+  }
+  const std::vector<double> told =
+      VertexDistances(ground.vertices ? *ground.vertices : VerticesOf(fitted), solids, pool);
+  for (std::size_t i = 0; i < told.size(); ++i) distances[fitted.vertices[i]] = told[i];
   return distances;
 }
 
@@ -253,10 +278,11 @@ void PutGaps(double diagonal_m, GapSums sums, AnyMetrics& metrics) {
 }
 
 void PutSurface(const body::Body& body, const MeasureGround& ground,
+                const tighten::UnionDistances& at_vertices,
                 const std::vector<geometry::TaperedCapsule>& solids, const MeasureOptions& options,
                 const ThreadPool& pool, const FitObserver& observer, Metrics& metrics) {
   const FittedSurface& fitted = ground.fitted;
-  const std::vector<double> distances = FittedDistances(ground, solids, pool);
+  const std::vector<double> distances = FittedDistances(ground, at_vertices, solids, pool);
   if (observer.IsCancelled()) return;
   if (body.shells) {
     PutShellVertices(*body.shells, options.parts, solids, pool, metrics);
@@ -276,32 +302,27 @@ void PutSurface(const body::Body& body, const MeasureGround& ground,
   metrics.hausdorff = 100.0 * metrics.gap.max_m / diagonal_m;
 }
 
-tighten::PointGrid VerticesOf(const FittedSurface& fitted) {
-  if (fitted.vertices.size() == fitted.points_m.size()) return tighten::PointGrid(fitted.points_m);
-  std::vector<Eigen::Vector3d> points_m;
-  points_m.reserve(fitted.vertices.size());
-  for (const std::uint32_t v : fitted.vertices) points_m.push_back(fitted.points_m[v]);
-  return tighten::PointGrid(points_m);
-}
-
 }  // namespace
 
 MeasureGround::MeasureGround(const body::Body& body, const MeasureOptions& options,
-                             const ThreadPool& pool, const FitObserver& observer)
+                             bool knows_vertices, const ThreadPool& pool,
+                             const FitObserver& observer)
     : fitted(MakeFittedSurface(body, options.parts, pool, observer)),
-      vertices(VerticesOf(fitted)),
+      vertices(knows_vertices ? std::nullopt : std::optional(VerticesOf(fitted))),
       columns(MakeColumnGrid({body.mesh.box_min(), body.mesh.box_max()}, options.columns)),
       rows(fitted, columns, pool) {}
 
 Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                 const MeasureOptions& options, const ThreadPool& pool,
                 const FitObserver& observer) {
-  return Measure(body, MeasureGround(body, options, pool, observer), set, options, pool, observer);
+  return Measure(body, MeasureGround(body, options, /*knows_vertices=*/false, pool, observer), set,
+                 options, pool, observer);
 }
 
 Metrics Measure(const body::Body& body, const MeasureGround& ground,
                 const capsule::PrimitiveSet& set, const MeasureOptions& options,
-                const ThreadPool& pool, const FitObserver& observer) {
+                const ThreadPool& pool, const FitObserver& observer,
+                const tighten::UnionDistances& at_vertices) {
   Metrics metrics;
   const FittedSurface& fitted = ground.fitted;
   if (observer.IsCancelled()) return metrics;
@@ -319,7 +340,7 @@ Metrics Measure(const body::Body& body, const MeasureGround& ground,
                                 pool, observer),
                  metrics);
     } else {
-      PutSurface(body, ground, solids, options, pool, observer, metrics);
+      PutSurface(body, ground, at_vertices, solids, options, pool, observer, metrics);
     }
   });
   return metrics;

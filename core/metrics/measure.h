@@ -76,16 +76,17 @@ struct Metrics {
 
 // What measuring takes from the body alone: made once for several sets, and before there is one.
 struct MeasureGround {
-  // O(n). Not whole where the observer cancels.
-  MeasureGround(const body::Body& body, const MeasureOptions& options, const ThreadPool& pool,
-                const FitObserver& observer);
+  // O(n). Not whole where the observer cancels. `knows_vertices`: Measure will be told how far they
+  // are from the set.
+  MeasureGround(const body::Body& body, const MeasureOptions& options, bool knows_vertices,
+                const ThreadPool& pool, const FitObserver& observer);
   MeasureGround(const MeasureGround&) = delete;
   MeasureGround& operator=(const MeasureGround&) = delete;
 
   FittedSurface fitted;
-  tighten::PointGrid vertices;  // those of `fitted`
-  ColumnGrid columns;           // over the body's box
-  BodyRows rows;                // of `fitted` on `columns`
+  std::optional<tighten::PointGrid> vertices;  // those of `fitted`, unless they are known
+  ColumnGrid columns;                          // over the body's box
+  BodyRows rows;                               // of `fitted` on `columns`
 };
 
 // All but max_gap_m, which coverage proves. With nothing to measure (no part of the body selected,
@@ -97,10 +98,13 @@ struct MeasureGround {
 [[nodiscard]] Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                               const MeasureOptions& options, const ThreadPool& pool,
                               const FitObserver& observer);
-// The same; `ground`: of this body, options.parts and options.columns.
+// The same; `ground`: of this body, options.parts and options.columns. `at_vertices`: distances of
+// ground.fitted.vertices from capsule::Solids(set), where they are known already; empty: they are
+// measured.
 [[nodiscard]] Metrics Measure(const body::Body& body, const MeasureGround& ground,
                               const capsule::PrimitiveSet& set, const MeasureOptions& options,
-                              const ThreadPool& pool, const FitObserver& observer);
+                              const ThreadPool& pool, const FitObserver& observer,
+                              const tighten::UnionDistances& at_vertices = {});
 
 // For each vertex of body.enclosed() the signed distance to the boundary of the set's union in
 // metres: > 0 outside of the set, < 0 where the set covers it. NaN for vertices of parts that are

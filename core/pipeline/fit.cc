@@ -115,7 +115,15 @@ class BodyFit {
                                               CoverOptionsFor(HasShape()), primitives, pool_);
   }
 
-  void LayMeasureGround() { measure_ground_.emplace(*body_, ToMeasure(), pool_, clock_); }
+  void LayMeasureGround() {
+    measure_ground_.emplace(*body_, ToMeasure(), CoversLast(), pool_, clock_);
+  }
+
+  // The set is not changed after covering, which tells how far all vertices are from it.
+  bool CoversLast() const {
+    return options_.fit == FitMode::kEnclose && options_.motion == nullptr && !body_->shells &&
+           Profile() != capsule::CapsuleProfile::kLerpedRadius;
+  }
 
   // Capsules that share no spheres cost more than the budget of capsules tells, where there are
   // spheres without a capsule beside them: then again with fewer.
@@ -249,13 +257,14 @@ class BodyFit {
     coverage::CoverReport report = Enclose(HasShape(), set_);
     if (papers_) {
       CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
-      const coverage::CoverReport other = Enclose(/*has_shape=*/false, *papers_);
+      coverage::CoverReport other = Enclose(/*has_shape=*/false, *papers_);
       if (other.volume_m3 < report.volume_m3) {
         set_ = *std::move(papers_);
-        report = other;
+        report = std::move(other);
       }
     }
     max_gap_m_ = report.certified_gap_m;
+    if (CoversLast()) at_vertices_ = std::move(report.at_vertices);
     if (Profile() == capsule::CapsuleProfile::kLerpedRadius) capsule::GrowForLerpedRadius(set_);
     return CheckCancelled(clock_);
   }
@@ -296,7 +305,8 @@ class BodyFit {
 
   absl::Status Measure() {
     clock_.Begin(Stage::kMetrics);
-    result_.metrics = metrics::Measure(*body_, *measure_ground_, set_, ToMeasure(), pool_, clock_);
+    result_.metrics =
+        metrics::Measure(*body_, *measure_ground_, set_, ToMeasure(), pool_, clock_, at_vertices_);
     result_.metrics.max_gap_m = max_gap_m_;
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
     if (options_.want_vertex_gaps) {
@@ -373,7 +383,8 @@ class BodyFit {
   capsule::PrimitiveSet set_;
   // The published method's, beside set_: the smaller one is taken, once both cover.
   std::optional<capsule::PrimitiveSet> papers_;
-  double max_gap_m_ = 0.0;  // certified
+  double max_gap_m_ = 0.0;               // certified
+  tighten::UnionDistances at_vertices_;  // of the target's points; empty where not known
 };
 
 }  // namespace

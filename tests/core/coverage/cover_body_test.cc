@@ -173,6 +173,23 @@ TEST(CoverBodyTest, CoarseTrianglesAreCoveredBetweenTheirVertices) {
   EXPECT_LE(FurthestSample(body.target, set, 20), 1e-3);
 }
 
+TEST(CoverBodyTest, TellsHowFarTheVerticesAre) {
+  const TubeBody body = MakeTubeBody(12, 0.0);
+  capsule::PrimitiveSet set = body.set;
+  const CoverReport report = Cover(body, {}, 2, set);
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set);
+  ASSERT_EQ(report.at_vertices.distance_m.size(), body.target.points_m.size());
+  for (std::size_t i = 0; i < body.target.points_m.size(); ++i) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const geometry::TaperedCapsule& solid : solids) {
+      least = std::min(least, solid.SignedDistance(body.target.points_m[i]));
+    }
+    EXPECT_NEAR(report.at_vertices.distance_m[i], least, 1e-6);
+    const auto nearest = static_cast<std::size_t>(report.at_vertices.solid[i]);
+    EXPECT_NEAR(solids[nearest].SignedDistance(body.target.points_m[i]), least, 1e-6);
+  }
+}
+
 TEST(CoverBodyTest, NothingToCoverAndNothingToCoverWith) {
   const ThreadPool pool(1);
   TubeBody body = MakeTubeBody(13, 0.0);

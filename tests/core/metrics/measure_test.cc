@@ -4,8 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "core/base/random.h"
 #include "core/metrics/fitted_surface.h"
@@ -179,6 +183,43 @@ TEST(MeasurePartsTest, VolumesAreRelativeToTheFittedParts) {
   const Metrics beside = MeasureWithoutHead(Tower(), SetOf({{{2, 1, 0}, 0.4}}));
   EXPECT_NEAR(beside.outside, BallVolume(0.4) / 2, 1e-3);
   EXPECT_NEAR(beside.uncovered, 1.0, 1e-9);
+}
+
+// What coverage knows of the vertices is taken as it is.
+TEST(MeasureTest, DistancesThatAreKnownGiveTheSameNumbers) {
+  const body::Body tower = Tower();
+  const capsule::PrimitiveSet set =
+      SetOf({{{0, 0.2, 0}, 0.6}, {{0, 1.1, 0}, 0.7}, {{0, 2.3, 0.1}, 0.9}}, {{0, 1}});
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set);
+  for (const body::PartSelection& parts : {body::PartSelection{}, kAllParts}) {
+    MeasureOptions options;
+    options.parts = parts;
+    const MeasureGround ground(tower, options, /*knows_vertices=*/true, SingleThread(),
+                               NullObserver());
+    EXPECT_FALSE(ground.vertices.has_value());
+    tighten::UnionDistances known;
+    for (const std::uint32_t v : ground.fitted.vertices) {
+      std::size_t nearest = 0;
+      const auto distance = [&](std::size_t k) {
+        return solids[k].SignedDistance(ground.fitted.points_m[v]);
+      };
+      for (std::size_t k = 1; k < solids.size(); ++k) {
+        if (distance(k) < distance(nearest)) nearest = k;
+      }
+      known.distance_m.push_back(distance(nearest));
+      known.solid.push_back(static_cast<std::int32_t>(nearest));
+    }
+    const Metrics measured = Measure(tower, set, options, SingleThread(), NullObserver());
+    for (const tighten::UnionDistances& told : {known, tighten::UnionDistances{}}) {
+      const Metrics m = Measure(tower, ground, set, options, SingleThread(), NullObserver(), told);
+      EXPECT_GT(m.vertices_out, 0);
+      EXPECT_EQ(m.vertices_out, measured.vertices_out);
+      EXPECT_NEAR(m.max_out_m, measured.max_out_m, 1e-12);
+      EXPECT_NEAR(m.gap.mean_m, measured.gap.mean_m, 1e-6);
+      EXPECT_NEAR(m.gap.max_m, measured.gap.max_m, 1e-6);
+      EXPECT_EQ(m.E_r, measured.E_r);
+    }
+  }
 }
 
 TEST(MeasurePartsTest, OnlyTheFittedSurfaceAndVerticesCount) {
