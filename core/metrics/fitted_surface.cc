@@ -142,6 +142,11 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
     selected[v] = is_selected[segment];
     if (selected[v] != 0) surface.vertices.push_back(v);
   }
+  if (surface.vertices.size() == vertices.size()) {
+    surface.points_m = LentOrOwn<Eigen::Vector3d>::Lent(vertices);
+  } else {
+    surface.points_m.own().assign(vertices.begin(), vertices.end());
+  }
   if (observer.IsCancelled()) return surface;
   const auto is_skin = [&](const mesh::Triangle& t) {
     return selected[t[0]] != 0 && selected[t[1]] != 0 && selected[t[2]] != 0;
@@ -154,10 +159,8 @@ FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelectio
   surface.skin_end = triangles.size();
   surface.parts.resize(triangles.size());
   if (surface.is_whole()) {
-    surface.points_m = LentOrOwn<Eigen::Vector3d>::Lent(vertices);
     surface.triangles = LentOrOwn<mesh::Triangle>::Lent(triangles);
   } else {
-    surface.points_m.own().assign(vertices.begin(), vertices.end());
     surface.triangles.own().resize(triangles.size());
   }
   if (observer.IsCancelled()) return surface;

@@ -60,17 +60,7 @@ class BodyFit {
       }
     }
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
-    std::optional<Warning> overlap;
-    // Build changes the options.
-    const int primitives =
-        options_.polygon_error ? kUsualPrimitives : TotalBudget(options_).UsualPrimitives();
-    const auto look_at_body = [&] {
-      LayCoverGround(primitives);
-      overlap = WarningOfOverlap(*body_);
-    };
-    const absl::Status built = Beside(look_at_body, [this] { return Build(); });
-    if (overlap) result_.warnings.push_back(*std::move(overlap));
-    CAPFIT_RETURN_IF_ERROR(built);
+    CAPFIT_RETURN_IF_ERROR(BuildBesideGround());
     CAPFIT_RETURN_IF_ERROR(Beside([this] { LayMeasureGround(); }, [this] { return Cover(); }));
     if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverMotion(soup));
     CAPFIT_RETURN_IF_ERROR(Measure());
@@ -123,6 +113,20 @@ class BodyFit {
   bool CoversLast() const {
     return options_.fit == FitMode::kEnclose && options_.motion == nullptr && !body_->shells &&
            Profile() != capsule::CapsuleProfile::kLerpedRadius;
+  }
+
+  absl::Status BuildBesideGround() {
+    std::optional<Warning> overlap;
+    // Build changes the options.
+    const int primitives =
+        options_.polygon_error ? kUsualPrimitives : TotalBudget(options_).UsualPrimitives();
+    const auto look_at_body = [&] {
+      LayCoverGround(primitives);
+      overlap = WarningOfOverlap(*body_);
+    };
+    const absl::Status built = Beside(look_at_body, [this] { return Build(); });
+    if (overlap) result_.warnings.push_back(*std::move(overlap));
+    return built;
   }
 
   // Capsules that share no spheres cost more than the budget of capsules tells, where there are

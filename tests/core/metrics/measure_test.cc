@@ -222,6 +222,34 @@ TEST(MeasureTest, DistancesThatAreKnownGiveTheSameNumbers) {
   }
 }
 
+// Gives up at one of its looks.
+class GivesUp final : public FitObserver {
+ public:
+  explicit GivesUp(int last) : last_(last) {}
+  void OnStage(Stage, double) override {}
+  [[nodiscard]] bool IsCancelled() const override { return ++looks_ >= last_; }
+
+ private:
+  int last_;
+  mutable int looks_ = 0;
+};
+
+// What was not reached is 0, and nothing is read that is not there.
+TEST(MeasureTest, EndsWhereverTheCallerGivesUp) {
+  const body::Body tower = Tower();
+  const capsule::PrimitiveSet set = SetOf({{{0, 0.2, 0}, 0.6}, {{0, 1.1, 0}, 0.7}}, {{0, 1}});
+  for (const body::PartSelection& parts : {body::PartSelection{}, kAllParts}) {
+    for (int last = 1; last < 12; ++last) {
+      const GivesUp observer(last);
+      MeasureOptions options;
+      options.parts = parts;
+      const MeasureGround ground(tower, options, false, SingleThread(), observer);
+      const Metrics m = Measure(tower, ground, set, options, SingleThread(), observer);
+      EXPECT_TRUE(m.n_p == 0 || m.n_p == 3);
+    }
+  }
+}
+
 TEST(MeasurePartsTest, OnlyTheFittedSurfaceAndVerticesCount) {
   const body::Body tower = Tower();
   const Metrics m = MeasureWithoutHead(tower, SetOf({{{0, 1, 0}, 1.4}}));
