@@ -25,7 +25,7 @@ struct CallRecord {
   bool is_bulk = false;
   Cached cached = Cached::kNo;
   std::int64_t received_bytes = 0;
-  std::int64_t faces = 0;  // about
+  std::int64_t faces = 0;  // of a file that was not read, guessed from its size
   double queued_seconds = 0.0;
   double fit_seconds = 0.0;
   double seconds = 0.0;                             // from its begin to its end

@@ -262,6 +262,7 @@ std::string FitJob::CacheKey() const {
 
 absl::StatusOr<pipeline::FitResult> FitJob::Fit(FitObserver& observer) {
   CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, std::move(upload_).Finish());
+  record_.faces = static_cast<std::int64_t>(soup.face_count());
   absl::StatusOr<pipeline::FitResult> result =
       services_.backend.fit(soup, options_, services_.pool, observer);
   if (absl::IsCancelled(result.status())) return GaveUp();

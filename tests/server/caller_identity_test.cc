@@ -1,10 +1,14 @@
-// Whom budgets count a call for: tokens and certificates over real sockets.
+// What the log says of a call: whom it is counted for, by tokens and certificates over real
+// sockets, and how large its body is.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <functional>
+#include <span>
 #include <sstream>
+#include <string>
 
 #include "tests/server/certificates.h"
 #include "tests/server/secured_server.h"
@@ -14,8 +18,9 @@ namespace {
 
 using testing::HasSubstr;
 
-// The log of one call by a client with this identity.
-std::string LogOfACall(const ServerConfig& config, const client::Security& security) {
+// The log of one call by a client with this identity. `call` is asked to make it.
+std::string LogOf(const ServerConfig& config, const client::Security& security,
+                  const std::function<void(const client::BodyClient&)>& call) {
   std::ostringstream log;
   const auto before = spdlog::default_logger();
   spdlog::set_default_logger(std::make_shared<spdlog::logger>(
@@ -24,13 +29,19 @@ std::string LogOfACall(const ServerConfig& config, const client::Security& secur
     const auto server = StartSecured(config);
     const auto client =
         client::BodyClient::Connect("127.0.0.1:" + std::to_string(server->port()), security);
-    formats::PolygonSoup soup;
-    soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    soup.face_vertices = {0, 1, 2};
-    EXPECT_TRUE(client->ApproximateMesh(soup, {}).ok());
+    call(*client);
   }
   spdlog::set_default_logger(before);
   return log.str();
+}
+
+std::string LogOfACall(const ServerConfig& config, const client::Security& security) {
+  return LogOf(config, security, [](const client::BodyClient& client) {
+    formats::PolygonSoup soup;
+    soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    soup.face_vertices = {0, 1, 2};
+    EXPECT_TRUE(client.ApproximateMesh(soup, {}).ok());
+  });
 }
 
 TEST(ClientOf, IsTheTokensNameTheCertificatesNameOrTheHost) {
@@ -62,6 +73,17 @@ TEST(ClientOf, IsTheTokensNameTheCertificatesNameOrTheHost) {
   with_tls.token_file = with_token.token_file;
   certificate.token = token.token;
   EXPECT_THAT(LogOfACall(with_tls, certificate), HasSubstr("client=\"token/anna\""));
+}
+
+// Its size alone would tell a dozen.
+TEST(CallLog, CountsTheFacesOfAFileThatWasRead) {
+  const std::string file = "# " + std::string(500, '-') + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string line = LogOf({}, {}, [&](const client::BodyClient& client) {
+    const auto result =
+        client.ApproximateFile(std::as_bytes(std::span(file)), formats::MeshFormat::kObj, {});
+    EXPECT_TRUE(result.ok()) << result.status();
+  });
+  EXPECT_THAT(line, HasSubstr(" faces=1 "));
 }
 
 }  // namespace
