@@ -2,9 +2,9 @@
 #ifndef CAPFIT_CORE_BASE_LENT_OR_OWN_H_
 #define CAPFIT_CORE_BASE_LENT_OR_OWN_H_
 
+#include <cassert>
 #include <cstddef>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace capfit {
@@ -15,7 +15,6 @@ template <typename T>
 class LentOrOwn {
  public:
   LentOrOwn() = default;  // own, empty
-  LentOrOwn(std::vector<T> own) : own_(std::move(own)) {}
   [[nodiscard]] static LentOrOwn Lent(std::span<const T> array) {
     LentOrOwn lent;
     lent.lent_ = array;
@@ -28,7 +27,10 @@ class LentOrOwn {
     return is_lent_ ? lent_ : std::span<const T>(own_);
   }
   // To be changed; only where nothing is lent.
-  [[nodiscard]] std::vector<T>& own() { return own_; }
+  [[nodiscard]] std::vector<T>& own() {
+    assert(!is_lent_);
+    return own_;
+  }
 
   [[nodiscard]] std::size_t size() const { return view().size(); }
   [[nodiscard]] bool empty() const { return view().empty(); }

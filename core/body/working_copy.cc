@@ -27,7 +27,10 @@ std::uint32_t Spread(std::uint32_t x) {
 
 constexpr std::size_t kDigits = 4096;
 constexpr std::size_t kSortChunk = 4 * kMeshChunk;
-constexpr std::size_t kLeastShare = 8192;  // vertices
+// Of the vertices, for each thread one; each looks at all triangles, so that more would only work
+// more.
+constexpr std::size_t kLeastShare = 8192;
+constexpr int kMostShares = 4;
 
 // One pass of a counting sort: `order` by 12 bits of the keys.
 void SortByDigit(const std::vector<std::uint32_t>& keys, int shift, const ThreadPool& pool,
@@ -172,8 +175,8 @@ class TriangleSorter {
   // looking at all costs little.
   template <typename Visit>
   void ForShares(std::span<const std::uint32_t> lowest, const Visit& visit) const {
-    const std::size_t shares = std::clamp<std::size_t>(rank_.size() / kLeastShare, 1,
-                                                       static_cast<std::size_t>(pool_.threads()));
+    const auto most = static_cast<std::size_t>(std::min(kMostShares, pool_.threads()));
+    const std::size_t shares = std::clamp<std::size_t>(rank_.size() / kLeastShare, 1, most);
     pool_.ForEach(shares, [&](std::size_t share) {
       const auto begin = static_cast<std::uint32_t>(rank_.size() * share / shares);
       const auto end = static_cast<std::uint32_t>(rank_.size() * (share + 1) / shares);

@@ -123,10 +123,9 @@ class Search {
     Sort(attempts);
     std::size_t kept = 1;
     for (std::size_t i = 1; i < attempts.size() && kept < U(plan_.kept); ++i) {
-      const bool is_other =
-          attempts[i].value > (1.0 + kLeastImprovement) * attempts[kept - 1].value;
       if (budget_.Excess(attempts[i].graph.count()) > 0) break;
-      if (is_other) std::swap(attempts[kept++], attempts[i]);
+      const double least = (1.0 + kLeastImprovement) * attempts[kept - 1].value;
+      if (attempts[i].value > least) std::swap(attempts[kept++], attempts[i]);
     }
     attempts.resize(kept);
   }

@@ -20,7 +20,8 @@ TEST(LentOrOwnTest, WhatIsLentIsNotCopied) {
 }
 
 TEST(LentOrOwnTest, CopiesOfItsOwnStandForThemselves) {
-  LentOrOwn<int> own(std::vector<int>{3, 1});
+  LentOrOwn<int> own;
+  own.own() = {3, 1};
   LentOrOwn<int> copy = own;
   own.own().push_back(4);
   EXPECT_EQ(own.size(), 3u);

@@ -19,6 +19,7 @@
 #include "core/mesh/overlap.h"
 #include "core/mesh/triangulate_loop.h"
 #include "core/mesh/weld_vertices.h"
+#include "tests/core/mesh/boxes.h"
 
 namespace capfit::mesh {
 namespace {
@@ -224,26 +225,6 @@ TEST(TriangulateLoopTest, UsesNoForbiddenEdge) {
     const auto none = [](std::uint32_t, std::uint32_t) { return false; };
     EXPECT_FALSE(fill(square, none).has_value());
   }
-}
-
-// Boxes given by their low and high corners, faces outward.
-BodyMesh BoxesOf(std::span<const std::array<Eigen::Vector3d, 2>> boxes) {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<Triangle> triangles;
-  for (const auto& [low, high] : boxes) {
-    const auto base = static_cast<std::uint32_t>(vertices.size());
-    for (int k = 0; k < 8; ++k) {
-      vertices.emplace_back((k & 1) != 0 ? high.x() : low.x(), (k & 2) != 0 ? high.y() : low.y(),
-                            (k & 4) != 0 ? high.z() : low.z());
-    }
-    for (const Triangle& t :
-         {Triangle{0, 2, 3}, Triangle{0, 3, 1}, Triangle{4, 5, 7}, Triangle{4, 7, 6},
-          Triangle{0, 1, 5}, Triangle{0, 5, 4}, Triangle{2, 6, 7}, Triangle{2, 7, 3},
-          Triangle{0, 4, 6}, Triangle{0, 6, 2}, Triangle{1, 3, 7}, Triangle{1, 7, 5}}) {
-      triangles.push_back({base + t[0], base + t[1], base + t[2]});
-    }
-  }
-  return BodyMesh(std::move(vertices), std::move(triangles), {});
 }
 
 TEST(OverlapTest, MeasuresWhatIsEnclosedTwice) {

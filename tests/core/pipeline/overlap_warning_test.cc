@@ -3,36 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <utility>
+#include <array>
 #include <vector>
+
+#include "tests/core/mesh/boxes.h"
 
 namespace capfit::pipeline {
 namespace {
 
 // Two cubes with sides of 1, the second moved along x.
 body::Body TwoCubes(double moved) {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<mesh::Triangle> triangles;
-  for (const double x : {0.0, moved}) {
-    const auto base = static_cast<std::uint32_t>(vertices.size());
-    for (int k = 0; k < 8; ++k) vertices.emplace_back(x + (k & 1), (k & 2) / 2, (k & 4) / 4);
-    for (const mesh::Triangle& t : std::vector<mesh::Triangle>{{0, 2, 3},
-                                                               {0, 3, 1},
-                                                               {4, 5, 7},
-                                                               {4, 7, 6},
-                                                               {0, 1, 5},
-                                                               {0, 5, 4},
-                                                               {2, 6, 7},
-                                                               {2, 7, 3},
-                                                               {0, 4, 6},
-                                                               {0, 6, 2},
-                                                               {1, 3, 7},
-                                                               {1, 7, 5}}) {
-      triangles.push_back({base + t[0], base + t[1], base + t[2]});
-    }
-  }
-  body::Body body{mesh::BodyMesh(std::move(vertices), std::move(triangles), {}),
+  const Eigen::Vector3d along(moved, 0, 0);
+  const Eigen::Vector3d side = Eigen::Vector3d::Ones();
+  body::Body body{mesh::BoxesOf(std::vector<std::array<Eigen::Vector3d, 2>>{
+                      {Eigen::Vector3d::Zero(), side}, {along, along + side}}),
                   {},
                   1.0,
                   false,
