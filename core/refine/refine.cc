@@ -274,12 +274,20 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
     task->emplace(target, body.is_symmetric, options.tolerance_m, spacing);
   });
   const RenewalPlan plan = RenewalsFor(options.thorough, primitives);
-  capsule::MirroredSet graph = FindEnclosingGraph(rough ? *rough : *usual, *usual, options.budget,
-                                                  plan, starts, kSearched, pool, meter);
-  meter.Expect(1.0, std::int64_t{kFineSteps + kFineTakeInSteps} * graph.primitive_count());
-  fine->FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graph);
-  fine->TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graph);
-  return graph;
+  std::vector<capsule::MirroredSet> graphs = FindEnclosingGraphs(
+      rough ? *rough : *usual, *usual, options.budget, plan, starts, kSearched, pool, meter);
+  meter.Expect(1.0, std::int64_t{kFineSteps + kFineTakeInSteps} *
+                        static_cast<std::int64_t>(graphs.size()) *
+                        graphs.front().primitive_count());
+  // Few points tell graphs apart less well than all of them do.
+  std::vector<double> values(graphs.size(), 0.0);
+  pool.ForEach(graphs.size(), [&](std::size_t i) {
+    fine->FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graphs[i]);
+    fine->TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graphs[i]);
+    if (graphs.size() > 1) values[i] = fine->Value(graphs[i], pool);
+  });
+  const auto best = std::min_element(values.begin(), values.end()) - values.begin();
+  return std::move(graphs[static_cast<std::size_t>(best)]);
 }
 
 // A layout that hangs on the body in the places that it had on another one.

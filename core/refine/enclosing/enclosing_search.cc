@@ -64,14 +64,15 @@ class Search {
         pool_(pool),
         meter_(meter) {}
 
-  capsule::MirroredSet Run(const std::vector<capsule::MirroredSet>& starts) {
+  std::vector<capsule::MirroredSet> Run(const std::vector<capsule::MirroredSet>& starts) {
     std::vector<Attempt> kept = BestStarts(starts);
     for (int round = 0; round < plan_.rounds && !meter_.IsCancelled(); ++round) {
       Renew(round, kept);
     }
-    Attempt best = std::move(kept.front());
-    Tie(best);
-    return std::move(best.graph);
+    Tie(kept.front());
+    std::vector<capsule::MirroredSet> graphs;
+    for (Attempt& attempt : kept) graphs.push_back(std::move(attempt.graph));
+    return graphs;
   }
 
  private:
@@ -332,10 +333,10 @@ class Search {
 
 }  // namespace
 
-capsule::MirroredSet FindEnclosingGraph(const EnclosingTask& rough, const EnclosingTask& task,
-                                        const capsule::Budget& budget, const RenewalPlan& plan,
-                                        const std::vector<capsule::MirroredSet>& starts,
-                                        double until, const ThreadPool& pool, WorkMeter& meter) {
+std::vector<capsule::MirroredSet> FindEnclosingGraphs(
+    const EnclosingTask& rough, const EnclosingTask& task, const capsule::Budget& budget,
+    const RenewalPlan& plan, const std::vector<capsule::MirroredSet>& starts, double until,
+    const ThreadPool& pool, WorkMeter& meter) {
   return Search(rough, task, budget, plan, until, pool, meter).Run(starts);
 }
 

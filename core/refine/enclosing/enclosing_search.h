@@ -24,16 +24,17 @@ struct RenewalPlan {
 // points that stick out are added where they win most at once, and the rest of the round cuts
 // capsules in two where most volume lies between them and the body. The best of all are then
 // renewed by the plan: up to a quarter of the primitives, what is least missed, is given up and
-// spent anew in the same way, and the result kept if it is better. What is left of the budget then,
-// too little for a cut, is tried on ties and leaves.
+// spent anew in the same way, and the result kept if it is better. What is left of the budget of
+// the very best then, too little for a cut, is tried on ties and leaves.
 //
 // `rough` may have fewer points than `task`: starts are settled and spared by it, up to twice as
 // large as the budget as they may be. `starts` must not be empty. Brings the stage from its
-// beginning to `until`. The graph fits the budget unless cancelled. What is tried runs in parallel;
+// beginning to `until`. Returns what the plan keeps, the best by `task` first, at least one; the
+// first fits the budget unless cancelled. What is tried runs in parallel;
 // same bits for any pool. A round of one graph takes some 6 ms on two cores at 64 primitives, 20
 // ms at 128, 60 ms at 250; the starts as long as a few of these, where much of a larger one is
 // spared.
-[[nodiscard]] capsule::MirroredSet FindEnclosingGraph(
+[[nodiscard]] std::vector<capsule::MirroredSet> FindEnclosingGraphs(
     const EnclosingTask& rough, const EnclosingTask& task, const capsule::Budget& budget,
     const RenewalPlan& plan, const std::vector<capsule::MirroredSet>& starts, double until,
     const ThreadPool& pool, WorkMeter& meter);

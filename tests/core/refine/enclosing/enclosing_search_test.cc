@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <vector>
+
 #include "core/base/fit_observer.h"
 #include "tests/core/refine/enclosing/tube.h"
 #include "tests/core/refine/graphs.h"
@@ -13,14 +16,20 @@ constexpr RenewalPlan kNone = {.rounds = 0};
 constexpr RenewalPlan kOfOne = {.rounds = 4};
 constexpr RenewalPlan kOfSeveral = {.rounds = 3, .kept = 5};
 
-capsule::MirroredSet Find(const capsule::Budget& budget,
-                          const std::vector<capsule::MirroredSet>& starts, int threads,
-                          const RenewalPlan& plan = kOfOne) {
+std::vector<capsule::MirroredSet> FindAll(const capsule::Budget& budget,
+                                          const std::vector<capsule::MirroredSet>& starts,
+                                          int threads, const RenewalPlan& plan) {
   const ThreadPool pool(threads);
   NullObserver observer;
   WorkMeter meter(observer);
-  return FindEnclosingGraph(TubeTask(), TubeTask(), budget, plan, starts, /*until=*/1.0, pool,
-                            meter);
+  return FindEnclosingGraphs(TubeTask(), TubeTask(), budget, plan, starts, /*until=*/1.0, pool,
+                             meter);
+}
+
+capsule::MirroredSet Find(const capsule::Budget& budget,
+                          const std::vector<capsule::MirroredSet>& starts, int threads,
+                          const RenewalPlan& plan = kOfOne) {
+  return FindAll(budget, starts, threads, plan).front();
 }
 
 double TakenIn(capsule::MirroredSet graph) {
@@ -41,6 +50,18 @@ TEST(EnclosingSearchTest, KeepsToEveryLimit) {
       EXPECT_TRUE(budget.Allows(graph.count()));
       EXPECT_GT(graph.sphere_count(), 0);
     }
+  }
+}
+
+TEST(EnclosingSearchTest, GivesAsManyAsThePlanKeepsTheBestFirst) {
+  const capsule::Budget budget{9, capsule::kNoLimit, capsule::kNoLimit};
+  EXPECT_EQ(FindAll(budget, {Chain(2), Chain(5)}, 2, kOfOne).size(), 1u);
+  const auto several = FindAll(budget, {Chain(2), Chain(5)}, 2, kOfSeveral);
+  ASSERT_GT(several.size(), 1u);
+  ASSERT_LE(several.size(), static_cast<std::size_t>(kOfSeveral.kept));
+  for (const capsule::MirroredSet& graph : several) {
+    EXPECT_TRUE(budget.Allows(graph.count()));
+    EXPECT_LE(TakenIn(several.front()), 1.02 * TakenIn(graph));
   }
 }
 
