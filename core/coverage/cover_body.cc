@@ -97,10 +97,12 @@ bool Serves(const CoverGround* ground, bool mirrored, const CoverOptions& option
 class Coverer {
  public:
   Coverer(const tighten::CoverTarget& target, const CoverOptions& options, const ThreadPool& pool,
-          FitObserver& observer, capsule::PrimitiveSet& set, const CoverGround* ground)
+          FitObserver& observer, capsule::PrimitiveSet& set, const CoverGround* ground,
+          Backlog* backlog)
       : target_(target),
         options_(options),
         pool_(pool),
+        backlog_(backlog),
         meter_(observer),
         set_(set),
         variables_(set),
@@ -120,7 +122,7 @@ class Coverer {
     meter_.Expect(1.0, 1);
     if (options_.keeps_swallowed) ShowSwallowed();
     report_.max_vertex_distance_m = MaxVertexDistance();
-    report_.volume_m3 = Volume();
+    if (!(report_.volume_m3 > 0.0) || options_.keeps_swallowed) report_.volume_m3 = Volume();
     report_.certified_gap_m = CertifiedGap(target_, AtVertices(), capsule::Solids(set_), KnownGap(),
                                            0.05 * options_.max_gap_m, pool_);
     // Growing ends with a proof for every triangle, which may be sharper by the tolerance.
@@ -162,23 +164,25 @@ class Coverer {
     const double volume_before = Volume();
     Tighten();
     Grow();
-    if (meter_.IsCancelled() || Volume() <= kSuspectGrowth * volume_before) return;
+    if (meter_.IsCancelled()) return;
+    report_.volume_m3 = Volume();
+    if (report_.volume_m3 <= kSuspectGrowth * volume_before) return;
     const capsule::PrimitiveSet tightened = std::exchange(set_, before);
     const std::vector<Eigen::Vector3d> between = std::exchange(between_, {});
     const CoverReport report = std::exchange(report_, {});
     Grow();
-    if (Volume() < VolumeOf(tightened)) return;
+    report_.volume_m3 = Volume();
+    if (report_.volume_m3 < report.volume_m3) return;
     set_ = tightened;
     between_ = between;
     report_ = report;
   }
 
-  double VolumeOf(const capsule::PrimitiveSet& set) const {
-    return tighten::UnionVolumeGradient(set, variables_, kVolumeSpacing * ground_.size_m,
+  double Volume() const {
+    return tighten::UnionVolumeGradient(set_, variables_, kVolumeSpacing * ground_.size_m,
                                         /*seed=*/7, pool_)
         .volume_m3;
   }
-  double Volume() const { return VolumeOf(set_); }
 
   void Tighten() {
     if (Loosens(options_) && !meter_.IsCancelled()) {
@@ -206,7 +210,7 @@ class Coverer {
   void RunPhase(tighten::TightenPhase phase, const std::vector<tighten::PointsToHold>& points,
                 std::uint64_t seed) {
     phase.uniform_radius = options_.uniform_radius;
-    tighten::Tighten(points, ground_.size_m, phase, seed, pool_, meter_, set_);
+    tighten::Tighten(points, ground_.size_m, phase, seed, pool_, meter_, set_, backlog_);
   }
 
   double AllowedAtVertices() const { return coverage::AllowedAtVertices(options_.tolerance_m); }
@@ -308,6 +312,7 @@ class Coverer {
   const tighten::CoverTarget& target_;
   const CoverOptions& options_;
   const ThreadPool& pool_;
+  Backlog* backlog_;
   WorkMeter meter_;
   capsule::PrimitiveSet& set_;
   tighten::SetVariables variables_;
@@ -350,11 +355,11 @@ CoverGround MakeCoverGround(const tighten::CoverTarget& target, bool mirrored,
 
 CoverReport CoverBody(const tighten::CoverTarget& target, const CoverOptions& options,
                       const ThreadPool& pool, FitObserver& observer, capsule::PrimitiveSet& set,
-                      const CoverGround* ground) {
+                      const CoverGround* ground, Backlog* backlog) {
   if (target.points_m.empty() || set.spheres.empty()) {
     return target.points_m.empty() ? CoverReport{} : NothingProved();
   }
-  return Coverer(target, options, pool, observer, set, ground).Run();
+  return Coverer(target, options, pool, observer, set, ground, backlog).Run();
 }
 
 }  // namespace capfit::coverage

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/backlog.h"
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/capsule/primitive_set.h"
@@ -90,10 +91,11 @@ struct CoverGround {
 // nothing is proved (infinite distances). Terminates: every growing step covers a point and
 // uncovers none. Some 20 ms for 14k vertices at n_p 64. A `ground` that was made for the set's kind
 // of symmetry and these options spares a tenth of the time; another is not used.
+// A backlog is done in part beside what runs on one thread alone.
 [[nodiscard]] CoverReport CoverBody(const tighten::CoverTarget& target, const CoverOptions& options,
                                     const ThreadPool& pool, FitObserver& observer,
-                                    capsule::PrimitiveSet& set,
-                                    const CoverGround* ground = nullptr);
+                                    capsule::PrimitiveSet& set, const CoverGround* ground = nullptr,
+                                    Backlog* backlog = nullptr);
 
 // Upper bound of the distance by which any point of the target's triangles sticks out of the set,
 // by branch and bound (no distance changes faster than the point moves), at most `tolerance_m`

@@ -1,13 +1,16 @@
 #include "core/mesh/column_caster.h"
 
 #include <cmath>
+#include <memory>
 #include <utility>
+
+#include "core/base/fit_observer.h"
 
 namespace capfit::mesh {
 namespace {
 
-constexpr std::size_t kTrianglesPerChunk = 8192;
-constexpr std::size_t kPointsPerChunk = 8192;
+constexpr std::size_t kTrianglesPerChunk = 2048;
+constexpr std::size_t kPointsPerChunk = 4096;
 constexpr std::size_t kFewColumns = 8;
 
 // Index of the first of the places (one in each cell) that is >= at.
@@ -39,14 +42,15 @@ struct EdgeCrossing {
 class TriangleCaster {
  public:
   TriangleCaster(std::span<const Eigen::Vector3d> points, const ColumnGrid& grid,
-                 const ColumnCaster::Axes& axes, const ThreadPool& pool)
-      : grid_(grid), points_(points), axes_(axes), places_(points.size()) {
-    pool.ForChunks(points.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        places_[i] = {static_cast<std::uint32_t>(grid.FirstColumn(points[i][axes[0]])),
-                      static_cast<std::uint32_t>(grid.FirstRow(points[i][axes[1]]))};
-      }
-    });
+                 const ColumnCaster::Axes& axes)
+      : grid_(grid), points_(points), axes_(axes), places_(points.size()) {}
+
+  // Of the points [begin, end), which comes before any crossing.
+  void FindPlaces(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      places_[i] = {static_cast<std::uint32_t>(grid_.FirstColumn(points_[i][axes_[0]])),
+                    static_cast<std::uint32_t>(grid_.FirstRow(points_[i][axes_[1]]))};
+    }
   }
 
   // All crossings of the triangles [begin, end). What a small triangle meets is as good as chance,
@@ -150,22 +154,44 @@ class TriangleCaster {
 std::size_t ColumnGrid::FirstColumn(double at) const { return FirstAt(x, low_x, step_x, at); }
 std::size_t ColumnGrid::FirstRow(double at) const { return FirstAt(y, low_y, step_y, at); }
 
+ColumnCaster::Chunk::Chunk(const std::vector<ColumnCrossing>& found, std::size_t rows)
+    : crossings(found.size()), begin(rows + 1, 0) {
+  for (const ColumnCrossing& crossing : found) ++begin[crossing.row + 1];
+  for (std::size_t row = 0; row < rows; ++row) begin[row + 1] += begin[row];
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for (const ColumnCrossing& crossing : found) crossings[next[crossing.row]++] = crossing;
+}
+
 ColumnCaster::ColumnCaster(std::span<const Eigen::Vector3d> points,
                            std::span<const Triangle> triangles, const ColumnGrid& grid,
-                           const Axes& axes, const ThreadPool& pool)
-    : chunks_((triangles.size() + kTrianglesPerChunk - 1) / kTrianglesPerChunk),
-      columns_(grid.x.size()) {
-  const TriangleCaster caster(points, grid, axes, pool);
-  pool.ForChunks(triangles.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
-    const std::vector<ColumnCrossing> found = caster.Cross(triangles, begin, end);
-    Chunk& chunk = chunks_[begin / kTrianglesPerChunk];
-    chunk.begin.assign(grid.y.size() + 1, 0);
-    for (const ColumnCrossing& crossing : found) ++chunk.begin[crossing.row + 1];
-    for (std::size_t row = 0; row < grid.y.size(); ++row) chunk.begin[row + 1] += chunk.begin[row];
-    std::vector<std::uint32_t> next(chunk.begin.begin(), chunk.begin.end() - 1);
-    chunk.crossings.resize(found.size());
-    for (const ColumnCrossing& crossing : found) chunk.crossings[next[crossing.row]++] = crossing;
+                           const Axes& axes, const ThreadPool& pool) {
+  const NullObserver observer;
+  Backlog backlog(pool, observer);
+  Cast(points, triangles, grid, axes, backlog);
+  backlog.Finish();
+}
+
+ColumnCaster::ColumnCaster(std::span<const Eigen::Vector3d> points,
+                           std::span<const Triangle> triangles, const ColumnGrid& grid,
+                           const Axes& axes, Backlog& backlog) {
+  Cast(points, triangles, grid, axes, backlog);
+}
+
+void ColumnCaster::Cast(std::span<const Eigen::Vector3d> points,
+                        std::span<const Triangle> triangles, const ColumnGrid& grid,
+                        const Axes& axes, Backlog& backlog) {
+  columns_ = grid.x.size();
+  chunks_.resize((triangles.size() + kTrianglesPerChunk - 1) / kTrianglesPerChunk);
+  const auto caster = std::make_shared<TriangleCaster>(points, grid, axes);
+  backlog.AddChunks(points.size(), kPointsPerChunk, [caster](std::size_t begin, std::size_t end) {
+    caster->FindPlaces(begin, end);
   });
+  const std::size_t rows = grid.y.size();
+  backlog.AddChunks(triangles.size(), kTrianglesPerChunk,
+                    [this, caster, triangles, rows](std::size_t begin, std::size_t end) {
+                      chunks_[begin / kTrianglesPerChunk] =
+                          Chunk(caster->Cross(triangles, begin, end), rows);
+                    });
 }
 
 std::vector<ColumnCrossing> ColumnCaster::Row(std::size_t row) const {

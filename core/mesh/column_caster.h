@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/backlog.h"
 #include "core/base/thread_pool.h"
 #include "core/mesh/body_mesh.h"
 
@@ -79,6 +80,10 @@ class ColumnCaster {
   // 64k triangles and 240 x 240 columns.
   ColumnCaster(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
                const ColumnGrid& grid, const Axes& axes, const ThreadPool& pool);
+  // The same, but empty until the backlog is done; so long the arguments stay, and the caster where
+  // it is.
+  ColumnCaster(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
+               const ColumnGrid& grid, const Axes& axes, Backlog& backlog);
 
   // The crossings of one row, by column, then along it; where several lie at one place, those into
   // the body come first.
@@ -97,11 +102,17 @@ class ColumnCaster {
  private:
   // The crossings of some triangles, by row.
   struct Chunk {
+    Chunk() = default;
+    Chunk(const std::vector<ColumnCrossing>& found, std::size_t rows);
+
     std::vector<ColumnCrossing> crossings;
     std::vector<std::uint32_t> begin;  // by row
   };
+  void Cast(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
+            const ColumnGrid& grid, const Axes& axes, Backlog& backlog);
+
   std::vector<Chunk> chunks_;
-  std::size_t columns_;
+  std::size_t columns_ = 0;
 };
 
 }  // namespace capfit::mesh

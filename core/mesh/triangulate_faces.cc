@@ -24,15 +24,13 @@ class FaceTriangulator {
  public:
   FaceTriangulator(const formats::PolygonSoup& soup, std::span<const Eigen::Vector3d> positions)
       : soup_(soup), positions_(positions) {
-    result_.triangles.reserve(soup.face_vertices.size() / 3);
+    if (!soup.face_sizes.empty()) result_.triangles.reserve(soup.face_vertices.size() / 3);
   }
 
   TriangulatedFaces Run() {
     const std::span<const std::uint32_t> corners = soup_.face_vertices;
+    if (soup_.face_sizes.empty()) TakeTriangles();
     unfolds_ = kManyFolded * CountFolded() > soup_.face_sizes.size();
-    if (soup_.face_sizes.empty()) {
-      for (std::size_t i = 0; i < corners.size(); i += 3) AddFan(corners.subspan(i, 3));
-    }
     std::size_t first = 0;
     for (const std::uint32_t size : soup_.face_sizes) {
       AddFace(corners.subspan(first, size));
@@ -42,6 +40,19 @@ class FaceTriangulator {
   }
 
  private:
+  void TakeTriangles() {
+    const std::span<const std::uint32_t> corners = soup_.face_vertices;
+    result_.triangles.resize(corners.size() / 3);
+    for (std::size_t t = 0; t < result_.triangles.size(); ++t) {
+      result_.triangles[t] = {corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]};
+    }
+    result_.degenerate = std::erase_if(result_.triangles, IsDegenerate);
+  }
+
+  static bool IsDegenerate(const Triangle& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  }
+
   void AddFace(std::span<const std::uint32_t> face) {
     if (face.size() == 4) {
       AddQuad(face);
@@ -100,7 +111,7 @@ class FaceTriangulator {
   }
 
   void Add(const Triangle& t) {
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+    if (IsDegenerate(t)) {
       ++result_.degenerate;
     } else {
       result_.triangles.push_back(t);

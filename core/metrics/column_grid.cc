@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/fit_observer.h"
 #include "core/base/random.h"
 
 namespace capfit::metrics {
@@ -18,6 +19,7 @@ constexpr std::uint64_t kColumnSeed = 20'180'000;
 // shapes five to ten times more exactly than random places; this much chance breaks the beat with
 // meshes whose vertices lie in rows, and costs no exactness that can be seen.
 constexpr double kJitter = 0.05;
+constexpr std::size_t kRowsPerStep = 8;
 
 // Adds an interval; two halves where its ends have different labels.
 void AddPiece(std::uint32_t column, const Interval& interval, std::int32_t begin_label,
@@ -33,7 +35,7 @@ void AddPiece(std::uint32_t column, const Interval& interval, std::int32_t begin
 
 // The intervals between sorted crossings, of those with the triangles [begin, end); `beside` more
 // columns on either side of the crossings' own.
-RowIntervals Inside(const std::vector<mesh::ColumnCrossing>& crossings,
+RowIntervals Inside(std::span<const mesh::ColumnCrossing> crossings,
                     const std::vector<body::Part>& parts, std::size_t begin, std::size_t end,
                     std::size_t columns, std::size_t beside) {
   std::vector<RowIntervals::Piece> pieces;
@@ -161,14 +163,71 @@ double CommonLength(std::span<const Interval> a, std::span<const Interval> b) {
   return length;
 }
 
-BodyRows::Cuts BodyRows::Cut(std::size_t row, const GridMargin& margin) const {
-  std::vector<mesh::ColumnCrossing> crossings;
-  if (row >= margin.below && row < margin.below + rows_) {
-    crossings = caster_.Row(row - margin.below);
+BodyRows::BodyRows(const FittedSurface& surface, const ColumnGrid& grid, Backlog& backlog)
+    : surface_(surface), grid_(grid) {
+  // Only then it is known how many triangles there are.
+  backlog.Add(1, [this, &backlog](std::size_t) { Cast(backlog); });
+}
+
+BodyRows::BodyRows(const FittedSurface& surface, const ColumnGrid& grid, const ThreadPool& pool)
+    : surface_(surface), grid_(grid) {
+  const NullObserver observer;
+  Backlog backlog(pool, observer);
+  Cast(backlog);
+  backlog.Finish();
+}
+
+void BodyRows::Cast(Backlog& backlog) {
+  caster_.emplace(surface_.points_m, surface_.triangles, grid_, mesh::ColumnCaster::Axes{0, 1, 2},
+                  backlog);
+  crossings_.resize(grid_.y.size());
+  overlaps_.resize(grid_.y.size());
+  backlog.AddChunks(crossings_.size(), kRowsPerStep, [this](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      crossings_[row] = caster_->Row(row);
+      overlaps_[row] = OverlapIn(row);
+    }
+  });
+  backlog.Add(1, [this](std::size_t) { caster_.reset(); });
+}
+
+BodyRows::OverlapSums BodyRows::OverlapIn(std::size_t row) const {
+  OverlapSums sums;
+  int winding = 0;  // back at 0 behind the last crossing of each column
+  double last = 0.0;
+  for (const mesh::ColumnCrossing& crossing : crossings_[row]) {
+    if (crossing.triangle >= surface_.skin_end) continue;
+    if (winding >= 2) {
+      const double length = crossing.along - last;
+      sums.length_m += length;
+      sums.moment += length * Eigen::Vector3d(grid_.x[crossing.column], grid_.y[row],
+                                              0.5 * (crossing.along + last));
+    }
+    winding += crossing.turn;
+    last = crossing.along;
   }
+  return sums;
+}
+
+Overlap BodyRows::MeasureOverlap() const {
+  OverlapSums all;
+  for (const OverlapSums& row : overlaps_) {
+    all.length_m += row.length_m;
+    all.moment += row.moment;
+  }
+  if (!(all.length_m > 0.0)) return {};
+  return {all.length_m * grid_.cell_area(), all.moment / all.length_m};
+}
+
+BodyRows::Cuts BodyRows::Cut(std::size_t row, const GridMargin& margin) const {
+  std::span<const mesh::ColumnCrossing> crossings;
+  if (row >= margin.below && row < margin.below + crossings_.size()) {
+    crossings = crossings_[row - margin.below];
+  }
+  const std::size_t columns = grid_.x.size();
   const std::vector<body::Part>& parts = surface_.parts;
-  Cuts cuts{Inside(crossings, parts, 0, surface_.skin_end, columns_, margin.beside),
-            Inside(crossings, parts, surface_.skin_begin, parts.size(), columns_, margin.beside)};
+  Cuts cuts{Inside(crossings, parts, 0, surface_.skin_end, columns, margin.beside),
+            Inside(crossings, parts, surface_.skin_begin, parts.size(), columns, margin.beside)};
   for (const mesh::ColumnCrossing& crossing : crossings) {
     if (crossing.triangle < surface_.skin_begin) continue;
     const auto part = static_cast<std::size_t>(parts[crossing.triangle]);

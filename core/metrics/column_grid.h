@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/backlog.h"
 #include "core/base/thread_pool.h"
 #include "core/geometry/tapered_capsule.h"
 #include "core/mesh/column_caster.h"
@@ -70,15 +71,22 @@ class RowIntervals {
 [[nodiscard]] double CommonLength(std::span<const geometry::Interval> a,
                                   std::span<const geometry::Interval> b);
 
+// What a surface that cuts through itself encloses twice or more, counted once.
+struct Overlap {
+  double volume_m3 = 0.0;
+  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  // of that volume
+};
+
 // Where the columns run through a body.
 class BodyRows {
  public:
   // Keeps a reference to `surface`, whose body and fitted part are closed. Triangles in parallel.
-  BodyRows(const FittedSurface& surface, const ColumnGrid& grid, const ThreadPool& pool)
-      : surface_(surface),
-        columns_(grid.x.size()),
-        rows_(grid.y.size()),
-        caster_(surface.points_m, surface.triangles, grid, {0, 1, 2}, pool) {}
+  BodyRows(const FittedSurface& surface, const ColumnGrid& grid, const ThreadPool& pool);
+  // The same, but empty until the backlog is done, which makes `surface` and `grid` before; so long
+  // all three stay where they are.
+  BodyRows(const FittedSurface& surface, const ColumnGrid& grid, Backlog& backlog);
+  BodyRows(const BodyRows&) = delete;
+  BodyRows& operator=(const BodyRows&) = delete;
 
   // Where the row's columns have a winding number other than 0. Each half of such an interval has
   // the part of the triangle at its end for a label.
@@ -90,11 +98,24 @@ class BodyRows {
   // `row` and the columns of the result are those of the grid, or of one with a margin around it.
   [[nodiscard]] Cuts Cut(std::size_t row, const GridMargin& margin = {}) const;
 
+  // Of the body: what is thinner than the columns are apart is missed or not by chance.
+  [[nodiscard]] Overlap MeasureOverlap() const;
+
  private:
+  // A row's overlap in lengths along its columns.
+  struct OverlapSums {
+    double length_m = 0.0;
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // lengths times their middles
+  };
+
+  void Cast(Backlog& backlog);
+  [[nodiscard]] OverlapSums OverlapIn(std::size_t row) const;
+
   const FittedSurface& surface_;
-  std::size_t columns_;
-  std::size_t rows_;
-  mesh::ColumnCaster caster_;
+  const ColumnGrid& grid_;
+  std::optional<mesh::ColumnCaster> caster_;                  // until the rows are sorted
+  std::vector<std::vector<mesh::ColumnCrossing>> crossings_;  // by row, sorted
+  std::vector<OverlapSums> overlaps_;                         // by row
 };
 
 // Where the columns run through the union of solids.

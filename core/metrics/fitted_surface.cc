@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <utility>
 
+#include "core/base/chunk_sums.h"
 #include "core/mesh/surface_sums.h"
 
 namespace capfit::metrics {
 namespace {
 
 using body::Part;
-
-constexpr std::size_t kTrianglesPerChunk = 8192;
 
 Part MostOf(Part a, Part b, Part c) {
   if (b == c) return b;
@@ -85,105 +85,152 @@ void CloseCuts(const body::Body& body, const std::vector<Edge>& edges, FittedSur
   }
 }
 
-// The first corner met of each part is near enough to the others.
-void FindMiddles(FittedSurface& surface) {
-  std::array<bool, body::kPartCount> is_found{};
-  const std::span<const mesh::Triangle> triangles = surface.fitted();
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto part = static_cast<std::size_t>(surface.parts[surface.skin_begin + t]);
-    if (std::exchange(is_found[part], true)) continue;
-    surface.middle_z[part] = surface.points_m[triangles[t][0]].z();
-  }
-}
-
-void SumUp(const ThreadPool& pool, FittedSurface& surface) {
-  const std::span<const mesh::Triangle> triangles = surface.fitted();
-  surface.skin_areas_m2.resize(triangles.size());
-  std::vector<PartNumbers> chunks((triangles.size() + kTrianglesPerChunk - 1) / kTrianglesPerChunk);
-  pool.ForChunks(triangles.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
-    PartNumbers flux{};
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto part = static_cast<std::size_t>(surface.parts[surface.skin_begin + t]);
-      const Eigen::Vector3d area = mesh::AreaVector(surface.points_m, triangles[t]);
-      surface.skin_areas_m2[t] = area.norm();
-      flux[part] +=
-          area.z() * (mesh::Middle(surface.points_m, triangles[t]).z() - surface.middle_z[part]);
-    }
-    chunks[begin / kTrianglesPerChunk] = flux;
-  });
-  surface.skin_areas_m2.resize(surface.skin().size());
-  for (const PartNumbers& chunk : chunks) {
-    for (std::size_t p = 0; p < chunk.size(); ++p) surface.flux[p] += chunk[p];
-  }
-}
-
 // A selected vertex that a triangle of the skin has for a corner.
 constexpr std::uint8_t kInSkin = 2;
 
+// What is needed of the mesh's vertices and triangles until the surface is made.
+class Maker {
+ public:
+  Maker(const body::Body& body, const body::PartSelection& parts, FittedSurface& surface)
+      : body_(body), parts_(parts), surface_(surface) {}
+
+  void TakeVertices() {
+    const std::span<const Eigen::Vector3d> vertices = body_.mesh.vertices();
+    part_of_.resize(vertices.size());
+    selected_.resize(vertices.size());
+    std::array<Part, body::kSegmentCount> part_of_segment{};
+    std::array<std::uint8_t, body::kSegmentCount> is_selected{};
+    for (std::size_t s = 0; s < part_of_segment.size(); ++s) {
+      part_of_segment[s] = body::PartOf(static_cast<body::Segment>(s));
+      is_selected[s] = parts_.Includes(part_of_segment[s]) ? 1 : 0;
+    }
+    surface_.vertices.reserve(vertices.size());
+    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+      const auto segment = static_cast<std::size_t>(body_.vertex_segments[v]);
+      part_of_[v] = part_of_segment[segment];
+      selected_[v] = is_selected[segment];
+      if (selected_[v] != 0) surface_.vertices.push_back(v);
+    }
+    surface_.parts.resize(body_.mesh.triangles().size());
+    if (surface_.vertices.size() == vertices.size()) {
+      TakeAll();
+    } else {
+      TakeSome();
+    }
+  }
+
+  // Of those in the mesh's order.
+  void NameParts(std::size_t begin, std::size_t end) {
+    if (!surface_.is_whole()) return;
+    for (std::size_t t = begin; t < end; ++t) surface_.parts[t] = PartOfTriangle(t);
+  }
+
+  // What lies at the height of one of a part's corners: any of them is near enough to the others.
+  void FindMiddles() {
+    const std::span<const mesh::Triangle> triangles = surface_.fitted();
+    std::array<bool, body::kPartCount> is_found{};
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto part = static_cast<std::size_t>(surface_.parts[surface_.skin_begin + t]);
+      if (std::exchange(is_found[part], true)) continue;
+      surface_.middle_z[part] = surface_.points_m[triangles[t][0]].z();
+      if (surface_.skin_begin + t < surface_.skin_end) surface_.has_part[part] = true;
+    }
+    surface_.skin_areas_m2.resize(triangles.size());
+    fluxes_.resize((triangles.size() + kMeshChunk - 1) / kMeshChunk);
+  }
+
+  void SumUp(std::size_t begin, std::size_t end) {
+    const std::span<const mesh::Triangle> triangles = surface_.fitted();
+    PartNumbers flux{};
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto part = static_cast<std::size_t>(surface_.parts[surface_.skin_begin + t]);
+      const Eigen::Vector3d area = mesh::AreaVector(surface_.points_m, triangles[t]);
+      surface_.skin_areas_m2[t] = area.norm();
+      flux[part] +=
+          area.z() * (mesh::Middle(surface_.points_m, triangles[t]).z() - surface_.middle_z[part]);
+    }
+    fluxes_[begin / kMeshChunk] = flux;
+  }
+
+  void End() {
+    surface_.skin_areas_m2.resize(surface_.skin().size());
+    for (const PartNumbers& flux : fluxes_) {
+      for (std::size_t p = 0; p < flux.size(); ++p) surface_.flux[p] += flux[p];
+    }
+  }
+
+ private:
+  [[nodiscard]] Part PartOfTriangle(std::size_t t) const {
+    const mesh::Triangle& corners = body_.mesh.triangles()[t];
+    return MostOf(part_of_[corners[0]], part_of_[corners[1]], part_of_[corners[2]]);
+  }
+
+  void TakeAll() {
+    surface_.points_m = LentOrOwn<Eigen::Vector3d>::Lent(body_.mesh.vertices());
+    surface_.triangles = LentOrOwn<mesh::Triangle>::Lent(body_.mesh.triangles());
+    surface_.skin_end = surface_.triangles.size();
+    surface_.box = {body_.mesh.box_min(), body_.mesh.box_max()};
+  }
+
+  void TakeSome() {
+    const std::span<const Eigen::Vector3d> vertices = body_.mesh.vertices();
+    const std::span<const mesh::Triangle> triangles = body_.mesh.triangles();
+    surface_.points_m.own().assign(vertices.begin(), vertices.end());
+    const auto is_skin = [this](const mesh::Triangle& t) {
+      return selected_[t[0]] != 0 && selected_[t[1]] != 0 && selected_[t[2]] != 0;
+    };
+    const auto skin =
+        static_cast<std::size_t>(std::count_if(triangles.begin(), triangles.end(), is_skin));
+    surface_.skin_begin = triangles.size() - skin;
+    surface_.skin_end = triangles.size();
+    const std::vector<Edge> cut = CutEdges(body_.mesh, selected_);
+    surface_.triangles.own().resize(triangles.size());
+    std::size_t next_out = 0;
+    std::size_t next_in = surface_.skin_begin;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const bool is_in = is_skin(triangles[t]);
+      const std::size_t at = is_in ? next_in++ : next_out++;
+      surface_.triangles.own()[at] = triangles[t];
+      surface_.parts[at] = PartOfTriangle(t);
+      if (!is_in) continue;
+      for (const std::uint32_t v : triangles[t]) selected_[v] = kInSkin;
+    }
+    for (const std::uint32_t v : surface_.vertices) {
+      if (selected_[v] == kInSkin) surface_.box.extend(surface_.points_m[v]);
+    }
+    CloseCuts(body_, cut, surface_);
+  }
+
+  const body::Body& body_;
+  const body::PartSelection parts_;
+  FittedSurface& surface_;
+  std::vector<Part> part_of_;           // by vertex
+  std::vector<std::uint8_t> selected_;  // by vertex
+  std::vector<PartNumbers> fluxes_;     // by chunk of triangles
+};
+
 }  // namespace
 
+FittedSurface::FittedSurface(const body::Body& body, const body::PartSelection& selected,
+                             Backlog& backlog) {
+  const auto maker = std::make_shared<Maker>(body, selected, *this);
+  backlog.Add(1, [maker](std::size_t) { maker->TakeVertices(); });
+  backlog.AddChunks(body.mesh.triangles().size(), kMeshChunk,
+                    [maker](std::size_t begin, std::size_t end) { maker->NameParts(begin, end); });
+  backlog.Add(1, [this, maker, &backlog](std::size_t) {
+    maker->FindMiddles();
+    backlog.AddChunks(fitted().size(), kMeshChunk,
+                      [maker](std::size_t begin, std::size_t end) { maker->SumUp(begin, end); });
+    backlog.Add(1, [maker](std::size_t) { maker->End(); });
+  });
+}
+
 FittedSurface MakeFittedSurface(const body::Body& body, const body::PartSelection& parts,
-                                const ThreadPool& pool, const FitObserver& observer) {
-  const std::span<const mesh::Triangle> triangles = body.mesh.triangles();
-  FittedSurface surface;
-  const std::span<const Eigen::Vector3d> vertices = body.mesh.vertices();
-  std::vector<Part> part_of(vertices.size());
-  std::vector<std::uint8_t> selected(part_of.size());
-  std::array<Part, body::kSegmentCount> part_of_segment{};
-  std::array<std::uint8_t, body::kSegmentCount> is_selected{};
-  for (std::size_t s = 0; s < part_of_segment.size(); ++s) {
-    part_of_segment[s] = body::PartOf(static_cast<body::Segment>(s));
-    is_selected[s] = parts.Includes(part_of_segment[s]) ? 1 : 0;
-  }
-  surface.vertices.reserve(part_of.size());
-  for (std::uint32_t v = 0; v < part_of.size(); ++v) {
-    const auto segment = static_cast<std::size_t>(body.vertex_segments[v]);
-    part_of[v] = part_of_segment[segment];
-    selected[v] = is_selected[segment];
-    if (selected[v] != 0) surface.vertices.push_back(v);
-  }
-  if (surface.vertices.size() == vertices.size()) {
-    surface.points_m = LentOrOwn<Eigen::Vector3d>::Lent(vertices);
-  } else {
-    surface.points_m.own().assign(vertices.begin(), vertices.end());
-  }
-  if (observer.IsCancelled()) return surface;
-  const auto is_skin = [&](const mesh::Triangle& t) {
-    return selected[t[0]] != 0 && selected[t[1]] != 0 && selected[t[2]] != 0;
-  };
-  const auto skin =
-      static_cast<std::size_t>(surface.vertices.size() == part_of.size()
-                                   ? triangles.size()
-                                   : std::count_if(triangles.begin(), triangles.end(), is_skin));
-  surface.skin_begin = triangles.size() - skin;
-  surface.skin_end = triangles.size();
-  surface.parts.resize(triangles.size());
-  if (surface.is_whole()) {
-    surface.triangles = LentOrOwn<mesh::Triangle>::Lent(triangles);
-  } else {
-    surface.triangles.own().resize(triangles.size());
-  }
-  if (observer.IsCancelled()) return surface;
-  const std::vector<Edge> cut =
-      surface.is_whole() ? std::vector<Edge>() : CutEdges(body.mesh, selected);
-  std::size_t next_out = 0;
-  std::size_t next_in = surface.skin_begin;
-  for (const mesh::Triangle& t : triangles) {
-    const bool is_in = is_skin(t);
-    const std::size_t at = is_in ? next_in++ : next_out++;
-    if (!surface.is_whole()) surface.triangles.own()[at] = t;
-    surface.parts[at] = MostOf(part_of[t[0]], part_of[t[1]], part_of[t[2]]);
-    if (!is_in) continue;
-    surface.has_part[static_cast<std::size_t>(surface.parts[at])] = true;
-    for (const std::uint32_t v : t) selected[v] = kInSkin;
-  }
-  for (const std::uint32_t v : surface.vertices) {
-    if (selected[v] == kInSkin) surface.box.extend(surface.points_m[v]);
-  }
-  if (observer.IsCancelled()) return surface;
-  if (!surface.is_whole()) CloseCuts(body, cut, surface);
-  FindMiddles(surface);
-  SumUp(pool, surface);
+                                const ThreadPool& pool) {
+  const NullObserver observer;
+  Backlog backlog(pool, observer);
+  FittedSurface surface(body, parts, backlog);
+  backlog.Finish();
   return surface;
 }
 

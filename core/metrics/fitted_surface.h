@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/fit_observer.h"
+#include "core/base/backlog.h"
 #include "core/base/lent_or_own.h"
 #include "core/base/thread_pool.h"
 #include "core/body/anatomy.h"
@@ -26,6 +26,11 @@ using PartNumbers = std::array<double, body::kPartCount>;
 // The part of a triangle is that of most of its corners (all different: the first in the list of
 // parts); that of a fan's triangle is the first part of its edge's two ends.
 struct FittedSurface {
+  FittedSurface() = default;
+  // As MakeFittedSurface, but empty at first: all but its sums are made once what this adds to the
+  // backlog is done, the sums once the whole backlog is. So long it stays where it is.
+  FittedSurface(const body::Body& body, const body::PartSelection& selected, Backlog& backlog);
+
   LentOrOwn<Eigen::Vector3d> points_m;  // the mesh's vertices, then the fans' middles
   LentOrOwn<mesh::Triangle> triangles;  // indices into points_m: left out, then skin, then caps
   std::vector<body::Part> parts;        // of each of `triangles`
@@ -50,15 +55,13 @@ struct FittedSurface {
   [[nodiscard]] bool is_whole() const { return skin_begin == 0; }
 };
 
-// O(n); the sums in parallel. Not whole where the observer cancels. Where nothing is left out the
-// body's mesh lends its arrays: it must outlive the surface.
+// O(n); mostly in parallel. Where nothing is left out the body's mesh lends its arrays: it must
+// outlive the surface.
 [[nodiscard]] FittedSurface MakeFittedSurface(const body::Body& body,
                                               const body::PartSelection& parts,
-                                              const ThreadPool& pool,
-                                              const FitObserver& observer = NullObserver());
+                                              const ThreadPool& pool);
 FittedSurface MakeFittedSurface(body::Body&& body, const body::PartSelection& parts,
-                                const ThreadPool& pool,
-                                const FitObserver& observer = NullObserver()) = delete;
+                                const ThreadPool& pool) = delete;
 
 }  // namespace capfit::metrics
 

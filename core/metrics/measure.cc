@@ -305,18 +305,21 @@ void PutSurface(const body::Body& body, const MeasureGround& ground,
 }  // namespace
 
 MeasureGround::MeasureGround(const body::Body& body, const MeasureOptions& options,
-                             bool knows_vertices, const ThreadPool& pool,
-                             const FitObserver& observer)
-    : fitted(MakeFittedSurface(body, options.parts, pool, observer)),
-      vertices(knows_vertices ? std::nullopt : std::optional(VerticesOf(fitted))),
+                             bool knows_vertices, Backlog& backlog)
+    : fitted(body, options.parts, backlog),
       columns(MakeColumnGrid({body.mesh.box_min(), body.mesh.box_max()}, options.columns)),
-      rows(fitted, columns, pool) {}
+      rows(fitted, columns, backlog) {
+  if (knows_vertices) return;
+  backlog.Add(1, [this](std::size_t) { vertices = VerticesOf(fitted); });
+}
 
 Metrics Measure(const body::Body& body, const capsule::PrimitiveSet& set,
                 const MeasureOptions& options, const ThreadPool& pool,
                 const FitObserver& observer) {
-  return Measure(body, MeasureGround(body, options, /*knows_vertices=*/false, pool, observer), set,
-                 options, pool, observer);
+  Backlog backlog(pool, observer);
+  const MeasureGround ground(body, options, /*knows_vertices=*/false, backlog);
+  backlog.Finish();
+  return Measure(body, ground, set, options, pool, observer);
 }
 
 Metrics Measure(const body::Body& body, const MeasureGround& ground,

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/backlog.h"
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
@@ -76,10 +77,10 @@ struct Metrics {
 
 // What measuring takes from the body alone: made once for several sets, and before there is one.
 struct MeasureGround {
-  // O(n). Not whole where the observer cancels. `knows_vertices`: Measure will be told how far they
-  // are from the set.
+  // O(n). Not whole until the backlog is done, nor where its observer cancels. `knows_vertices`:
+  // Measure will be told how far they are from the set.
   MeasureGround(const body::Body& body, const MeasureOptions& options, bool knows_vertices,
-                const ThreadPool& pool, const FitObserver& observer);
+                Backlog& backlog);
   MeasureGround(const MeasureGround&) = delete;
   MeasureGround& operator=(const MeasureGround&) = delete;
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/backlog.h"
 #include "core/base/status.h"
 #include "core/base/version.h"
 #include "core/circle/error_curve.h"
@@ -47,6 +48,7 @@ class BodyFit {
         options_(WithEngineLimits(options)),
         pool_(pool),
         clock_(clock),
+        backlog_(pool, clock),
         result_(result) {}
 
   absl::Status Run(const formats::PolygonSoup& soup) {
@@ -60,8 +62,9 @@ class BodyFit {
       }
     }
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
-    CAPFIT_RETURN_IF_ERROR(BuildBesideGround());
-    CAPFIT_RETURN_IF_ERROR(Beside([this] { LayMeasureGround(); }, [this] { return Cover(); }));
+    CAPFIT_RETURN_IF_ERROR(Build());
+    LayMeasureGround();
+    CAPFIT_RETURN_IF_ERROR(Cover());
     if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverMotion(soup));
     CAPFIT_RETURN_IF_ERROR(Measure());
     CAPFIT_RETURN_IF_ERROR(Bind(soup));
@@ -87,16 +90,18 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
-  // What a later stage takes from the body alone is made beside an earlier one that does not keep
-  // all threads busy all the time.
-  template <typename LayGround, typename Work>
-  absl::Status Beside(const LayGround& lay_ground, const Work& work) const {
-    absl::Status status;
+  // What covering takes from the body alone is made beside the first step of Build that does not
+  // keep all threads busy all the time.
+  template <typename Work>
+  void BesideCoverGround(const Work& work) {
+    if (std::exchange(has_cover_ground_, true)) return work();
+    // Before Build changes the options.
+    const int primitives =
+        options_.polygon_error ? kUsualPrimitives : TotalBudget(options_).UsualPrimitives();
     pool_.ForEach(2, [&](std::size_t half) {
-      if (half == 0) status = work();
-      if (half == 1) lay_ground();
+      if (half == 0) return work();
+      LayCoverGround(primitives);
     });
-    return status;
   }
 
   void LayCoverGround(int primitives) {
@@ -105,28 +110,13 @@ class BodyFit {
                                               CoverOptionsFor(HasShape()), primitives, pool_);
   }
 
-  void LayMeasureGround() {
-    measure_ground_.emplace(*body_, ToMeasure(), CoversLast(), pool_, clock_);
-  }
+  // Left to whoever has time while the set is covered.
+  void LayMeasureGround() { measure_ground_.emplace(*body_, ToMeasure(), CoversLast(), backlog_); }
 
   // The set is not changed after covering, which tells how far all vertices are from it.
   bool CoversLast() const {
     return options_.fit == FitMode::kEnclose && options_.motion == nullptr && !body_->shells &&
            Profile() != capsule::CapsuleProfile::kLerpedRadius;
-  }
-
-  absl::Status BuildBesideGround() {
-    std::optional<Warning> overlap;
-    // Build changes the options.
-    const int primitives =
-        options_.polygon_error ? kUsualPrimitives : TotalBudget(options_).UsualPrimitives();
-    const auto look_at_body = [&] {
-      LayCoverGround(primitives);
-      overlap = WarningOfOverlap(*body_);
-    };
-    const absl::Status built = Beside(look_at_body, [this] { return Build(); });
-    if (overlap) result_.warnings.push_back(*std::move(overlap));
-    return built;
   }
 
   // Capsules that share no spheres cost more than the budget of capsules tells, where there are
@@ -156,8 +146,12 @@ class BodyFit {
   absl::Status KeepLayout() {
     if (options_.want_polygons) CAPFIT_RETURN_IF_ERROR(Approximate());
     clock_.Begin(Stage::kRefine);
-    CAPFIT_ASSIGN_OR_RETURN(set_, refine::FitToLayout(*body_, target_, *options_.layout,
-                                                      RefineOptionsFor({}), pool_, clock_));
+    absl::StatusOr<capsule::PrimitiveSet> kept;
+    BesideCoverGround([&] {
+      kept = refine::FitToLayout(*body_, target_, *options_.layout, RefineOptionsFor({}), pool_,
+                                 clock_);
+    });
+    CAPFIT_ASSIGN_OR_RETURN(set_, std::move(kept));
     return CheckCancelled(clock_);
   }
 
@@ -218,8 +212,10 @@ class BodyFit {
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
 
     clock_.Begin(Stage::kCapsule);
-    PrimitiveStage stage =
-        BuildUnderBudget(*body_, options_, features.polygons, drafts, curves, pool_);
+    PrimitiveStage stage;
+    BesideCoverGround([&] {
+      stage = BuildUnderBudget(*body_, options_, features.polygons, drafts, curves, pool_);
+    });
     set_ = std::move(stage.set);
     if (!IsSearched() && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);
@@ -240,7 +236,9 @@ class BodyFit {
       budget.max_spheres = budget.max_capsules + 1;
     }
     if (ComparesWithPaper()) papers_ = std::move(set_);
-    set_ = refine::RefineSet(*body_, target_, RefineOptionsFor(budget), pool_, clock_);
+    BesideCoverGround([&] {
+      set_ = refine::RefineSet(*body_, target_, RefineOptionsFor(budget), pool_, clock_);
+    });
     return CheckCancelled(clock_);
   }
 
@@ -296,9 +294,9 @@ class BodyFit {
     return cover_options;
   }
 
-  coverage::CoverReport Enclose(bool has_shape, capsule::PrimitiveSet& set) const {
+  coverage::CoverReport Enclose(bool has_shape, capsule::PrimitiveSet& set) {
     return coverage::CoverBody(target_, CoverOptionsFor(has_shape), pool_, clock_, set,
-                               cover_ground_ ? &*cover_ground_ : nullptr);
+                               cover_ground_ ? &*cover_ground_ : nullptr, &backlog_);
   }
 
   metrics::MeasureOptions ToMeasure() const {
@@ -309,6 +307,11 @@ class BodyFit {
 
   absl::Status Measure() {
     clock_.Begin(Stage::kMetrics);
+    backlog_.Finish();
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
+    std::optional<Warning> overlap =
+        WarningOfOverlap(*body_, measure_ground_->rows.MeasureOverlap());
+    if (overlap) result_.warnings.push_back(*std::move(overlap));
     result_.metrics =
         metrics::Measure(*body_, *measure_ground_, set_, ToMeasure(), pool_, clock_, at_vertices_);
     result_.metrics.max_gap_m = max_gap_m_;
@@ -378,10 +381,12 @@ class BodyFit {
   FitOptions options_;  // with the limits of the engine
   const ThreadPool& pool_;
   StageClock& clock_;
+  Backlog backlog_;  // what measuring needs
   FitResult& result_;
   std::optional<body::Body> body_;  // set by Understand
   geometry::Similarity caller_from_body_;
   tighten::CoverTarget target_;
+  bool has_cover_ground_ = false;
   std::optional<coverage::CoverGround> cover_ground_;
   std::optional<metrics::MeasureGround> measure_ground_;
   capsule::PrimitiveSet set_;

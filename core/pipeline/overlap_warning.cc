@@ -1,7 +1,6 @@
 #include "core/pipeline/overlap_warning.h"
 
 #include "absl/strings/str_format.h"
-#include "core/mesh/overlap.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -11,11 +10,10 @@ constexpr double kTellingOverlap = 1e-3;
 
 }  // namespace
 
-std::optional<Warning> WarningOfOverlap(const body::Body& body) {
-  const mesh::Overlap overlap = mesh::MeasureOverlap(body.mesh);
-  const double share = overlap.volume / body.mesh.volume();
+std::optional<Warning> WarningOfOverlap(const body::Body& body, const metrics::Overlap& overlap) {
+  const double share = overlap.volume_m3 / body.mesh.volume();
   if (!(share > kTellingOverlap)) return std::nullopt;
-  const Eigen::Vector3d at = body.body_from_caller.Inverse().Apply(overlap.middle);
+  const Eigen::Vector3d at = body.body_from_caller.Inverse().Apply(overlap.middle_m);
   return Warning{
       "SURFACE_OVERLAPS",
       absl::StrFormat("the surface cuts through itself: %.2g %% of its volume, around (%.4g, %.4g, "

@@ -6,14 +6,15 @@
 
 #include "core/base/warning.h"
 #include "core/body/body.h"
+#include "core/metrics/column_grid.h"
 
 namespace capfit::pipeline {
 
-// SURFACE_OVERLAPS where the mesh encloses more than a thousandth of its volume twice: how much,
-// and around which place of the caller's frame. Measured in the body's own frame, so that all
-// turned copies of a body get the same answer. As long as mesh::MeasureOverlap takes, on one
-// thread.
-[[nodiscard]] std::optional<Warning> WarningOfOverlap(const body::Body& body);
+// SURFACE_OVERLAPS where the body's mesh encloses more than a thousandth of its volume twice: how
+// much, and around which place of the caller's frame. `overlap` is measured in the body's own, so
+// that all turned copies of a body get the same answer.
+[[nodiscard]] std::optional<Warning> WarningOfOverlap(const body::Body& body,
+                                                      const metrics::Overlap& overlap);
 
 }  // namespace capfit::pipeline
 

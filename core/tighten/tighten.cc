@@ -44,8 +44,13 @@ double Between(double first, double last, int step, int steps) {
 class Tightener {
  public:
   Tightener(std::span<const PointsToHold> points, double body_size_m, const ThreadPool& pool,
-            capsule::PrimitiveSet& set)
-      : points_(points), size_(body_size_m), pool_(pool), set_(set), variables_(set) {}
+            capsule::PrimitiveSet& set, Backlog* backlog)
+      : points_(points),
+        size_(body_size_m),
+        pool_(pool),
+        backlog_(backlog),
+        set_(set),
+        variables_(set) {}
 
   void Step(double trust_m, double penalty, const TightenPhase& phase, std::uint64_t seed) {
     shapes_ = capsule::Solids(set_);
@@ -61,7 +66,13 @@ class Tightener {
     } else {
       AddSteepnessRows(program);
     }
-    const Eigen::VectorXd change = Solve(program, phase.solve_to);
+    Eigen::VectorXd change;
+    const auto solve = [&] { change = Solve(program, phase.solve_to); };
+    if (backlog_ != nullptr) {
+      backlog_->Beside(solve);
+    } else {
+      solve();
+    }
     if (change.allFinite()) variables_.Apply(change, set_);
     is_first_ = false;
   }
@@ -273,6 +284,7 @@ class Tightener {
   double near_weight_ = 0.0;  // of the points near the surface
   double size_;
   const ThreadPool& pool_;
+  Backlog* backlog_;
   capsule::PrimitiveSet& set_;
   SetVariables variables_;
   std::vector<TaperedCapsule> shapes_;
@@ -284,8 +296,8 @@ class Tightener {
 
 void Tighten(std::span<const PointsToHold> points, double body_size_m, const TightenPhase& phase,
              std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
-             capsule::PrimitiveSet& set) {
-  Tightener tightener(points, body_size_m, pool, set);
+             capsule::PrimitiveSet& set, Backlog* backlog) {
+  Tightener tightener(points, body_size_m, pool, set, backlog);
   for (int i = 0; i < phase.steps && !meter.IsCancelled(); ++i) {
     const double trust = Between(phase.first_trust, phase.last_trust, i, phase.steps);
     const double penalty = Between(phase.first_penalty, phase.last_penalty, i, phase.steps);

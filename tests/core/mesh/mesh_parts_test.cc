@@ -16,7 +16,6 @@
 #include "core/mesh/body_mesh.h"
 #include "core/mesh/edge_mates.h"
 #include "core/mesh/one_surface.h"
-#include "core/mesh/overlap.h"
 #include "core/mesh/triangulate_loop.h"
 #include "core/mesh/weld_vertices.h"
 #include "tests/core/mesh/boxes.h"
@@ -225,25 +224,6 @@ TEST(TriangulateLoopTest, UsesNoForbiddenEdge) {
     const auto none = [](std::uint32_t, std::uint32_t) { return false; };
     EXPECT_FALSE(fill(square, none).has_value());
   }
-}
-
-TEST(OverlapTest, MeasuresWhatIsEnclosedTwice) {
-  using BoxCorners = std::array<Eigen::Vector3d, 2>;
-  const BoxCorners tall = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 4, 1)};
-  const BoxCorners beside = {Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(3, 1, 1)};
-  const BoxCorners half_in = {Eigen::Vector3d(0.5, 1, 0.25), Eigen::Vector3d(2, 2, 0.75)};
-  EXPECT_EQ(MeasureOverlap(BoxesOf(std::vector{tall})).volume, 0.0);
-  EXPECT_EQ(MeasureOverlap(BoxesOf(std::vector{tall, beside})).volume, 0.0);
-  const Overlap overlap = MeasureOverlap(BoxesOf(std::vector{tall, half_in}));
-  EXPECT_NEAR(overlap.volume, 0.25, 0.02);
-  EXPECT_LT((overlap.middle - Eigen::Vector3d(0.75, 1.5, 0.5)).norm(), 0.03);
-  EXPECT_NEAR(MeasureOverlap(BoxesOf(std::vector{tall, tall})).volume, 4.0, 0.2);
-}
-
-TEST(OverlapTest, GivesUpWhereItWouldTakeLong) {
-  const std::array<Eigen::Vector3d, 2> cube = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1)};
-  const std::vector many(5000, cube);
-  EXPECT_EQ(MeasureOverlap(BoxesOf(many)).volume, 0.0);
 }
 
 }  // namespace

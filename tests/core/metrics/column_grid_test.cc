@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/base/random.h"
 #include "core/mesh/surface_sums.h"
+#include "tests/core/mesh/boxes.h"
 #include "tests/core/metrics/shapes.h"
 
 namespace capfit::metrics {
@@ -48,6 +51,13 @@ double VolumeByColumns(const mesh::BodyMesh& mesh, int columns) {
 bool IsInside(std::span<const Interval> intervals, double z) {
   return std::any_of(intervals.begin(), intervals.end(),
                      [z](const Interval& i) { return i.begin <= z && z <= i.end; });
+}
+
+Overlap OverlapOf(const std::vector<std::array<Vector3d, 2>>& boxes, int columns = 100) {
+  const mesh::BodyMesh mesh = mesh::BoxesOf(boxes);
+  const ColumnGrid grid = GridOver(mesh, columns);
+  const FittedSurface surface = SurfaceOf(mesh);
+  return BodyRows(surface, grid, SerialPool()).MeasureOverlap();
 }
 
 TEST(ColumnGridTest, IsRisingAndMirrorSymmetric) {
@@ -279,6 +289,30 @@ TEST(SolidRowsTest, AgreesWithTheDistanceToTheUnion) {
       EXPECT_EQ(IsInside(cut.Column(column), z), distance < 0) << point.transpose();
     }
   }
+}
+
+TEST(BodyRowsTest, MeasureWhatIsEnclosedTwice) {
+  using BoxCorners = std::array<Vector3d, 2>;
+  const BoxCorners tall = {Vector3d(0, 0, 0), Vector3d(1, 4, 1)};
+  const BoxCorners beside = {Vector3d(2, 0, 0), Vector3d(3, 1, 1)};
+  const BoxCorners half_in = {Vector3d(0.5, 1, 0.25), Vector3d(2, 2, 0.75)};
+  EXPECT_EQ(OverlapOf({tall}).volume_m3, 0.0);
+  EXPECT_EQ(OverlapOf({tall, beside}).volume_m3, 0.0);
+  const Overlap overlap = OverlapOf({tall, half_in});
+  EXPECT_NEAR(overlap.volume_m3, 0.25, 0.02);
+  EXPECT_LT((overlap.middle_m - Vector3d(0.75, 1.5, 0.5)).norm(), 0.03);
+  EXPECT_NEAR(OverlapOf({tall, tall}).volume_m3, 4.0, 0.2);
+  EXPECT_NEAR(OverlapOf({tall, tall, tall}).volume_m3, 4.0, 0.2);  // counted once
+}
+
+// The flat caps of what is fitted enclose nothing of the body.
+TEST(BodyRowsTest, OverlapIsOfTheBodyAlone) {
+  const mesh::BodyMesh mesh = mesh::BoxesOf(std::vector<std::array<Vector3d, 2>>{
+      {Vector3d(0, 0, 0), Vector3d(1, 1, 1)}, {Vector3d(0, 0, 0), Vector3d(1, 1, 1)}});
+  const ColumnGrid grid = GridOver(mesh, 20);
+  FittedSurface surface = SurfaceOf(mesh);
+  surface.skin_end /= 2;
+  EXPECT_EQ(BodyRows(surface, grid, SerialPool()).MeasureOverlap().volume_m3, 0.0);
 }
 
 }  // namespace

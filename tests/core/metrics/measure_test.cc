@@ -194,8 +194,10 @@ TEST(MeasureTest, DistancesThatAreKnownGiveTheSameNumbers) {
   for (const body::PartSelection& parts : {body::PartSelection{}, kAllParts}) {
     MeasureOptions options;
     options.parts = parts;
-    const MeasureGround ground(tower, options, /*knows_vertices=*/true, SingleThread(),
-                               NullObserver());
+    const NullObserver observer;
+    Backlog backlog(SingleThread(), observer);
+    const MeasureGround ground(tower, options, /*knows_vertices=*/true, backlog);
+    backlog.Finish();
     EXPECT_FALSE(ground.vertices.has_value());
     tighten::UnionDistances known;
     for (const std::uint32_t v : ground.fitted.vertices) {
@@ -239,11 +241,13 @@ TEST(MeasureTest, EndsWhereverTheCallerGivesUp) {
   const body::Body tower = Tower();
   const capsule::PrimitiveSet set = SetOf({{{0, 0.2, 0}, 0.6}, {{0, 1.1, 0}, 0.7}}, {{0, 1}});
   for (const body::PartSelection& parts : {body::PartSelection{}, kAllParts}) {
-    for (int last = 1; last < 12; ++last) {
+    for (int last = 1; last < 40; ++last) {
       const GivesUp observer(last);
       MeasureOptions options;
       options.parts = parts;
-      const MeasureGround ground(tower, options, false, SingleThread(), observer);
+      Backlog backlog(SingleThread(), observer);
+      const MeasureGround ground(tower, options, false, backlog);
+      backlog.Finish();
       const Metrics m = Measure(tower, ground, set, options, SingleThread(), observer);
       EXPECT_TRUE(m.n_p == 0 || m.n_p == 3);
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "tests/core/mesh/boxes.h"
@@ -11,12 +12,10 @@
 namespace capfit::pipeline {
 namespace {
 
-// Two cubes with sides of 1, the second moved along x.
-body::Body TwoCubes(double moved) {
-  const Eigen::Vector3d along(moved, 0, 0);
-  const Eigen::Vector3d side = Eigen::Vector3d::Ones();
+// Of a cube with sides of 1, which was 100 and stood elsewhere.
+std::optional<Warning> WarningOf(const metrics::Overlap& overlap) {
   body::Body body{mesh::BoxesOf(std::vector<std::array<Eigen::Vector3d, 2>>{
-                      {Eigen::Vector3d::Zero(), side}, {along, along + side}}),
+                      {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}}),
                   {},
                   1.0,
                   false,
@@ -26,21 +25,20 @@ body::Body TwoCubes(double moved) {
                   {}};
   body.body_from_caller.scale = 0.01;
   body.body_from_caller.translation = {1.0, 0.0, 0.0};
-  return body;
+  return WarningOfOverlap(body, overlap);
 }
 
 TEST(OverlapWarningTest, TellsHowMuchAndWhereInTheCallersFrame) {
-  const auto warning = WarningOfOverlap(TwoCubes(0.5));
+  const auto warning = WarningOf({0.25, {0.75, 0.5, 0.5}});
   ASSERT_TRUE(warning.has_value());
   EXPECT_EQ(warning->code, "SURFACE_OVERLAPS");
-  // A quarter of both volumes, in the middle of [0.5, 1]: in centimetres, a metre further back.
   EXPECT_THAT(warning->message, testing::HasSubstr("25 % of its volume"));
-  EXPECT_THAT(warning->message, testing::HasSubstr("(-25"));
+  EXPECT_THAT(warning->message, testing::HasSubstr("(-25, 50, 50)"));
 }
 
-TEST(OverlapWarningTest, WhatOnlyTouchesDoesNotCount) {
-  EXPECT_FALSE(WarningOfOverlap(TwoCubes(1.0)).has_value());
-  EXPECT_FALSE(WarningOfOverlap(TwoCubes(2.0)).has_value());
+TEST(OverlapWarningTest, WhatIsLittleIsNotTold) {
+  EXPECT_FALSE(WarningOf({0.0009, {0.75, 0.5, 0.5}}).has_value());
+  EXPECT_FALSE(WarningOf({}).has_value());
 }
 
 }  // namespace
