@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <thread>
 #include <utility>
 
 namespace capfit {
@@ -31,15 +32,21 @@ bool Backlog::HasMore() {
 
 void Backlog::Beside(const std::function<void()>& work) {
   if (pool_.threads() == 1 || !HasMore()) return work();
+  const std::thread::id caller = std::this_thread::get_id();
+  bool has_begun = false;  // known to the caller's thread alone
+  std::atomic<bool> has_filler = false;
   std::atomic<bool> has_ended = false;
-  pool_.ForEach(2, [&](std::size_t half) {
-    if (half == 0) {
-      work();
-      has_ended = true;
-      return;
-    }
+  const auto run_work = [&] {
+    has_begun = true;
+    work();
+    has_ended = true;
+  };
+  pool_.ForEach(2, [&](std::size_t) {
+    if (std::this_thread::get_id() == caller && !has_begun) return run_work();
+    if (has_filler.exchange(true)) return;
     while (!has_ended && HasMore()) loops_.front().step(next_++);
   });
+  if (!has_begun) run_work();  // others had taken both turns
 }
 
 void Backlog::Finish() {

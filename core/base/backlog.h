@@ -28,8 +28,9 @@ class Backlog {
   void AddChunks(std::size_t count, std::size_t chunk,
                  std::function<void(std::size_t begin, std::size_t end)> step);
 
-  // Does `work`, which runs on this thread alone, and beside it on another one as much of the
-  // backlog as there is time for.
+  // Does `work` on this thread and, beside it on another, as much of the backlog as there is time
+  // for. Best where `work` runs on one thread alone; its loops get the other one once the backlog
+  // is done.
   void Beside(const std::function<void()>& work);
 
   // Does what is left, on all threads.

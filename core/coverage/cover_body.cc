@@ -266,6 +266,11 @@ class Coverer {
   // is proved stays so, and the rounds come to an end.
   void Grow() {
     if (meter_.IsCancelled()) return;
+    if (backlog_ == nullptr) return GrowAndProve();
+    backlog_->Beside([this] { GrowAndProve(); });
+  }
+
+  void GrowAndProve() {
     meter_.Expect(kGrownUntil, 1);
     report_.growth_steps += GrowToAll(OpenDemands(), meter_.observer(), set_);
     Unproved open;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <thread>
 #include <vector>
 
 namespace capfit {
@@ -17,9 +18,9 @@ class BacklogTest : public testing::TestWithParam<int> {
 
 TEST_P(BacklogTest, DoesEachStepOnceAndLoopsInOrder) {
   Backlog backlog(pool_, observer_);
-  std::array<std::vector<std::atomic<int>>, 3> done = {
-      std::vector<std::atomic<int>>(50), std::vector<std::atomic<int>>(1),
-      std::vector<std::atomic<int>>(30)};
+  std::array<std::vector<std::atomic<int>>, 3> done = {std::vector<std::atomic<int>>(50),
+                                                       std::vector<std::atomic<int>>(1),
+                                                       std::vector<std::atomic<int>>(30)};
   const auto count = [](const std::vector<std::atomic<int>>& loop) {
     int sum = 0;
     for (const std::atomic<int>& calls : loop) sum += calls;
@@ -34,7 +35,12 @@ TEST_P(BacklogTest, DoesEachStepOnceAndLoopsInOrder) {
     });
   }
   int works = 0;
-  for (int i = 0; i < 10; ++i) backlog.Beside([&] { ++works; });
+  for (int i = 0; i < 10; ++i) {
+    backlog.Beside([&, caller = std::this_thread::get_id()] {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      ++works;
+    });
+  }
   EXPECT_EQ(works, 10);
   backlog.Finish();
   for (const auto& loop : done) {
@@ -45,9 +51,7 @@ TEST_P(BacklogTest, DoesEachStepOnceAndLoopsInOrder) {
 TEST_P(BacklogTest, AStepThatIsAloneMayAddMore) {
   Backlog backlog(pool_, observer_);
   std::vector<std::atomic<int>> last(20);
-  backlog.Add(1, [&](std::size_t) {
-    backlog.Add(last.size(), [&](std::size_t i) { ++last[i]; });
-  });
+  backlog.Add(1, [&](std::size_t) { backlog.Add(last.size(), [&](std::size_t i) { ++last[i]; }); });
   backlog.Add(0, [](std::size_t) { FAIL(); });
   backlog.Beside([] {});
   backlog.Finish();
