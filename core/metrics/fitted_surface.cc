@@ -88,7 +88,7 @@ void CloseCuts(const body::Body& body, const std::vector<Edge>& edges, FittedSur
 // A selected vertex that a triangle of the skin has for a corner.
 constexpr std::uint8_t kInSkin = 2;
 
-// What is needed of the mesh's vertices and triangles until the surface is made.
+// The steps in which a surface is made, in this order, and what they need until it is.
 class Maker {
  public:
   Maker(const body::Body& body, const body::PartSelection& parts, FittedSurface& surface)
@@ -119,13 +119,13 @@ class Maker {
     }
   }
 
-  // Of those in the mesh's order.
+  // Those of the mesh's triangles [begin, end), where all of them are taken.
   void NameParts(std::size_t begin, std::size_t end) {
     if (!surface_.is_whole()) return;
     for (std::size_t t = begin; t < end; ++t) surface_.parts[t] = PartOfTriangle(t);
   }
 
-  // What lies at the height of one of a part's corners: any of them is near enough to the others.
+  // The first corner met of each part is near enough to the others.
   void FindMiddles() {
     const std::span<const mesh::Triangle> triangles = surface_.fitted();
     std::array<bool, body::kPartCount> is_found{};
@@ -139,6 +139,7 @@ class Maker {
     fluxes_.resize((triangles.size() + kMeshChunk - 1) / kMeshChunk);
   }
 
+  // Of the fitted triangles [begin, end), a chunk.
   void SumUp(std::size_t begin, std::size_t end) {
     const std::span<const mesh::Triangle> triangles = surface_.fitted();
     PartNumbers flux{};
