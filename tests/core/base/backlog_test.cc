@@ -13,7 +13,7 @@ namespace {
 class BacklogTest : public testing::TestWithParam<int> {
  protected:
   const ThreadPool pool_{GetParam()};
-  const NullObserver observer_;
+  NullObserver observer_;
 };
 
 TEST_P(BacklogTest, DoesEachStepOnceAndLoopsInOrder) {
