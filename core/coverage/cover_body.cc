@@ -122,6 +122,7 @@ class Coverer {
     meter_.Expect(1.0, 1);
     if (options_.keeps_swallowed) ShowSwallowed();
     report_.max_vertex_distance_m = MaxVertexDistance();
+    // Tightening has measured it already.
     if (!(report_.volume_m3 > 0.0) || options_.keeps_swallowed) report_.volume_m3 = Volume();
     report_.certified_gap_m = CertifiedGap(target_, AtVertices(), capsule::Solids(set_), KnownGap(),
                                            0.05 * options_.max_gap_m, pool_);

@@ -98,10 +98,10 @@ class BodyFit {
     // Before Build changes the options.
     const int primitives =
         options_.polygon_error ? kUsualPrimitives : TotalBudget(options_).UsualPrimitives();
-    pool_.ForEach(2, [&](std::size_t half) {
-      if (half == 0) return work();
-      LayCoverGround(primitives);
-    });
+    Backlog ground(pool_, clock_);
+    ground.Add(1, [this, primitives](std::size_t) { LayCoverGround(primitives); });
+    ground.Beside(work);
+    ground.Finish();
   }
 
   void LayCoverGround(int primitives) {
