@@ -3,7 +3,6 @@
 #define CAPFIT_CORE_PIPELINE_BIND_SPHERES_H_
 
 #include <Eigen/Core>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,7 +11,7 @@
 #include "core/body/body.h"
 #include "core/capsule/primitive_set.h"
 #include "core/formats/polygon_soup.h"
-#include "core/skinning/mean_value_coordinates.h"
+#include "core/pipeline/fit.h"
 #include "core/skinning/sparse_weights.h"
 
 namespace capfit::pipeline {
@@ -22,14 +21,18 @@ namespace capfit::pipeline {
 
 [[nodiscard]] std::vector<Eigen::Vector3d> CentersOf(const capsule::PrimitiveSet& set);
 
-// Nothing where the body's mesh is the surface that came.
-[[nodiscard]] std::optional<skinning::Carriers> CarriersOf(const body::Body& body);
-
-// `centers_m` in the body frame.
+// Few weights for each sphere. `centers_m` in the body frame.
 [[nodiscard]] skinning::SparseWeights BindSparse(const body::Body& body,
                                                  std::span<const Eigen::Vector3d> centers_m,
                                                  const ThreadPool& pool,
                                                  const FitObserver& observer);
+
+// Fills the result's weights, and its joints where the mesh has a rig: for each sphere and capsule
+// the one that follows it best, and how far the sphere then drifts. `set` is in the body frame; the
+// result's primitives are the same in the caller's.
+void BindSpheres(const formats::PolygonSoup& soup, const body::Body& body,
+                 const capsule::PrimitiveSet& set, SkinningMode mode, const ThreadPool& pool,
+                 const FitObserver& observer, FitResult& result);
 
 }  // namespace capfit::pipeline
 

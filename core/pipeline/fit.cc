@@ -1,6 +1,5 @@
 #include "core/pipeline/fit.h"
 
-#include <span>
 #include <string>
 #include <utility>
 
@@ -21,7 +20,6 @@
 #include "core/pipeline/take_body.h"
 #include "core/pipeline/to_caller_frame.h"
 #include "core/refine/refine.h"
-#include "core/skinning/one_joint.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -333,41 +331,10 @@ class BodyFit {
       for (capsule::SphereOrigin& origin : result_.primitives.origins) origin.polygon = -1;
     }
     result_.joints = soup.joints;
-    const bool has_rig = HasRig(soup);
-    if (options_.skinning == SkinningMode::kNone && !has_rig) return absl::OkStatus();
+    if (options_.skinning == SkinningMode::kNone && !HasRig(soup)) return absl::OkStatus();
     clock_.Begin(Stage::kSkinning);
-    // In the body frame, near the origin: the coordinates do not depend on the frame, digits do.
-    const std::vector<Eigen::Vector3d> centers_m = CentersOf(set_);
-    if (options_.skinning == SkinningMode::kDense) {
-      result_.weights =
-          skinning::MeanValueWeights(body_->mesh, centers_m, pool_, clock_, CarriersOf(*body_));
-    }
-    if (options_.skinning == SkinningMode::kSparse || has_rig) {
-      BindFew(soup, BindSparse(*body_, centers_m, pool_, clock_));
-    }
+    BindSpheres(soup, *body_, set_, options_.skinning, pool_, clock_, result_);
     return CheckCancelled(clock_);
-  }
-
-  // What follows from the weights of few vertices, which are quick.
-  void BindFew(const formats::PolygonSoup& soup, skinning::SparseWeights sparse) {
-    const std::vector<Eigen::Vector3d> centers = CentersOf(result_.primitives);
-    skinning::MakeExact(soup.positions, centers, sparse);
-    if (HasRig(soup)) HangOnJoints(soup, centers, sparse);
-    if (options_.skinning == SkinningMode::kSparse) result_.sparse_weights = std::move(sparse);
-  }
-
-  void HangOnJoints(const formats::PolygonSoup& soup, std::span<const Eigen::Vector3d> centers,
-                    const skinning::SparseWeights& sparse) {
-    std::optional<skinning::BoneWeights> bones = skinning::BonesOfSparse(sparse, centers, soup);
-    if (!bones) return;
-    skinning::OneJoint one =
-        skinning::ChooseJoints(*bones, soup.joints, result_.primitives.capsules);
-    result_.sphere_joints = std::move(one.of_sphere);
-    result_.capsule_joints = std::move(one.of_capsule);
-    for (const double drift : one.sphere_drift) {
-      result_.sphere_joint_drift_m.push_back(body_->body_from_caller.scale * drift);
-    }
-    if (options_.skinning == SkinningMode::kBones) result_.bone_weights = *std::move(bones);
   }
 
   static constexpr int kMaxCirclesPerPolygon = 8;

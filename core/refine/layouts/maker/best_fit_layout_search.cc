@@ -75,7 +75,7 @@ class BestFitLayoutSearch {
   }
 
  private:
-  // The stick, or what the search of quality tight makes of one of the mannequins, if that serves
+  // The stick, or what the search of quality tight makes of one of the bodies, if that serves
   // all of them better.
   Graphs Start() {
     Graphs best;
@@ -88,7 +88,7 @@ class BestFitLayoutSearch {
         hung.push_back(HangLayout(layout.view(), s.body, s.parts, true));
       }
       const double value = Begin(hung);
-      std::fprintf(stderr, "searched on mannequin %zu: %d, in %d pieces, %.4f\n", k,
+      std::fprintf(stderr, "searched on body %zu: %d, in %d pieces, %.4f\n", k,
                    hung[0].primitive_count(), ComponentCount(hung[0]), value);
       if (value < least) least = value, best = std::move(hung);
     }
@@ -103,7 +103,7 @@ class BestFitLayoutSearch {
     return ValueOf(graphs);
   }
 
-  // What quality tight finds for one of the mannequins.
+  // What quality tight finds for one of the bodies.
   HungLayout SearchedOn(std::size_t k) {
     const Subject& s = subjects_[k];
     RefineOptions options;

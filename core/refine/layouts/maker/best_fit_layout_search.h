@@ -1,4 +1,4 @@
-// The search for a best fit's topology that serves several mannequins at once.
+// The search for a best fit's topology that serves several bodies at once.
 #ifndef CAPFIT_CORE_REFINE_LAYOUTS_MAKER_BEST_FIT_LAYOUT_SEARCH_H_
 #define CAPFIT_CORE_REFINE_LAYOUTS_MAKER_BEST_FIT_LAYOUT_SEARCH_H_
 

@@ -26,7 +26,7 @@ constexpr int kFirstSteps = 10;
 constexpr int kTrialSteps = 4;
 constexpr int kFinalSteps = 8;
 constexpr int kTakeInSteps = 2;
-// A change this much worse on one mannequin is not tried on the others; one this much worse on all
+// A change this much worse on one body is not tried on the others; one this much worse on all
 // is not settled further.
 constexpr double kHopeless = 1.06;
 constexpr double kPromising = 1.02;
@@ -71,7 +71,7 @@ class EnclosingLayoutSearch {
   }
 
  private:
-  // Relative to the body's volume, beyond it; by mannequin, and their mean.
+  // Relative to the body's volume, beyond it; by body, and their mean.
   struct Attempt {
     Graphs graphs;
     std::vector<double> values;
@@ -79,7 +79,7 @@ class EnclosingLayoutSearch {
   };
 
   // The stored layout, a standard one, or what the search of quality tight makes of one of the
-  // mannequins: what serves all of them best.
+  // bodies: what serves all of them best.
   Attempt Start() {
     LayoutTask first = task_;
     if (task_.first_primitives > 0) first.primitives = task_.first_primitives;
@@ -105,7 +105,7 @@ class EnclosingLayoutSearch {
       for (const Subject& s : subjects_) {
         hung.push_back(HangLayout(layout.view(), s.body, s.parts, s.body.is_symmetric));
       }
-      compare(absl::StrCat("searched on mannequin ", k), std::move(hung));
+      compare(absl::StrCat("searched on body ", k), std::move(hung));
     }
     return best;
   }
@@ -129,7 +129,7 @@ class EnclosingLayoutSearch {
     return start;
   }
 
-  // What quality tight finds for one of the mannequins.
+  // What quality tight finds for one of the bodies.
   HungLayout SearchedOn(std::size_t k) {
     const Subject& s = subjects_[k];
     RefineOptions options;
@@ -180,7 +180,7 @@ class EnclosingLayoutSearch {
     return static_cast<int>(random_.NextBelow(static_cast<std::uint64_t>(count)));
   }
 
-  // The worth of the mean mannequin, each in its own volume.
+  // The worth of the mean body, each in its own volume.
   [[nodiscard]] GraphWorth WorthOf(const Graphs& graphs) const {
     GraphWorth sum;
     for (std::size_t k = 0; k < graphs.size(); ++k) {

@@ -17,7 +17,7 @@ constexpr double kLeastRadius = 0.1;
 
 double Rounded(double x, double digit) { return std::round(x / digit) * digit; }
 
-// The bone that the node is nearest to on all mannequins, in the bone's radii.
+// The bone that the node is nearest to on all bodies, in the bone's radii.
 BoneId NearestBone(std::span<const Subject> subjects, const Graphs& graphs, int v) {
   BoneId nearest = BoneId::kBelly;
   double least = std::numeric_limits<double>::max();

@@ -17,7 +17,7 @@ struct HungLayout {
   [[nodiscard]] Layout view() const { return {nodes, edges}; }
 };
 
-// Each sphere on the bone that it is nearest to on all mannequins, at its mean place, rounded as in
+// Each sphere on the bone that it is nearest to on all bodies, at its mean place, rounded as in
 // the tables.
 [[nodiscard]] HungLayout LayoutOf(std::span<const Subject> subjects, const Graphs& graphs);
 

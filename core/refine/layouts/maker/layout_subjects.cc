@@ -1,10 +1,17 @@
 #include "core/refine/layouts/maker/layout_subjects.h"
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 
+#include "absl/status/statusor.h"
 #include "core/body/find_body.h"
+#include "core/formats/read_mesh.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
 #include "core/refine/best_fit/thin_out.h"
@@ -40,7 +47,7 @@ int FacesFor(const LayoutTask& task) {
   return task.primitives > kEngineBudget ? 12'000 : 5000;
 }
 
-std::optional<Subject> MakeSubject(const Figure& figure, const LayoutTask& task) {
+absl::StatusOr<formats::PolygonSoup> MannequinOf(const Figure& figure, const LayoutTask& task) {
   const bool female = figure.sex == mannequin::MannequinSex::kFemale;
   mannequin::MannequinOptions options;
   options.sex = figure.sex;
@@ -53,13 +60,21 @@ std::optional<Subject> MakeSubject(const Figure& figure, const LayoutTask& task)
     options.waist_m = (female ? 0.42 : 0.48) * figure.height_m * figure.girth;
     options.hip_m = 0.57 * figure.height_m * figure.girth;
   }
-  const auto soup = mannequin::MakeMannequin(options);
+  return mannequin::MakeMannequin(options);
+}
+
+absl::StatusOr<formats::PolygonSoup> Read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  return formats::ReadMesh(std::as_bytes(std::span(bytes)));
+}
+
+std::optional<Subject> MakeSubject(const absl::StatusOr<formats::PolygonSoup>& soup,
+                                   const LayoutTask& task) {
   if (!soup.ok()) return std::nullopt;
   const auto prepared = mesh::PrepareMesh(*soup);
   if (!prepared.ok()) return std::nullopt;
-  body::BodyOptions body_options;
-  body_options.unit = body::Unit::kMetre;
-  auto found = body::FindBody(prepared->mesh, body_options, ThreadPool(1), NullObserver());
+  auto found = body::FindBody(prepared->mesh, {}, ThreadPool(1), NullObserver());
   if (!found.ok() || !found->is_symmetric) return std::nullopt;
   std::vector<Eigen::Vector3f> half;
   for (const Eigen::Vector3d& v : found->mesh.vertices()) {
@@ -85,10 +100,22 @@ std::optional<Subject> MakeSubject(const Figure& figure, const LayoutTask& task)
 }  // namespace
 
 std::vector<Subject> MakeSubjects(const LayoutTask& task) {
+  std::vector<absl::StatusOr<formats::PolygonSoup>> soups;
+  for (const std::string& file : task.files) soups.push_back(Read(file));
+  if (soups.empty()) {
+    for (const Figure& figure : FiguresFor(task.figures)) {
+      soups.push_back(MannequinOf(figure, task));
+    }
+  }
   std::vector<Subject> subjects;
-  for (const Figure& figure : FiguresFor(task.figures)) {
-    std::optional<Subject> subject = MakeSubject(figure, task);
-    if (!subject) return {};
+  for (std::size_t i = 0; i < soups.size(); ++i) {
+    std::optional<Subject> subject = MakeSubject(soups[i], task);
+    if (!subject) {
+      std::fprintf(stderr, "body %zu: %s\n", i,
+                   soups[i].ok() ? "not found, or not symmetric"
+                                 : soups[i].status().ToString().c_str());
+      return {};
+    }
     subjects.push_back(*std::move(subject));
   }
   return subjects;

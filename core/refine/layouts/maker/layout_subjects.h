@@ -1,10 +1,11 @@
-// The mannequins that layouts are searched on, and what a search for one is asked.
+// The bodies that layouts are searched on, and what a search for one is asked.
 #ifndef CAPFIT_CORE_REFINE_LAYOUTS_MAKER_LAYOUT_SUBJECTS_H_
 #define CAPFIT_CORE_REFINE_LAYOUTS_MAKER_LAYOUT_SUBJECTS_H_
 
 #include <cstdint>
 #include <ctime>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/body/body.h"
@@ -25,13 +26,14 @@ struct LayoutTask {
   bool enclose = false;
   bool full = false;  // with head, hands and feet
   Figures figures = Figures::kAll;
+  std::vector<std::string> files;  // meshes, in place of the mannequins
   int primitives = 0;
   int first_primitives = 0;  // enclosing: the search starts from the stored layout of this budget
   double cpu_seconds = 0.0;
   std::uint64_t seed = 1;
 };
 
-// One mannequin with all that judging a set on it needs.
+// One body with all that judging a set on it needs.
 struct Subject {
   body::Body body;
   Skeleton skeleton;
@@ -42,10 +44,11 @@ struct Subject {
   std::unique_ptr<EnclosingTask> enclosing;
 };
 
-// Some of the figures asked for, slim, usual and heavy; empty where one could not be made.
+// The bodies of the files asked for, or else some of the figures, slim, usual and heavy. Empty where
+// one could not be made, or is not symmetric.
 [[nodiscard]] std::vector<Subject> MakeSubjects(const LayoutTask& task);
 
-// The same topology on all mannequins: graphs whose nodes and edges correspond by index.
+// The same topology on all bodies: graphs whose nodes and edges correspond by index.
 using Graphs = std::vector<capsule::MirroredSet>;
 
 // What a search may spend; 32 + 32 where 64 are asked for: the limits of common engines.
