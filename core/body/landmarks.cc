@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "core/body/limb_landmarks.h"
+#include "core/body/shoulder_landmarks.h"
 #include "core/body/torso_landmarks.h"
 
 namespace capfit::body {

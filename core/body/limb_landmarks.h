@@ -1,4 +1,5 @@
-// Landmarks of arms and legs: wrists, elbows, shoulders, armpits, hips, knees, ankles and the ends.
+// Landmarks of arms and legs: wrists, elbows, hips, knees, ankles and the ends. Shoulders:
+// shoulder_landmarks.h.
 #ifndef CAPFIT_CORE_BODY_LIMB_LANDMARKS_H_
 #define CAPFIT_CORE_BODY_LIMB_LANDMARKS_H_
 
@@ -9,15 +10,6 @@ namespace capfit::body {
 // Wrist and, where there is a hand, fingertip; sets has_hand. The wrist is where the arm is
 // narrowest between hand and forearm, or the cut.
 void FindWrist(Shape& shape, int side, Landmarks& landmarks);
-
-// Armpit and shoulder, once the wrist is known. Where the arm is raised or held to the front, by
-// its length (kRatio).
-void FindShoulder(const Shape& shape, int side, Landmarks& landmarks);
-
-// Shoulders hardly move against the trunk: where both are there and do not mirror each other, they
-// come nearer to each other's images, the more doubtful one by far the most (kRatio). Takes
-// confidence from both.
-void MatchShoulders(const Shape& shape, Landmarks& landmarks);
 
 // Once wrist and shoulder are known.
 void FindElbow(const Shape& shape, int side, Landmarks& landmarks);

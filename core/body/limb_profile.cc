@@ -171,6 +171,12 @@ double LimbProfile::NearestArc(const Eigen::Vector3d& point) const {
   return arc;
 }
 
+double LimbProfile::ArcTo(const Eigen::Vector3d& point) const {
+  const double nearest = NearestArc(point);
+  if (nearest < end()) return nearest;
+  return nearest + (point - stations.back().center).norm();
+}
+
 double LimbProfile::Extreme(double from, double to, double sign) const {
   int best = -1;
   const int count = static_cast<int>(stations.size());

@@ -29,6 +29,8 @@ struct LimbProfile {
   [[nodiscard]] Station At(double arc) const;
   // The arc at which the middle line passes nearest to `point`.
   [[nodiscard]] double NearestArc(const Eigen::Vector3d& point) const;
+  // The same, but past the inner end as far on as the point is from it.
+  [[nodiscard]] double ArcTo(const Eigen::Vector3d& point) const;
   // The arc of the smallest and of the greatest girth in [from, to], to a fraction of the spacing.
   [[nodiscard]] double NarrowestArc(double from, double to) const { return Extreme(from, to, 1.0); }
   [[nodiscard]] double WidestArc(double from, double to) const { return Extreme(from, to, -1.0); }
