@@ -144,6 +144,20 @@ int MirroredSet::PartFromPlane(int v, double aside_m) {
   return image;
 }
 
+std::vector<int> MirroredSet::JoinOnPlane(int v) {
+  const int image = ImageOf(v);
+  for (const int n : NeighboursOf(image)) {
+    if (n != v && !HasCapsule(n, v)) set_.capsules.push_back({std::min(n, v), std::max(n, v)});
+  }
+  sphere(v).center_m.x() = 0.0;
+  set_.origins[At(v)].mirror = v;
+  std::vector<char> kept(set_.spheres.size(), 1);
+  kept[At(image)] = 0;
+  std::vector<char> kept_capsules;
+  for (const auto& [a, b] : set_.capsules) kept_capsules.push_back(a != image && b != image);
+  return KeepOnly(kept, kept_capsules);
+}
+
 void MirroredSet::CopyToImages() {
   if (!is_mirrored_) return;
   for (int v = 0; v < sphere_count(); ++v) {

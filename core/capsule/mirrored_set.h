@@ -67,6 +67,9 @@ class MirroredSet {
   // Makes sphere `v`, which must be on the plane, and a new last one a mirrored pair, `aside_m` to
   // either side, and unties it. Returns the new one's index.
   int PartFromPlane(int v, double aside_m);
+  // The opposite: puts sphere `v`, one of a pair, on the plane, removes its image and ties to `v`
+  // what hung on that. Returns as RemoveSpheres.
+  std::vector<int> JoinOnPlane(int v);
 
   // New places and radii of all spheres, by the same indices; images must be exact.
   void MoveTo(const std::vector<geometry::Sphere>& spheres) { set_.spheres = spheres; }

@@ -19,6 +19,8 @@ using geometry::TaperedCapsule;
 // Samples fade out over this many spacings on either side of the border where another solid begins
 // to hide them. The gradient follows the set smoothly that way: no sample comes or goes at once.
 constexpr double kFade = 0.1;
+// Spheres no further from each other, centres and radii together, share a surface.
+constexpr double kSamePlace = 2.0;  // in fades
 constexpr int kMinRings = 2;
 constexpr int kMinRingPoints = 8;
 constexpr int kMinSpherePoints = 24;
@@ -193,15 +195,35 @@ class Sampler {
     std::vector<FloatKernel> others;  // as seen from the sphere's centre
   };
 
+  // Marks the sphere and those that coincide with it, and puts these among what hides it: each
+  // hides half of another, however many capsules it has.
+  std::vector<char> SpheresAt(std::size_t sphere_index, Surroundings& around) const {
+    const Sphere& sphere = set_.spheres[sphere_index];
+    std::vector<char> is_here(set_.spheres.size(), 0);
+    is_here[sphere_index] = 1;
+    for (std::size_t j = 0; j < set_.spheres.size(); ++j) {
+      const Sphere& other = set_.spheres[j];
+      const double apart_m = (other.center_m - sphere.center_m).norm() +
+                             std::abs(other.radius_m - sphere.radius_m);
+      if (j == sphere_index || apart_m > kSamePlace * fade_) continue;
+      is_here[j] = 1;
+      around.others.push_back(
+          KernelAround(DistanceKernel(TaperedCapsule(other, other)), sphere.center_m));
+    }
+    return is_here;
+  }
+
   Surroundings SurroundingsOf(std::size_t sphere_index) const {
     const Sphere& sphere = set_.spheres[sphere_index];
-    const int self = static_cast<int>(sphere_index);
     const std::vector<double> distances = DistancesFrom(sphere.center_m);
     Surroundings around;
+    const std::vector<char> is_here = SpheresAt(sphere_index, around);
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       const TaperedCapsule& shape = shapes_[k];
-      const bool is_first = solids_[k][0] == self;
-      if (is_first || solids_[k][1] == self) {
+      const bool is_first = is_here[static_cast<std::size_t>(solids_[k][0])] != 0;
+      const bool is_second = is_here[static_cast<std::size_t>(solids_[k][1])] != 0;
+      if (is_first && is_second) continue;
+      if (is_first || is_second) {
         const double way = is_first ? 1.0 : -1.0;
         if (!shape.IsSphere()) {
           around.cuts.push_back({(way * shape.axis()).cast<float>(),

@@ -51,6 +51,12 @@ constexpr int kStepsOfGrowth = kLooseSteps + kGrowthSteps + kTakeInSteps;
 // Tells trials apart from each other, whatever thread they run on.
 constexpr std::uint64_t kFirstSeed = 10;
 
+// Takes away what adds no shape of its own.
+void Simplify(capsule::MirroredSet& graph) {
+  JoinNearPairs(graph);
+  RemoveSwallowed(graph);
+}
+
 class Search {
  public:
   Search(const EnclosingTask& rough, const EnclosingTask& task, const capsule::Budget& budget,
@@ -99,7 +105,7 @@ class Search {
     pool_.ForEach(starts.size(), [&](std::size_t i) {
       capsule::MirroredSet graph = starts[i];
       rough_.FindShape(kStartSteps, 1.0, /*seed=*/1, pool_, meter_, graph);
-      RemoveSwallowed(graph);
+      Simplify(graph);
       Spare(graph);
       attempts[i] = Settled(std::move(graph), /*seed=*/2);
     });
@@ -175,7 +181,7 @@ class Search {
         return;
       }
       rough_.FindShape(kSparingSteps, 1.0, /*seed=*/3, pool_, meter_, graph);
-      RemoveSwallowed(graph);
+      Simplify(graph);
     }
   }
 
@@ -220,7 +226,7 @@ class Search {
     TieBest(std::min(target, graph.primitive_count() + ties), seed, graph);
     CutLoosest(budget_, target, task_.Weigh(graph).edge_gap, graph);
     task_.FindShape(kGrowthSteps, 1.0, seed, pool_, meter_, graph);
-    RemoveSwallowed(graph);
+    Simplify(graph);
   }
 
   // Adds the best ties and leaves, no more than one to a sphere, until there are `target`
@@ -296,10 +302,10 @@ class Search {
   Attempt Tied(const capsule::MirroredSet& graph, const Edit& tie, std::uint64_t seed) const {
     EditedGraph edited = Apply(graph, tie);
     if (!edited.possible) return {};
-    RemoveSwallowed(edited.graph);
+    Simplify(edited.graph);
     CutLoosest(budget_, primitives_, task_.Weigh(edited.graph).edge_gap, edited.graph);
     task_.FindShape(kTrialSteps, 1.0, seed, pool_, meter_, edited.graph);
-    RemoveSwallowed(edited.graph);
+    Simplify(edited.graph);
     if (!budget_.Allows(edited.graph.count())) return {};
     return Settled(std::move(edited.graph), seed);
   }

@@ -15,6 +15,8 @@ namespace {
 constexpr double kOnPlaneShare = 0.3;
 // So far, in radii, the two spheres that a mid-plane sphere becomes lie from the plane at first.
 constexpr double kAsideShare = 0.25;
+// A pair this near to the plane, in radii, is one sphere.
+constexpr double kNearShare = 0.1;
 
 void Split(const Edit& edit, EditedGraph& result) {
   const auto [a, b] = capsule::CapsuleEnds(result.graph.ends(edit.first));
@@ -255,6 +257,22 @@ void MergeSwallowed(capsule::MirroredSet& graph) {
     removed[U(small)] = 1;
     graph.RemoveSpheres(removed);
     e = 0;
+  }
+}
+
+int FirstNearPair(const capsule::MirroredSet& graph) {
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    const geometry::Sphere& sphere = graph.sphere(v);
+    if (graph.ImageOf(v) == v) continue;
+    if (std::abs(sphere.center_m.x()) <= kNearShare * sphere.radius_m) return v;
+  }
+  return -1;
+}
+
+void JoinNearPairs(capsule::MirroredSet& graph) {
+  for (int v = FirstNearPair(graph); v >= 0; v = FirstNearPair(graph)) {
+    graph.sphere(v).radius_m += std::abs(graph.sphere(v).center_m.x());
+    graph.JoinOnPlane(v);
   }
 }
 

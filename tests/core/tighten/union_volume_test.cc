@@ -166,6 +166,22 @@ TEST(UnionVolumeTest, CoarseSamplesTellTheVolumeWhereCapsulesShareSpheres) {
   EXPECT_NEAR(mean, volume, 0.015 * volume);
 }
 
+// What a search would win by moving a pair onto the mid-plane if each capsule of one hid half of
+// the other once more.
+TEST(UnionVolumeTest, SpheresAtTheSamePlaceCountOnce) {
+  for (const double apart_m : {0.0, 1e-5, 5e-4}) {
+    capsule::PrimitiveSet set;
+    set.spheres = {{{apart_m, 1, 0}, 0.15},   {{-apart_m, 1, 0}, 0.15},   {{0.3, 1.3, 0}, 0.05},
+                   {{-0.3, 1.3, 0}, 0.05},    {{0.3, 0.7, 0}, 0.05},      {{-0.3, 0.7, 0}, 0.05}};
+    set.origins.resize(6);
+    set.capsules = {{0, 2}, {0, 4}, {1, 3}, {1, 5}};
+    const SetVariables variables(set);
+    const double exact = ColumnVolume(set, 0.002);
+    const VolumeGradient gradient = UnionVolumeGradient(set, variables, 0.006, 1, ThreadPool(1));
+    EXPECT_NEAR(gradient.volume_m3, exact, 0.005 * exact) << apart_m;
+  }
+}
+
 TEST(UnionVolumeTest, TheVolumeIsTheSameFarFromTheOrigin) {
   capsule::PrimitiveSet set = BristlingChain();
   capsule::PrimitiveSet moved = set;

@@ -33,6 +33,9 @@ constexpr double kPromising = 1.02;
 constexpr double kFirstSlack = 0.004;  // a change may be this much worse in the beginning
 constexpr double kCooling = 1.3;       // and none from 1 / this of the time on
 constexpr int kMostRemovals = 3;
+constexpr double kLargeShare = 0.08;  // of the graph, that a large change gives up at most,
+constexpr double kLargeChance = 0.2;  // and how often there is one
+constexpr int kIdle = 150;            // trials in vain, after which the present graph is settled anew
 constexpr int kMostAdditions = 24;
 constexpr double kRewiringShare = 0.3;
 constexpr double kTieReach = 1.3;  // between centres, in sums of radii
@@ -47,6 +50,7 @@ class EnclosingLayoutSearch {
     Attempt best;
     int tried = 0;
     int taken = 0;
+    int idle = 0;
     double said = CpuSeconds();
     while (CpuSeconds() < task_.cpu_seconds) {
       std::optional<Attempt> next = Tried(Changed(now.graphs), now);
@@ -57,11 +61,19 @@ class EnclosingLayoutSearch {
                      tried, taken, now.graphs[0].sphere_count(), now.graphs[0].capsule_count(),
                      now.value, best.value);
       }
+      if (++idle > kIdle) {
+        // What was taken may owe its place to luck: samples differ from one trial to the next.
+        const bool is_best = now.value == best.value;
+        now = Begun(std::move(now.graphs));
+        if (is_best) best = now;
+        idle = 0;
+      }
       if (!next) continue;
       const double cooling = std::max(0.0, 1.0 - kCooling * CpuSeconds() / task_.cpu_seconds);
       const double slack = kFirstSlack * now.value * cooling * random_.NextUnit();
       if (next->value >= now.value + slack) continue;
       now = *std::move(next);
+      idle = 0;
       ++taken;
       if (now.value < best.value && budget_.Allows(now.graphs[0].count())) best = now;
     }
@@ -166,6 +178,8 @@ class EnclosingLayoutSearch {
       for (std::size_t i = 0; i < subjects_.size(); ++i) {
         const std::size_t k = (first + i) % subjects_.size();
         Settle(k, steps, attempt.graphs[k]);
+        // One sphere would do for the two.
+        if (FirstNearPair(attempt.graphs[k]) >= 0) return std::nullopt;
         attempt.values[k] = ValueOf(k, attempt.graphs[k]);
         if (attempt.values[k] > (grown ? 1.0 : kHopeless) * now.values[k]) return std::nullopt;
       }
@@ -217,10 +231,16 @@ class EnclosingLayoutSearch {
     if (used_up && random_.NextUnit() < kRewiringShare) {
       Rewire(next);
     } else {
-      Remove(used_up ? 1 + Below(kMostRemovals) : Below(2), next);
+      Remove(used_up ? RemovalsOf(graphs[0]) : Below(2), next);
     }
     Add(used_up, next);
     return next;
+  }
+
+  int RemovalsOf(const capsule::MirroredSet& graph) {
+    const bool large = random_.NextUnit() < kLargeChance;
+    const int most = large ? static_cast<int>(kLargeShare * graph.primitive_count()) : 0;
+    return 1 + Below(std::max(kMostRemovals, most));
   }
 
   void Remove(int count, Graphs& graphs) {

@@ -12,7 +12,7 @@ namespace capfit::refine {
 namespace {
 
 constexpr double kAlongDigit = 0.01;  // in bone lengths
-constexpr double kRadiusDigit = 0.1;  // all else, in bone radii
+constexpr double kRadiusDigit = 0.01;  // all else, in bone radii
 constexpr double kLeastRadius = 0.1;
 
 double Rounded(double x, double digit) { return std::round(x / digit) * digit; }
@@ -84,7 +84,7 @@ void Print(const HungLayout& layout) {
       "kHand",  "kPelvis", "kThigh", "kShin", "kFoot",     "kHeel"};
   for (std::size_t i = 0; i < layout.nodes.size(); ++i) {
     const LayoutNode& n = layout.nodes[i];
-    std::printf("    {BoneId::%s, {%.2f, %.1f, %.1f}, %.1f, %s},  // %zu\n",
+    std::printf("    {BoneId::%s, {%.2f, %.2f, %.2f}, %.2f, %s},  // %zu\n",
                 kNames[static_cast<int>(n.bone)], n.place.along, n.place.aside, n.place.ahead,
                 n.radius, n.paired ? "true" : "false", i);
   }
