@@ -19,7 +19,7 @@ using geometry::TaperedCapsule;
 // Samples fade out over this many spacings on either side of the border where another solid begins
 // to hide them. The gradient follows the set smoothly that way: no sample comes or goes at once.
 constexpr double kFade = 0.1;
-// Spheres no further from each other, centres and radii together, share a surface.
+// Spheres no further from each other, centres and radii together, have one surface.
 constexpr double kSamePlace = 2.0;  // in fades
 constexpr int kMinRings = 2;
 constexpr int kMinRingPoints = 8;
@@ -50,7 +50,8 @@ class Sampler {
         spacing_(spacing_m),
         fade_(kFade * spacing_m),
         half_over_fade_(static_cast<float>(0.5 / fade_)),
-        seed_(seed) {
+        seed_(seed),
+        places_(FindPlaces()) {
     if (set.spheres.empty()) return;
     for (const Sphere& sphere : set.spheres) origin_ += sphere.center_m;
     origin_ /= static_cast<double>(set.spheres.size());
@@ -195,33 +196,39 @@ class Sampler {
     std::vector<FloatKernel> others;  // as seen from the sphere's centre
   };
 
-  // Marks the sphere and those that coincide with it, and puts these among what hides it: each
-  // hides half of another, however many capsules it has.
-  std::vector<char> SpheresAt(std::size_t sphere_index, Surroundings& around) const {
-    const Sphere& sphere = set_.spheres[sphere_index];
-    std::vector<char> is_here(set_.spheres.size(), 0);
-    is_here[sphere_index] = 1;
-    for (std::size_t j = 0; j < set_.spheres.size(); ++j) {
-      const Sphere& other = set_.spheres[j];
-      const double apart_m = (other.center_m - sphere.center_m).norm() +
-                             std::abs(other.radius_m - sphere.radius_m);
-      if (j == sphere_index || apart_m > kSamePlace * fade_) continue;
-      is_here[j] = 1;
-      around.others.push_back(
-          KernelAround(DistanceKernel(TaperedCapsule(other, other)), sphere.center_m));
+  // By sphere: the first one that it coincides with, or itself.
+  std::vector<int> FindPlaces() const {
+    const std::vector<Sphere>& spheres = set_.spheres;
+    std::vector<int> places(spheres.size());
+    for (std::size_t j = 0; j < spheres.size(); ++j) {
+      places[j] = static_cast<int>(j);
+      for (std::size_t i = 0; i < j; ++i) {
+        const double apart_m = (spheres[j].center_m - spheres[i].center_m).norm() +
+                               std::abs(spheres[j].radius_m - spheres[i].radius_m);
+        if (apart_m > kSamePlace * fade_) continue;
+        places[j] = places[i];
+        break;
+      }
     }
-    return is_here;
+    return places;
   }
+  int PlaceOf(int sphere) const { return places_[static_cast<std::size_t>(sphere)]; }
 
   Surroundings SurroundingsOf(std::size_t sphere_index) const {
     const Sphere& sphere = set_.spheres[sphere_index];
     const std::vector<double> distances = DistancesFrom(sphere.center_m);
     Surroundings around;
-    const std::vector<char> is_here = SpheresAt(sphere_index, around);
+    const int place = places_[sphere_index];
+    for (std::size_t j = 0; j < places_.size(); ++j) {
+      if (j == sphere_index || places_[j] != place) continue;
+      // Each hides half of the other, however many capsules that has.
+      const TaperedCapsule other(set_.spheres[j], set_.spheres[j]);
+      around.others.push_back(KernelAround(DistanceKernel(other), sphere.center_m));
+    }
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       const TaperedCapsule& shape = shapes_[k];
-      const bool is_first = is_here[static_cast<std::size_t>(solids_[k][0])] != 0;
-      const bool is_second = is_here[static_cast<std::size_t>(solids_[k][1])] != 0;
+      const bool is_first = PlaceOf(solids_[k][0]) == place;
+      const bool is_second = PlaceOf(solids_[k][1]) == place;
       if (is_first && is_second) continue;
       if (is_first || is_second) {
         const double way = is_first ? 1.0 : -1.0;
@@ -252,7 +259,9 @@ class Sampler {
   std::vector<Neighbour> NeighboursOf(const Eigen::Vector3d& center, double reach,
                                       std::size_t self) const {
     const capsule::CapsuleEnds& own = solids_[self];
-    const auto is_shared = [&own](int end) { return end == own[0] || end == own[1]; };
+    const auto is_shared = [&](int end) {
+      return PlaceOf(end) == PlaceOf(own[0]) || PlaceOf(end) == PlaceOf(own[1]);
+    };
     const std::vector<double> distances = DistancesFrom(center);
     std::vector<Neighbour> near;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
@@ -366,6 +375,7 @@ class Sampler {
   double fade_;
   float half_over_fade_;
   std::uint64_t seed_;
+  std::vector<int> places_;  // by sphere; equal for those that coincide
   // The volume is the flux of flow_ * (point - origin_) through the surface, whose divergence is 1.
   // It flows along the axis in which the set is thinnest, mostly: what the samples of one solid
   // miss or count twice weighs by its distance from the origin along the flow.

@@ -126,7 +126,7 @@ TEST(MirroredSetTest, RandomEditsKeepItSound) {
     const int w = static_cast<int>(random.NextBelow(At(set.sphere_count())));
     const int capsules = set.capsule_count();
     const int e = capsules == 0 ? -1 : static_cast<int>(random.NextBelow(At(capsules)));
-    switch (random.NextBelow(7)) {
+    switch (random.NextBelow(8)) {
       case 0:
         set.AddSphere({{random.NextIn(0.1, 0.5), random.NextIn(0.0, 1.0), 0.0}, 0.1}, v % 2 == 0);
         break;
@@ -138,6 +138,9 @@ TEST(MirroredSetTest, RandomEditsKeepItSound) {
         break;
       case 3:
         if (set.IsOnPlane(v)) set.PartFromPlane(v, 0.02);
+        break;
+      case 7:
+        if (set.ImageOf(v) != v) set.JoinOnPlane(v);
         break;
       case 4:
         if (set.sphere_count() > 12) {
@@ -153,6 +156,24 @@ TEST(MirroredSetTest, RandomEditsKeepItSound) {
     ASSERT_TRUE(AreDistinct(set.capsules())) << step;
     ASSERT_EQ(set.set().origins.size(), set.spheres().size());
   }
+}
+
+TEST(MirroredSetTest, JoiningAPairKeepsWhatHungOnIt) {
+  MirroredSet set(true);
+  const int pair = set.AddSphere({{0.01, 1.0, 0.0}, 0.1}, false);
+  const int top = set.AddSphere({{0.0, 1.4, 0.0}, 0.1}, true);
+  const int hip = set.AddSphere({{0.1, 0.8, 0.0}, 0.1}, false);
+  set.AddCapsule(pair, set.ImageOf(pair));
+  set.AddCapsule(pair, top);
+  set.AddCapsule(pair, hip);
+  set.AddCapsule(pair, set.ImageOf(hip));
+  ASSERT_EQ(set.capsule_count(), 7);
+  EXPECT_EQ(set.JoinOnPlane(pair), (std::vector<int>{0, -1, 1, 2, 3}));
+  EXPECT_TRUE(set.IsOnPlane(0));
+  EXPECT_EQ(set.sphere(0).center_m.x(), 0.0);
+  EXPECT_EQ(set.NeighboursOf(0).size(), 3u);
+  EXPECT_EQ(set.capsule_count(), 3);
+  EXPECT_TRUE(IsExactlyMirrored(set));
 }
 
 TEST(MirroredSetTest, CuttingChangesNoShape) {

@@ -83,6 +83,27 @@ TEST(GraphEditTest, RemoveSwallowedDropsWhatDoesNothing) {
   EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
 }
 
+TEST(GraphEditTest, PairsThatMeetOnThePlaneBecomeOneSphere) {
+  capsule::MirroredSet graph = LeggedGraph(true);
+  const int nodes = graph.sphere_count();
+  JoinNearPairs(graph);
+  EXPECT_EQ(graph.sphere_count(), nodes) << "none is near";
+  const int pair = graph.AddSphere({{0.004, 1.5, 0.0}, 0.1}, false);
+  graph.AddCapsule(0, pair);
+  JoinNearPairs(graph);
+  EXPECT_EQ(graph.sphere_count(), nodes + 1);
+  EXPECT_EQ(FirstNearPair(graph), -1);
+  EXPECT_TRUE(graph.IsOnPlane(pair));
+  EXPECT_NEAR(graph.sphere(pair).radius_m, 0.104, 1e-12) << "holds both";
+  EXPECT_TRUE(graph.HasCapsule(0, pair));
+  EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
+
+  capsule::MirroredSet lopsided = LeggedGraph(false);
+  const int before = lopsided.sphere_count();
+  JoinNearPairs(lopsided);
+  EXPECT_EQ(lopsided.sphere_count(), before);
+}
+
 TEST(GraphEditTest, PiecesAreCountedByCapsules) {
   capsule::MirroredSet graph = LeggedGraph(true);
   EXPECT_EQ(ComponentCount(graph), 1);
