@@ -15,6 +15,7 @@
 #include "core/refine/best_fit/growth.h"
 #include "core/refine/best_fit/occupancy_grid.h"
 #include "core/refine/best_fit/thin_out.h"
+#include "core/refine/enclosing/enclosing_moves.h"
 #include "core/refine/enclosing/enclosing_search.h"
 #include "core/refine/enclosing/enclosing_task.h"
 #include "core/refine/graph/graph_edit.h"
@@ -283,6 +284,8 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
   std::vector<double> values(graphs.size(), 0.0);
   pool.ForEach(graphs.size(), [&](std::size_t i) {
     fine->FindShape(kFineSteps, kFineLooseness, /*seed=*/1, pool, meter, graphs[i]);
+    JoinNearPairs(graphs[i]);  // what that saves is spent again
+    CutLoosest(options.budget, primitives, fine->Weigh(graphs[i]).edge_gap, graphs[i]);
     fine->TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graphs[i]);
     if (graphs.size() > 1) values[i] = fine->Value(graphs[i], pool);
   });
