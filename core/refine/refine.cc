@@ -66,11 +66,14 @@ constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
 constexpr int kPrimitivesPerRound = 50;
 constexpr int kFewOfEnclosing = 60;
 constexpr RenewalPlan kRenewalsOfFew = {.rounds = 3, .kept = 6};
+constexpr int kSomeOfEnclosing = 80;
+constexpr RenewalPlan kRenewalsOfSome = {.rounds = 3, .kept = 2};
 constexpr int kLeastRounds = 2;
 constexpr int kMostRounds = 6;
 constexpr int kQuickRounds = 1;
 constexpr double kSearched = 0.92;
 constexpr double kFillingShare = 0.75;    // of the budget, that a standard layout must use
+constexpr double kSparedAlone = 0.8;      // of the budget: up to so much spared, nothing is grown
 constexpr double kHungShapeFound = 0.45;  // of its time, as measured
 // How much of the time of a best fit has gone by when it is done with each, as measured.
 constexpr double kSettled = 0.02;
@@ -222,6 +225,7 @@ Spacings SpacingsFor(int primitives) {
 RenewalPlan RenewalsFor(bool thorough, int primitives) {
   if (!thorough) return {.rounds = kQuickRounds};
   if (primitives <= kFewOfEnclosing) return kRenewalsOfFew;
+  if (primitives <= kSomeOfEnclosing) return kRenewalsOfSome;
   return {.rounds = std::clamp(primitives / kPrimitivesPerRound, kLeastRounds, kMostRounds)};
 }
 
@@ -243,6 +247,16 @@ std::vector<capsule::MirroredSet> StandardStarts(const body::Body& body,
   return starts;
 }
 
+// Where a larger layout has not much too much, what smaller ones grow to often looks better on few
+// points and ends up to a tenth worse.
+void KeepSparedAlone(const capsule::Budget& budget, int primitives,
+                     std::vector<capsule::MirroredSet>& starts) {
+  const int excess = budget.Excess(starts.front().count());  // the larger ones come first
+  if (excess <= 0 || excess > kSparedAlone * primitives) return;
+  std::erase_if(
+      starts, [&](const capsule::MirroredSet& graph) { return budget.Excess(graph.count()) <= 0; });
+}
+
 // What the enclosing search starts from.
 std::vector<capsule::MirroredSet> StartsOf(const body::Body& body, const RefineOptions& options,
                                            int primitives, const ThreadPool& pool) {
@@ -252,6 +266,7 @@ std::vector<capsule::MirroredSet> StartsOf(const body::Body& body, const RefineO
   std::vector<capsule::MirroredSet> starts = StartingGraphs(
       FitKind::kEnclose, body, options.parts, options.budget,
       {.most_spared = standard.empty() ? capsule::kNoLimit : MostSparedBeside(primitives)}, pool);
+  if (primitives > kSomeOfEnclosing) KeepSparedAlone(options.budget, primitives, starts);
   std::move(standard.begin(), standard.end(), std::back_inserter(starts));
   return starts;
 }

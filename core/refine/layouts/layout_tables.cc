@@ -432,43 +432,47 @@ constexpr auto kShellFull32Nodes = std::to_array<LayoutNode>({
 constexpr auto kShellFull32Edges = std::to_array<LayoutEdge>(
     {{5, 6, false}, {6, 7, false}, {3, 4, false}, {7, 11, false}, {0, 5, false}, {2, 3, false}});
 
-// 32 + 31 for enclosing, with head, hands and feet.
+// 32 + 32 for enclosing, with head, hands and feet.
 constexpr auto kShellFull64Nodes = std::to_array<LayoutNode>({
-    {BoneId::kChest, {0.42, 0.0, 0.0}, 1.1, false},     // 0
-    {BoneId::kChest, {0.15, 0.5, -0.1}, 1.7, true},     // 1
-    {BoneId::kChest, {0.87, 0.0, -0.5}, 0.8, false},    // 2
-    {BoneId::kClavicle, {0.84, 0.1, -0.1}, 1.1, true},  // 3
-    {BoneId::kHand, {0.15, -0.1, -0.2}, 1.2, true},     // 4
-    {BoneId::kPelvis, {0.69, 0.5, 0.1}, 1.9, true},     // 5
-    {BoneId::kThigh, {0.90, 0.0, 0.1}, 1.0, true},      // 6
-    {BoneId::kShin, {1.69, -0.1, 0.0}, 0.9, true},      // 7
-    {BoneId::kHand, {0.71, -0.4, 0.6}, 2.3, true},      // 8
-    {BoneId::kFoot, {0.90, 0.0, 0.3}, 1.7, true},       // 9
-    {BoneId::kShin, {0.36, 0.0, -0.2}, 1.0, true},      // 10
-    {BoneId::kHead, {0.41, 0.0, 0.6}, 1.1, true},       // 11
-    {BoneId::kRibs, {0.72, 0.0, 0.1}, 1.1, false},      // 12
-    {BoneId::kThigh, {0.37, -0.1, 0.2}, 1.4, true},     // 13
-    {BoneId::kHead, {0.62, 0.0, 0.1}, 1.8, false},      // 14
-    {BoneId::kBelly, {1.06, 0.5, 0.1}, 1.0, true},      // 15
-    {BoneId::kUpperArm, {0.84, 0.0, 0.0}, 1.0, true},   // 16
-    {BoneId::kShin, {0.77, 0.0, 0.0}, 0.7, true},       // 17
+    {BoneId::kClavicle, {0.33, -0.37, -0.10}, 1.57, true},  // 0
+    {BoneId::kChest, {0.92, 0.00, -0.24}, 0.87, false},     // 1
+    {BoneId::kUpperArm, {0.08, -0.09, -0.03}, 1.37, true},  // 2
+    {BoneId::kHand, {0.18, -0.13, -0.11}, 1.16, true},      // 3
+    {BoneId::kPelvis, {0.68, 0.48, 0.11}, 1.85, true},      // 4
+    {BoneId::kHeel, {0.49, -0.00, -0.43}, 1.73, true},      // 5
+    {BoneId::kHand, {0.70, -0.38, 0.55}, 2.20, true},       // 6
+    {BoneId::kFoot, {0.88, 0.02, 0.33}, 1.65, true},        // 7
+    {BoneId::kShin, {0.32, 0.00, -0.24}, 1.05, true},       // 8
+    {BoneId::kHead, {0.72, 0.00, 0.53}, 1.27, false},       // 9
+    {BoneId::kHead, {0.65, 0.00, -0.08}, 1.55, false},      // 10
+    {BoneId::kBelly, {0.94, 0.50, 0.08}, 0.99, true},       // 11
+    {BoneId::kUpperArm, {0.88, 0.02, -0.07}, 0.93, true},   // 12
+    {BoneId::kRibs, {1.04, 0.62, 0.25}, 1.16, true},        // 13
+    {BoneId::kHead, {0.42, 0.00, 1.35}, 1.14, false},       // 14
+    {BoneId::kThigh, {0.38, -0.13, 0.23}, 1.34, true},      // 15
+    {BoneId::kShin, {1.75, 0.02, 0.13}, 0.60, true},        // 16
+    {BoneId::kThigh, {0.96, 0.01, 0.06}, 0.93, true},       // 17
 });
-constexpr auto kShellFull64Edges = std::to_array<LayoutEdge>({{4, 8, false},
-                                                              {6, 10, false},
-                                                              {2, 11, false},
-                                                              {7, 9, false},
-                                                              {6, 13, false},
-                                                              {1, 3, false},
-                                                              {2, 3, false},
-                                                              {5, 15, false},
-                                                              {5, 13, false},
-                                                              {3, 16, false},
-                                                              {4, 16, false},
-                                                              {1, 15, false},
-                                                              {7, 17, false},
-                                                              {10, 17, false},
-                                                              {5, 15, true},
-                                                              {5, 5, true}});
+constexpr auto kShellFull64Edges = std::to_array<LayoutEdge>({
+    {3, 6, false},
+    {1, 9, false},
+    {5, 7, false},
+    {0, 2, false},
+    {1, 2, false},
+    {4, 11, false},
+    {2, 12, false},
+    {3, 12, false},
+    {0, 11, false},
+    {4, 11, true},
+    {4, 15, false},
+    {9, 14, false},
+    {8, 16, false},
+    {11, 13, true},
+    {4, 4, true},
+    {0, 0, true},
+    {8, 17, false},
+    {15, 17, false},
+});
 
 // 32 + 32 for enclosing, without head, hands and feet.
 constexpr auto kShell64BustNodes = std::to_array<LayoutNode>({

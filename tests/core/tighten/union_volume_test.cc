@@ -171,8 +171,8 @@ TEST(UnionVolumeTest, CoarseSamplesTellTheVolumeWhereCapsulesShareSpheres) {
 TEST(UnionVolumeTest, SpheresAtTheSamePlaceCountOnce) {
   for (const double apart_m : {0.0, 1e-5, 5e-4}) {
     capsule::PrimitiveSet set;
-    set.spheres = {{{apart_m, 1, 0}, 0.15},   {{-apart_m, 1, 0}, 0.15},   {{0.3, 1.3, 0}, 0.05},
-                   {{-0.3, 1.3, 0}, 0.05},    {{0.3, 0.7, 0}, 0.05},      {{-0.3, 0.7, 0}, 0.05}};
+    set.spheres = {{{apart_m, 1, 0}, 0.15}, {{-apart_m, 1, 0}, 0.15}, {{0.3, 1.3, 0}, 0.05},
+                   {{-0.3, 1.3, 0}, 0.05},  {{0.3, 0.7, 0}, 0.05},    {{-0.3, 0.7, 0}, 0.05}};
     set.origins.resize(6);
     set.capsules = {{0, 2}, {0, 4}, {1, 3}, {1, 5}};
     const SetVariables variables(set);

@@ -24,7 +24,6 @@ namespace {
 
 constexpr int kFirstSteps = 10;
 constexpr int kTrialSteps = 4;
-constexpr int kFinalSteps = 8;
 constexpr int kTakeInSteps = 2;
 // A change this much worse on one body is not tried on the others; one this much worse on all
 // is not settled further.
@@ -35,7 +34,7 @@ constexpr double kCooling = 1.3;       // and none from 1 / this of the time on
 constexpr int kMostRemovals = 3;
 constexpr double kLargeShare = 0.08;  // of the graph, that a large change gives up at most,
 constexpr double kLargeChance = 0.2;  // and how often there is one
-constexpr int kIdle = 150;            // trials in vain, after which the present graph is settled anew
+constexpr int kIdle = 150;  // trials in vain, after which the present graph is settled anew
 constexpr int kMostAdditions = 24;
 constexpr double kRewiringShare = 0.3;
 constexpr double kTieReach = 1.3;  // between centres, in sums of radii
@@ -47,7 +46,8 @@ class EnclosingLayoutSearch {
 
   Graphs Run() {
     Attempt now = Start();
-    Attempt best;
+    Attempt best = now;
+    if (!budget_.Allows(now.graphs[0].count())) best.value = std::numeric_limits<double>::max();
     int tried = 0;
     int taken = 0;
     int idle = 0;
@@ -64,7 +64,7 @@ class EnclosingLayoutSearch {
       if (++idle > kIdle) {
         // What was taken may owe its place to luck: samples differ from one trial to the next.
         const bool is_best = now.value == best.value;
-        now = Begun(std::move(now.graphs));
+        now = Begun(Hung(LayoutOf(subjects_, now.graphs)));
         if (is_best) best = now;
         idle = 0;
       }
@@ -77,7 +77,6 @@ class EnclosingLayoutSearch {
       ++taken;
       if (now.value < best.value && budget_.Allows(now.graphs[0].count())) best = now;
     }
-    if (best.graphs.empty()) best = now;
     std::fprintf(stderr, "%d tried, %d taken, %.4f\n", tried, taken, best.value);
     return best.graphs;
   }
@@ -112,12 +111,7 @@ class EnclosingLayoutSearch {
       if (task_.full && budget_.Allows(layout.count())) compare(layout.name, Hung(layout));
     }
     for (std::size_t k = 0; k < subjects_.size(); ++k) {
-      const HungLayout layout = SearchedOn(k);
-      Graphs hung;
-      for (const Subject& s : subjects_) {
-        hung.push_back(HangLayout(layout.view(), s.body, s.parts, s.body.is_symmetric));
-      }
-      compare(absl::StrCat("searched on body ", k), std::move(hung));
+      compare(absl::StrCat("searched on body ", k), Hung(SearchedOn(k)));
     }
     return best;
   }
@@ -127,6 +121,14 @@ class EnclosingLayoutSearch {
     for (const Subject& s : subjects_) {
       absl::StatusOr<capsule::MirroredSet> graph = HangLayout(layout, s.body);
       if (graph.ok()) hung.push_back(*std::move(graph));
+    }
+    return hung;
+  }
+
+  [[nodiscard]] Graphs Hung(const HungLayout& layout) const {
+    Graphs hung;
+    for (const Subject& s : subjects_) {
+      hung.push_back(HangLayout(layout.view(), s.body, s.parts, s.body.is_symmetric));
     }
     return hung;
   }
@@ -169,25 +171,30 @@ class EnclosingLayoutSearch {
     return s.enclosing->Value(graph, alone_) / s.grid.volume_m3 - 1.0;
   }
 
-  // What the changed graphs come to; nothing where that is hopeless.
+  // What the changed graphs come to, hung anew by the layout that they make: what counts is where
+  // each body gets from there, not from where the search has led it. Nothing where that is
+  // hopeless.
   std::optional<Attempt> Tried(Graphs graphs, const Attempt& now) {
     Attempt attempt{std::move(graphs), std::vector<double>(subjects_.size()), 0.0};
-    const bool grown = attempt.graphs[0].primitive_count() > now.graphs[0].primitive_count();
-    const std::size_t first = random_.NextBelow(subjects_.size());
-    for (const int steps : {kTrialSteps, kFinalSteps}) {
-      for (std::size_t i = 0; i < subjects_.size(); ++i) {
-        const std::size_t k = (first + i) % subjects_.size();
-        Settle(k, steps, attempt.graphs[k]);
-        // One sphere would do for the two.
-        if (FirstNearPair(attempt.graphs[k]) >= 0) return std::nullopt;
-        attempt.values[k] = ValueOf(k, attempt.graphs[k]);
-        if (attempt.values[k] > (grown ? 1.0 : kHopeless) * now.values[k]) return std::nullopt;
-      }
-      attempt.value = MeanOf(attempt.values);
-      if (attempt.value > kPromising * now.value) return std::nullopt;
-      if (attempt.value < now.value && grown) break;
-    }
+    if (!SettleAll(kTrialSteps, now, attempt)) return std::nullopt;
+    if (attempt.value > kPromising * now.value) return std::nullopt;
+    const HungLayout layout = LayoutOf(subjects_, attempt.graphs);
+    attempt.graphs = Hung(layout);
+    if (!SettleAll(kFirstSteps, now, attempt)) return std::nullopt;
     return attempt;
+  }
+
+  // False as soon as one body is much worse than now.
+  bool SettleAll(int steps, const Attempt& now, Attempt& attempt) {
+    const std::size_t first = random_.NextBelow(subjects_.size());
+    for (std::size_t i = 0; i < subjects_.size(); ++i) {
+      const std::size_t k = (first + i) % subjects_.size();
+      Settle(k, steps, attempt.graphs[k]);
+      attempt.values[k] = ValueOf(k, attempt.graphs[k]);
+      if (attempt.values[k] > kHopeless * now.values[k]) return false;
+    }
+    attempt.value = MeanOf(attempt.values);
+    return true;
   }
 
   int Below(int count) {

@@ -11,7 +11,7 @@
 namespace capfit::refine {
 namespace {
 
-constexpr double kAlongDigit = 0.01;  // in bone lengths
+constexpr double kAlongDigit = 0.01;   // in bone lengths
 constexpr double kRadiusDigit = 0.01;  // all else, in bone radii
 constexpr double kLeastRadius = 0.1;
 

@@ -24,7 +24,7 @@ constexpr double kGridCellM = 0.010;
 constexpr double kThinnedM = 0.016;
 // Of an enclosing search's points, over the root of the number of primitives, relative to the
 // body's size.
-constexpr double kEnclosingSpacing = 0.17;
+constexpr double kEnclosingSpacing = 0.14;
 constexpr int kEngineBudget = 64;
 constexpr int kEngineLimit = 32;
 
@@ -111,9 +111,9 @@ std::vector<Subject> MakeSubjects(const LayoutTask& task) {
   for (std::size_t i = 0; i < soups.size(); ++i) {
     std::optional<Subject> subject = MakeSubject(soups[i], task);
     if (!subject) {
-      std::fprintf(stderr, "body %zu: %s\n", i,
-                   soups[i].ok() ? "not found, or not symmetric"
-                                 : soups[i].status().ToString().c_str());
+      std::fprintf(
+          stderr, "body %zu: %s\n", i,
+          soups[i].ok() ? "not found, or not symmetric" : soups[i].status().ToString().c_str());
       return {};
     }
     subjects.push_back(*std::move(subject));

@@ -44,8 +44,8 @@ struct Subject {
   std::unique_ptr<EnclosingTask> enclosing;
 };
 
-// The bodies of the files asked for, or else some of the figures, slim, usual and heavy. Empty where
-// one could not be made, or is not symmetric.
+// The bodies of the files asked for, or else some of the figures, slim, usual and heavy. Empty
+// where one could not be made, or is not symmetric.
 [[nodiscard]] std::vector<Subject> MakeSubjects(const LayoutTask& task);
 
 // The same topology on all bodies: graphs whose nodes and edges correspond by index.

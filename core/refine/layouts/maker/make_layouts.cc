@@ -48,7 +48,8 @@ int main(int argc, char** argv) {
   app.add_option("--from", task.first_primitives, "the stored layout for so many to begin with");
   app.add_option("--bodies", task.files, "meshes of whole, symmetric bodies, not mannequins")
       ->check(CLI::ExistingFile);
-  app.add_flag_callback("--women", [&] { task.figures = Figures::kWomen; }, "mannequins of women");
+  app.add_flag_callback(
+      "--women", [&] { task.figures = Figures::kWomen; }, "mannequins of women");
   CLI11_PARSE(app, argc, argv);
   task.enclose = fit == "enclose";
   task.full = parts == "full";
