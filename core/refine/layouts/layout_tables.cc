@@ -432,8 +432,46 @@ constexpr auto kShellFull32Nodes = std::to_array<LayoutNode>({
 constexpr auto kShellFull32Edges = std::to_array<LayoutEdge>(
     {{5, 6, false}, {6, 7, false}, {3, 4, false}, {7, 11, false}, {0, 5, false}, {2, 3, false}});
 
-// 32 + 32 for enclosing, with head, hands and feet.
+// 32 + 31 for enclosing, with head, hands and feet.
 constexpr auto kShellFull64Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.42, 0.0, 0.0}, 1.1, false},     // 0
+    {BoneId::kChest, {0.15, 0.5, -0.1}, 1.7, true},     // 1
+    {BoneId::kChest, {0.87, 0.0, -0.5}, 0.8, false},    // 2
+    {BoneId::kClavicle, {0.84, 0.1, -0.1}, 1.1, true},  // 3
+    {BoneId::kHand, {0.15, -0.1, -0.2}, 1.2, true},     // 4
+    {BoneId::kPelvis, {0.69, 0.5, 0.1}, 1.9, true},     // 5
+    {BoneId::kThigh, {0.90, 0.0, 0.1}, 1.0, true},      // 6
+    {BoneId::kShin, {1.69, -0.1, 0.0}, 0.9, true},      // 7
+    {BoneId::kHand, {0.71, -0.4, 0.6}, 2.3, true},      // 8
+    {BoneId::kFoot, {0.90, 0.0, 0.3}, 1.7, true},       // 9
+    {BoneId::kShin, {0.36, 0.0, -0.2}, 1.0, true},      // 10
+    {BoneId::kHead, {0.41, 0.0, 0.6}, 1.1, true},       // 11
+    {BoneId::kRibs, {0.72, 0.0, 0.1}, 1.1, false},      // 12
+    {BoneId::kThigh, {0.37, -0.1, 0.2}, 1.4, true},     // 13
+    {BoneId::kHead, {0.62, 0.0, 0.1}, 1.8, false},      // 14
+    {BoneId::kBelly, {1.06, 0.5, 0.1}, 1.0, true},      // 15
+    {BoneId::kUpperArm, {0.84, 0.0, 0.0}, 1.0, true},   // 16
+    {BoneId::kShin, {0.77, 0.0, 0.0}, 0.7, true},       // 17
+});
+constexpr auto kShellFull64Edges = std::to_array<LayoutEdge>({{4, 8, false},
+                                                              {6, 10, false},
+                                                              {2, 11, false},
+                                                              {7, 9, false},
+                                                              {6, 13, false},
+                                                              {1, 3, false},
+                                                              {2, 3, false},
+                                                              {5, 15, false},
+                                                              {5, 13, false},
+                                                              {3, 16, false},
+                                                              {4, 16, false},
+                                                              {1, 15, false},
+                                                              {7, 17, false},
+                                                              {10, 17, false},
+                                                              {5, 15, true},
+                                                              {5, 5, true}});
+
+// 32 + 32 for enclosing, with head, hands and feet; a ball for the face.
+constexpr auto kShellFull64FaceNodes = std::to_array<LayoutNode>({
     {BoneId::kClavicle, {0.33, -0.37, -0.10}, 1.57, true},  // 0
     {BoneId::kChest, {0.92, 0.00, -0.24}, 0.87, false},     // 1
     {BoneId::kUpperArm, {0.08, -0.09, -0.03}, 1.37, true},  // 2
@@ -453,7 +491,7 @@ constexpr auto kShellFull64Nodes = std::to_array<LayoutNode>({
     {BoneId::kShin, {1.75, 0.02, 0.13}, 0.60, true},        // 16
     {BoneId::kThigh, {0.96, 0.01, 0.06}, 0.93, true},       // 17
 });
-constexpr auto kShellFull64Edges = std::to_array<LayoutEdge>({
+constexpr auto kShellFull64FaceEdges = std::to_array<LayoutEdge>({
     {3, 6, false},
     {1, 9, false},
     {5, 7, false},
@@ -1056,7 +1094,7 @@ constexpr auto kShell500Edges = std::to_array<LayoutEdge>({
 }  // namespace
 
 std::span<const NamedLayout> Layouts() {
-  static constexpr std::array<NamedLayout, 20> kLayouts = {{
+  static constexpr std::array<NamedLayout, 21> kLayouts = {{
       {"best fit, 32", FitKind::kBestFit, 32, false, {kBest32Nodes, kBest32Edges}},
       {"best fit, 64", FitKind::kBestFit, 64, false, {kBest64Nodes, kBest64Edges}},
       {"best fit, 128", FitKind::kBestFit, 128, false, {kBest128Nodes, kBest128Edges}},
@@ -1099,6 +1137,11 @@ std::span<const NamedLayout> Layouts() {
        64,
        true,
        {kShellFull64Nodes, kShellFull64Edges}},
+      {"shell, whole body, face, 64",
+       FitKind::kEnclose,
+       64,
+       true,
+       {kShellFull64FaceNodes, kShellFull64FaceEdges}},
       {"shell, 128", FitKind::kEnclose, 128, false, {kShell128Nodes, kShell128Edges}},
       {"shell, 250", FitKind::kEnclose, 250, false, {kShell250Nodes, kShell250Edges}},
       {"shell, 500", FitKind::kEnclose, 500, false, {kShell500Nodes, kShell500Edges}},
