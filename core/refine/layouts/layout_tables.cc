@@ -551,55 +551,57 @@ constexpr auto kShell64BustEdges = std::to_array<LayoutEdge>({{0, 3, false},
                                                               {3, 17, false},
                                                               {8, 17, false}});
 
-// 62 + 66 for enclosing, with head, hands and feet.
+// 68 + 60 for enclosing, with head, hands and feet.
 constexpr auto kShellFull128Nodes = std::to_array<LayoutNode>({
-    {BoneId::kChest, {0.72, 0.0, -0.3}, 1.1, false},     // 0
-    {BoneId::kRibs, {1.24, 0.5, -0.1}, 1.3, true},       // 1
-    {BoneId::kChest, {1.01, 0.0, -0.2}, 0.7, false},     // 2
-    {BoneId::kUpperArm, {0.07, -0.1, -0.0}, 1.4, true},  // 3
-    {BoneId::kPelvis, {0.60, 0.3, 0.1}, 1.6, true},      // 4
-    {BoneId::kThigh, {0.93, -0.0, 0.1}, 0.9, true},      // 5
-    {BoneId::kShin, {1.85, 0.0, 0.3}, 0.6, true},        // 6
-    {BoneId::kHand, {0.76, -0.0, -0.9}, 0.7, true},      // 7
-    {BoneId::kFoot, {0.89, 0.2, 0.1}, 1.6, true},        // 8
-    {BoneId::kShin, {0.33, 0.0, -0.2}, 1.0, true},       // 9
-    {BoneId::kHead, {0.60, 0.0, 0.6}, 1.2, true},        // 10
-    {BoneId::kThigh, {0.73, -0.0, 0.1}, 1.1, true},      // 11
-    {BoneId::kHead, {0.52, 0.0, 0.0}, 1.4, false},       // 12
-    {BoneId::kBelly, {1.00, 0.4, 0.1}, 1.0, true},       // 13
-    {BoneId::kUpperArm, {0.89, 0.0, -0.1}, 1.0, true},   // 14
-    {BoneId::kRibs, {1.18, 1.0, 0.6}, 0.7, true},        // 15
-    {BoneId::kClavicle, {0.34, -0.4, -0.2}, 1.5, true},  // 16
-    {BoneId::kBelly, {0.19, 0.0, 0.0}, 1.1, false},      // 17
-    {BoneId::kHead, {0.33, 0.0, 1.4}, 0.8, false},       // 18
-    {BoneId::kHead, {0.63, 0.0, 2.0}, 0.1, false},       // 19
-    {BoneId::kHand, {0.22, -0.1, -0.1}, 1.2, true},      // 20
-    {BoneId::kHead, {0.71, 0.0, 0.6}, 1.3, false},       // 21
-    {BoneId::kHand, {0.62, -0.3, 2.2}, 0.8, true},       // 22
-    {BoneId::kHand, {0.86, -0.2, 0.1}, 1.0, true},       // 23
-    {BoneId::kHead, {0.70, 0.0, 0.1}, 1.4, false},       // 24
-    {BoneId::kHead, {0.51, 0.0, 2.2}, 0.2, false},       // 25
-    {BoneId::kHeel, {0.59, 0.1, -0.4}, 1.4, true},       // 26
-    {BoneId::kThigh, {-0.21, -0.3, 0.2}, 1.4, true},     // 27
-    {BoneId::kFoot, {0.28, 0.0, -0.8}, 1.6, true},       // 28
-    {BoneId::kHead, {0.71, 0.0, -0.4}, 1.2, false},      // 29
-    {BoneId::kBelly, {0.49, 0.0, 0.0}, 0.9, false},      // 30
-    {BoneId::kHead, {0.62, 0.0, -0.6}, 1.0, false},      // 31
-    {BoneId::kShin, {1.12, -0.0, -0.3}, 0.5, true},      // 32
-    {BoneId::kShin, {1.06, 0.0, -0.2}, 0.3, true},       // 33
-    {BoneId::kThigh, {0.28, -0.1, 0.1}, 1.1, true},      // 34
-    {BoneId::kShin, {0.79, 0.0, 0.1}, 0.5, true},        // 35
-    {BoneId::kHead, {0.44, 0.2, 0.6}, 0.9, true},        // 36
+    {BoneId::kChest, {0.92, 0.00, -0.22}, 0.89, false},     // 0
+    {BoneId::kClavicle, {0.28, -0.65, -0.13}, 1.31, true},  // 1
+    {BoneId::kChest, {0.42, 0.00, -0.95}, 0.55, false},     // 2
+    {BoneId::kClavicle, {1.04, 0.04, -0.11}, 0.89, true},   // 3
+    {BoneId::kPelvis, {0.64, 0.47, 0.07}, 1.75, true},      // 4
+    {BoneId::kShin, {0.83, 0.08, -0.18}, 0.42, true},       // 5
+    {BoneId::kHand, {0.53, -0.04, -0.69}, 1.07, true},      // 6
+    {BoneId::kFoot, {0.88, 0.16, 0.14}, 1.66, true},        // 7
+    {BoneId::kShin, {0.35, 0.00, -0.25}, 1.06, true},       // 8
+    {BoneId::kHead, {0.71, 0.00, -0.03}, 0.33, false},      // 9
+    {BoneId::kShin, {0.40, 0.02, 0.19}, 0.70, true},        // 10
+    {BoneId::kHead, {0.55, 0.00, -0.04}, 1.38, false},      // 11
+    {BoneId::kBelly, {0.96, 0.31, 0.05}, 0.97, true},       // 12
+    {BoneId::kUpperArm, {1.02, 0.01, -0.01}, 0.87, true},   // 13
+    {BoneId::kRibs, {0.96, 0.68, 0.43}, 0.95, true},        // 14
+    {BoneId::kClavicle, {0.42, -0.08, -0.21}, 1.34, true},  // 15
+    {BoneId::kBelly, {0.25, 0.00, 0.02}, 1.28, false},      // 16
+    {BoneId::kHead, {0.34, 0.00, 1.33}, 0.86, false},       // 17
+    {BoneId::kHead, {0.64, 0.00, 2.01}, 0.13, false},       // 18
+    {BoneId::kHand, {0.07, 0.01, 0.00}, 0.99, true},        // 19
+    {BoneId::kHead, {0.71, 0.00, 0.54}, 1.28, false},       // 20
+    {BoneId::kHand, {0.80, -0.14, -0.09}, 1.40, true},      // 21
+    {BoneId::kHead, {0.70, 0.00, 0.11}, 1.35, false},       // 22
+    {BoneId::kHead, {0.51, 0.00, 2.08}, 0.32, false},       // 23
+    {BoneId::kHeel, {0.61, 0.08, -0.51}, 1.37, true},       // 24
+    {BoneId::kPelvis, {0.81, 0.44, 0.20}, 1.51, true},      // 25
+    {BoneId::kHead, {0.70, 0.00, -0.31}, 1.27, false},      // 26
+    {BoneId::kThigh, {0.32, -0.11, 0.41}, 1.24, true},      // 27
+    {BoneId::kHead, {0.47, 0.00, 0.45}, 1.18, false},       // 28
+    {BoneId::kThigh, {0.96, -0.02, -0.04}, 0.85, true},     // 29
+    {BoneId::kShin, {0.95, 0.01, 0.10}, 0.57, true},        // 30
+    {BoneId::kFoot, {0.30, 0.01, -1.02}, 1.47, true},       // 31
+    {BoneId::kForearm, {0.36, -0.00, -0.04}, 1.07, true},   // 32
+    {BoneId::kThigh, {0.21, -0.27, 0.23}, 1.40, true},      // 33
+    {BoneId::kRibs, {1.14, 0.56, -0.09}, 1.23, true},       // 34
+    {BoneId::kThigh, {0.30, -0.12, 0.11}, 1.27, true},      // 35
+    {BoneId::kBelly, {0.99, 0.58, -0.01}, 0.88, true},      // 36
+    {BoneId::kUpperArm, {0.10, -0.12, -0.04}, 1.41, true},  // 37
+    {BoneId::kHand, {0.63, -0.34, 2.30}, 0.63, true},       // 38
+    {BoneId::kRibs, {1.31, 0.47, -0.17}, 1.25, true},       // 39
 });
 constexpr auto kShellFull128Edges = std::to_array<LayoutEdge>({
-    {5, 9, false},   {5, 11, false},  {2, 3, false},   {3, 14, false},  {1, 13, false},
-    {4, 13, true},   {0, 3, false},   {1, 15, false},  {1, 16, false},  {3, 16, false},
-    {13, 17, false}, {7, 20, false},  {19, 21, false}, {20, 22, false}, {21, 24, false},
-    {2, 25, false},  {10, 18, false}, {6, 26, false},  {13, 27, false}, {8, 28, false},
-    {24, 29, false}, {4, 30, false},  {16, 16, true},  {6, 32, false},  {9, 33, false},
-    {4, 34, false},  {11, 34, false}, {6, 35, false},  {9, 35, false},  {7, 22, false},
-    {11, 27, false}, {19, 29, false}, {14, 20, false}, {2, 36, false},  {12, 25, false},
-    {10, 29, false}, {1, 1, true},
+    {0, 3, false},   {1, 14, false},  {12, 16, false}, {6, 19, false},  {18, 20, false},
+    {9, 17, false},  {5, 24, false},  {12, 25, false}, {22, 26, false}, {15, 15, true},
+    {10, 27, false}, {2, 28, false},  {8, 29, false},  {8, 30, false},  {7, 31, false},
+    {13, 32, false}, {19, 32, false}, {4, 33, false},  {10, 35, false}, {34, 36, false},
+    {11, 26, false}, {19, 38, false}, {6, 38, false},  {30, 31, false}, {12, 34, true},
+    {3, 39, false},  {15, 39, true},  {25, 36, false}, {24, 31, false}, {14, 39, false},
+    {13, 37, false}, {4, 25, true},   {17, 20, false}, {17, 22, false},
 });
 
 // 101 + 138 for enclosing, with head, hands and feet. Made with more spheres in the hands, which on
