@@ -470,48 +470,6 @@ constexpr auto kShellFull64Edges = std::to_array<LayoutEdge>({{4, 8, false},
                                                               {5, 15, true},
                                                               {5, 5, true}});
 
-// 32 + 32 for enclosing, with head, hands and feet; a ball for the face.
-constexpr auto kShellFull64FaceNodes = std::to_array<LayoutNode>({
-    {BoneId::kClavicle, {0.33, -0.37, -0.10}, 1.57, true},  // 0
-    {BoneId::kChest, {0.92, 0.00, -0.24}, 0.87, false},     // 1
-    {BoneId::kUpperArm, {0.08, -0.09, -0.03}, 1.37, true},  // 2
-    {BoneId::kHand, {0.18, -0.13, -0.11}, 1.16, true},      // 3
-    {BoneId::kPelvis, {0.68, 0.48, 0.11}, 1.85, true},      // 4
-    {BoneId::kHeel, {0.49, -0.00, -0.43}, 1.73, true},      // 5
-    {BoneId::kHand, {0.70, -0.38, 0.55}, 2.20, true},       // 6
-    {BoneId::kFoot, {0.88, 0.02, 0.33}, 1.65, true},        // 7
-    {BoneId::kShin, {0.32, 0.00, -0.24}, 1.05, true},       // 8
-    {BoneId::kHead, {0.72, 0.00, 0.53}, 1.27, false},       // 9
-    {BoneId::kHead, {0.65, 0.00, -0.08}, 1.55, false},      // 10
-    {BoneId::kBelly, {0.94, 0.50, 0.08}, 0.99, true},       // 11
-    {BoneId::kUpperArm, {0.88, 0.02, -0.07}, 0.93, true},   // 12
-    {BoneId::kRibs, {1.04, 0.62, 0.25}, 1.16, true},        // 13
-    {BoneId::kHead, {0.42, 0.00, 1.35}, 1.14, false},       // 14
-    {BoneId::kThigh, {0.38, -0.13, 0.23}, 1.34, true},      // 15
-    {BoneId::kShin, {1.75, 0.02, 0.13}, 0.60, true},        // 16
-    {BoneId::kThigh, {0.96, 0.01, 0.06}, 0.93, true},       // 17
-});
-constexpr auto kShellFull64FaceEdges = std::to_array<LayoutEdge>({
-    {3, 6, false},
-    {1, 9, false},
-    {5, 7, false},
-    {0, 2, false},
-    {1, 2, false},
-    {4, 11, false},
-    {2, 12, false},
-    {3, 12, false},
-    {0, 11, false},
-    {4, 11, true},
-    {4, 15, false},
-    {9, 14, false},
-    {8, 16, false},
-    {11, 13, true},
-    {4, 4, true},
-    {0, 0, true},
-    {8, 17, false},
-    {15, 17, false},
-});
-
 // 32 + 32 for enclosing, without head, hands and feet.
 constexpr auto kShell64BustNodes = std::to_array<LayoutNode>({
     {BoneId::kChest, {0.35, 0.0, 0.7}, 0.8, false},     // 0
@@ -1096,7 +1054,7 @@ constexpr auto kShell500Edges = std::to_array<LayoutEdge>({
 }  // namespace
 
 std::span<const NamedLayout> Layouts() {
-  static constexpr std::array<NamedLayout, 21> kLayouts = {{
+  static constexpr std::array<NamedLayout, 20> kLayouts = {{
       {"best fit, 32", FitKind::kBestFit, 32, false, {kBest32Nodes, kBest32Edges}},
       {"best fit, 64", FitKind::kBestFit, 64, false, {kBest64Nodes, kBest64Edges}},
       {"best fit, 128", FitKind::kBestFit, 128, false, {kBest128Nodes, kBest128Edges}},
@@ -1139,11 +1097,6 @@ std::span<const NamedLayout> Layouts() {
        64,
        true,
        {kShellFull64Nodes, kShellFull64Edges}},
-      {"shell, whole body, face, 64",
-       FitKind::kEnclose,
-       64,
-       true,
-       {kShellFull64FaceNodes, kShellFull64FaceEdges}},
       {"shell, 128", FitKind::kEnclose, 128, false, {kShell128Nodes, kShell128Edges}},
       {"shell, 250", FitKind::kEnclose, 250, false, {kShell250Nodes, kShell250Edges}},
       {"shell, 500", FitKind::kEnclose, 500, false, {kShell500Nodes, kShell500Edges}},
