@@ -88,6 +88,16 @@ void Dissolve(const Edit& edit, EditedGraph& result) {
   result.possible = true;
 }
 
+// One sphere of a pair whose halves nearly coincide; -1: there is none.
+int FirstNearPair(const capsule::MirroredSet& graph) {
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    const geometry::Sphere& sphere = graph.sphere(v);
+    if (graph.ImageOf(v) == v) continue;
+    if (std::abs(sphere.center_m.x()) <= kNearShare * sphere.radius_m) return v;
+  }
+  return -1;
+}
+
 }  // namespace
 
 bool IsLaterImage(const capsule::MirroredSet& graph, int a, int b) {
@@ -258,15 +268,6 @@ void MergeSwallowed(capsule::MirroredSet& graph) {
     graph.RemoveSpheres(removed);
     e = 0;
   }
-}
-
-int FirstNearPair(const capsule::MirroredSet& graph) {
-  for (int v = 0; v < graph.sphere_count(); ++v) {
-    const geometry::Sphere& sphere = graph.sphere(v);
-    if (graph.ImageOf(v) == v) continue;
-    if (std::abs(sphere.center_m.x()) <= kNearShare * sphere.radius_m) return v;
-  }
-  return -1;
 }
 
 void JoinNearPairs(capsule::MirroredSet& graph) {

@@ -79,10 +79,8 @@ struct LocalGraph {
 // those to the larger end: then nothing falls off when RemoveSwallowed takes the capsule.
 void MergeSwallowed(capsule::MirroredSet& graph);
 
-// One sphere of a pair whose halves nearly coincide on the mid-plane; -1: there is none.
-[[nodiscard]] int FirstNearPair(const capsule::MirroredSet& graph);
-// Makes one sphere on the plane of each such pair: two do no more there, and what the other one
-// took can be spent elsewhere.
+// Makes one sphere on the mid-plane of each pair whose halves nearly coincide there: two do no
+// more, and what the other one took can be spent elsewhere.
 void JoinNearPairs(capsule::MirroredSet& graph);
 
 // Removes what does nothing: capsules swallowed by an end, spheres without a capsule inside

@@ -12,7 +12,7 @@ namespace capfit::refine {
 // that serves all of them better, and exchanges primitives at random for the task's CPU time: what
 // is least missed goes most often, capsules are cut where they are loose, near spheres are tied. A
 // change stays where the mean volume over the bodies falls, or, at first, hardly rises. A few
-// minutes: what a longer search finds suits the bodies ever better and people ever less. Says
+// minutes: what a longer one finds may suit these bodies ever better and others less. Says
 // on stderr how it goes.
 [[nodiscard]] Graphs SearchEnclosingLayout(const LayoutTask& task,
                                            const std::vector<Subject>& subjects);
