@@ -234,7 +234,7 @@ TEST(Motion, AWalkWithRadiiOfEachFrameIsEnclosedTightly) {
   const double mean_E_r =
       (1.0 + rest->metrics.E_r) * result->motion->mean_volume_ratio / bodies - 1.0;
   std::printf("E_r at rest %.3f, in the mean of the frames %.3f\n", rest->metrics.E_r, mean_E_r);
-  // The tighter the fit of rest alone, the more of it is of that pose: .378 was 1.12 of one of .349.
+  // The tighter the fit of rest alone, the more of it is of that pose; so a limit of its own too.
   EXPECT_LE(mean_E_r, 0.38);
   EXPECT_LE(mean_E_r, 1.14 * rest->metrics.E_r);
 }
