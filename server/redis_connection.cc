@@ -45,10 +45,11 @@ absl::StatusOr<RedisPlace> RedisPlaceOf(const std::string& address) {
 
 absl::StatusOr<RedisConnection> RedisConnection::Open(const RedisPlace& place) {
   RedisConnection connection(
-      redisConnectWithTimeout(place.host.c_str(), place.port, TimeOf(kRedisConnectTime)));
+      redisConnectWithTimeout(place.host.c_str(), place.port, TimeOf(kRedisConnectTime)),
+      place.answer_time);
   if (connection.context_ == nullptr) return absl::UnavailableError("no memory for a connection");
   if (connection.context_->err != 0) return connection.Failed();
-  redisSetTimeout(connection.context_.get(), TimeOf(kRedisAnswerTime));
+  redisSetTimeout(connection.context_.get(), TimeOf(place.answer_time));
   if (!place.password.empty()) {
     CAPFIT_RETURN_IF_ERROR(connection.Ask({"AUTH", place.password}).status());
   }
@@ -65,7 +66,7 @@ absl::Status RedisConnection::Failed() const {
 
 // Not redisCommand: that would wait anew for each piece of an answer that trickles in.
 absl::StatusOr<std::string> RedisConnection::Ask(const std::vector<std::string>& words) {
-  const Clock::time_point deadline = Clock::now() + kRedisAnswerTime;
+  const Clock::time_point deadline = Clock::now() + answer_time_;
   std::vector<const char*> texts;
   std::vector<std::size_t> lengths;
   for (const std::string& word : words) {

@@ -13,11 +13,16 @@
 
 namespace capfit::server {
 
-// Where a Redis server is.
+// How long a question may wait for its whole answer, unless the place says otherwise.
+inline constexpr std::chrono::milliseconds kRedisAnswerTime{100};
+
+// Where a Redis server is, and how long it is waited for.
 struct RedisPlace {
   std::string host;
   int port = 6379;
   std::string password;  // "": none is sent
+  // A read that is under way by then may take as long again.
+  std::chrono::milliseconds answer_time = kRedisAnswerTime;
 };
 
 // "HOST[:PORT]" as its two parts, without a port 6379. INVALID_ARGUMENT for what is no address.
@@ -25,9 +30,6 @@ struct RedisPlace {
 
 // How long a connection may take to be made, once the host's name is known.
 inline constexpr std::chrono::milliseconds kRedisConnectTime{50};
-// How long a question may wait for its whole answer; a read that is under way by then may take as
-// long again.
-inline constexpr std::chrono::milliseconds kRedisAnswerTime{100};
 
 // For one thread at a time. Writes to sockets that may be closed: SIGPIPE must be ignored.
 class RedisConnection {
@@ -46,10 +48,12 @@ class RedisConnection {
   struct Freed {
     void operator()(redisContext* context) const { redisFree(context); }
   };
-  explicit RedisConnection(redisContext* context) : context_(context) {}
+  RedisConnection(redisContext* context, std::chrono::milliseconds answer_time)
+      : context_(context), answer_time_(answer_time) {}
   [[nodiscard]] absl::Status Failed() const;
 
   std::unique_ptr<redisContext, Freed> context_;
+  std::chrono::milliseconds answer_time_;
 };
 
 }  // namespace capfit::server

@@ -19,7 +19,7 @@ namespace capfit::server {
 // What went wrong: in the metrics as the label `kind`.
 enum class RedisFailure {
   kConnect,  // there is no connection to be had
-  kLate,     // no answer within kRedisAnswerTime
+  kLate,     // no answer within the answer time of its place
   kLost,     // the connection broke
   kRefused,  // the server answered with an error: no memory, no password, ...
 };
@@ -27,7 +27,7 @@ enum class RedisFailure {
 // A thread of its own makes the connections, so that whoever asks never waits for a host's name or
 // for one that is not there: without a connection there is simply nothing to be found. After a
 // failure all connections are given up, and the server is left alone for kRedisPause. So a server
-// that stops answering costs each caller one kRedisAnswerTime, once.
+// that stops answering costs each caller one answer time, once.
 //
 // Safe from any thread.
 class RedisStore {

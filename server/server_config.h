@@ -49,6 +49,7 @@ struct ServerConfig {
   std::int64_t cache_bytes = 64LL * 1024 * 1024;
   std::string cache_redis;                // HOST[:PORT] of a Redis to share them through; "": none
   std::string cache_redis_password_file;  // its first line; "": no password
+  double cache_redis_seconds = 0.1;       // a call waits for its answer; [0.01, 60]
   LogFormat log_format = LogFormat::kText;
   bool channelz = false;       // gRPC's own tables of connections and calls, for whoever connects
   std::string metrics_listen;  // HOST:PORT for Prometheus; port 0: any free one; empty: nowhere

@@ -55,6 +55,9 @@ void AddBudgets(CLI::App& app, ServerConfig& config, std::int64_t& max_held_mb,
                  "HOST[:PORT] of a Redis through which servers share results; empty: none");
   app.add_option("--cache-redis-password-file", config.cache_redis_password_file,
                  "File whose first line is the password of that Redis");
+  app.add_option("--cache-redis-seconds", config.cache_redis_seconds,
+                 "A call waits so long for an answer of that Redis, then goes on without it")
+      ->check(CLI::Range(0.01, 60.0));
   app.add_option("--max-held-mb", max_held_mb,
                  "Memory for uploads and answers of all calls, in MiB; beyond: RESOURCE_EXHAUSTED")
       ->check(CLI::Range(16, 1024 * 1024));

@@ -1,5 +1,6 @@
 #include "server/shared_cache.h"
 
+#include <chrono>
 #include <cstdint>
 #include <fstream>
 #include <utility>
@@ -42,6 +43,8 @@ absl::StatusOr<RedisPlace> RedisOf(const ServerConfig& config) {
     return InvalidField(ErrorReason::kOutOfRange, "--cache-redis",
                         std::string(place.status().message()));
   }
+  place->answer_time = std::chrono::ceil<std::chrono::milliseconds>(
+      std::chrono::duration<double>(config.cache_redis_seconds));
   if (config.cache_redis_password_file.empty()) return place;
   std::ifstream in(config.cache_redis_password_file);
   if (!std::getline(in, place->password) || place->password.empty()) {

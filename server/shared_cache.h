@@ -22,7 +22,7 @@ inline constexpr std::size_t kMostSharedBytes = 8 * 1024 * 1024;
 // Behind ResultCache, for what another replica has fitted. Nothing that is wrong with Redis fails a
 // call or changes a result: what it gives is taken only with the right hash (sealed_result.h), and
 // one that fails is not asked (redis_store.h). Both are counted. Safe from any thread but gRPC's:
-// asking may take kRedisAnswerTime.
+// asking may take config.cache_redis_seconds.
 class SharedCache {
  public:
   // Off where the config names no Redis. INVALID_ARGUMENT for what is no address, and for a
@@ -45,7 +45,7 @@ class SharedCache {
   std::unique_ptr<RedisStore> store_;
 };
 
-// The Redis that the config names, with its password. Errors as Create.
+// The Redis that the config names, with its password and the time to wait for it. Errors as Create.
 [[nodiscard]] absl::StatusOr<RedisPlace> RedisOf(const ServerConfig& config);
 
 }  // namespace capfit::server

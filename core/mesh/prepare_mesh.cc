@@ -111,9 +111,11 @@ class MeshMender {
     bool is_one = false;
     std::optional<BodyMesh> taken;
     pool_.ForEach(2, [&](std::size_t half) {
+      if (observer_.IsCancelled()) return;
       if (half == 0) is_one = IsOneSurface(triangles, half_edges, positions_.size(), pool_);
       if (half == 1) taken = AsItCame(mates);
     });
+    if (!taken) return std::nullopt;  // cancelled
     BodyMesh& mesh = *taken;
     diagonal_ = mesh.diagonal();
     // A flat one, no longer than the diagonal, has half of this area at most.

@@ -28,13 +28,18 @@ class SharedCacheTest : public testing::Test {
       GTEST_SKIP() << "SKIPPED: no redis-server: apt-get install redis-server";
   }
 
+  // Most tests are about what Redis answers, however long a busy machine takes for it.
+  static constexpr double kPatientSeconds = 30.0;
+
   // A replica that keeps nothing itself, connected to `address` unless told otherwise.
   std::unique_ptr<Server> StartReplica(const std::string& address, bool is_connected = true,
-                                       const std::string& password_file = "") {
+                                       const std::string& password_file = "",
+                                       double answer_seconds = kPatientSeconds) {
     ServerConfig config;
     config.cache_bytes = 0;
     config.cache_redis = address;
     config.cache_redis_password_file = password_file;
+    config.cache_redis_seconds = answer_seconds;
     FitBackend backend = InstantBackend(2000);
     backend.fit = [this, fit = backend.fit](const auto& soup, const auto& options, const auto& pool,
                                             FitObserver& observer) {
@@ -140,7 +145,7 @@ TEST_F(SharedCacheTest, AKilledRedisFailsNoCallAndIsUsedAgainWhenItIsBack) {
 
 TEST_F(SharedCacheTest, AStalledRedisCostsOneWaitAndNoCall) {
   const RedisProcess redis;
-  const auto server = StartReplica(redis.address());
+  const auto server = StartReplica(redis.address(), true, "", ServerConfig().cache_redis_seconds);
   redis.Signal(SIGSTOP);
   for (int i = 0; i < 20; ++i) AnswerOf(*server);
   redis.Signal(SIGCONT);
@@ -194,6 +199,9 @@ TEST(SharedCache, WrongSettingsAreNamed) {
   ASSERT_TRUE(RedisOf(config).ok());
   EXPECT_EQ(RedisOf(config)->host, "::1");
   EXPECT_EQ(RedisOf(config)->port, 6379);
+  EXPECT_EQ(RedisOf(config)->answer_time, kRedisAnswerTime);
+  config.cache_redis_seconds = 2.5;
+  EXPECT_EQ(RedisOf(config)->answer_time, std::chrono::milliseconds(2500));
   config.cache_redis_password_file = "/nowhere";
   EXPECT_THAT(std::string(RedisOf(config).status().message()),
               HasSubstr("/nowhere cannot be read"));

@@ -141,32 +141,63 @@ class Looks final : public FitObserver {
 };
 
 // Of the work of a whole fit, by the processor's clock; printed in milliseconds beside. The longest
-// is one pass over 600,000 triangles: 50 of 430 ms.
+// is one pass over 300,000 triangles: 22 of 334 ms.
 constexpr double kLongestStretch = 0.15;
 constexpr int kLooksTried = 24;
+
+// Of one fit: its seconds, those of its longest stretch and of what follows its last look.
+struct Stretches {
+  double whole = 0.0;
+  double longest = 0.0;
+  double last = 0.0;
+  int looks = 0;
+  [[nodiscard]] double Share() const { return std::max(longest, last) / whole; }
+};
+
+Stretches StretchesOf(const formats::PolygonSoup& soup, const FitOptions& options,
+                      const ThreadPool& pool) {
+  Stretches one;
+  const double begin = OwnSeconds();
+  Looks looks;
+  EXPECT_TRUE(Fit(soup, options, pool, looks).ok());
+  one.last = looks.SecondsSinceLook();
+  one.whole = OwnSeconds() - begin;
+  one.longest = looks.longest_seconds();
+  one.looks = looks.count();
+  return one;
+}
+
+// A busy machine makes this or that stretch longer now and then; one without looks is long in each
+// fit.
+Stretches ShortestOf(int fits, const formats::PolygonSoup& soup, const FitOptions& options,
+                     const ThreadPool& pool) {
+  Stretches best = StretchesOf(soup, options, pool);
+  for (int i = 1; i < fits; ++i) {
+    const Stretches one = StretchesOf(soup, options, pool);
+    if (one.Share() < best.Share()) best = one;
+  }
+  return best;
+}
 
 TEST_P(CancelTest, LittleWorkIsDoneBetweenTwoLooksAndAfterTheLast) {
   const formats::PolygonSoup soup = Body();
   const ThreadPool pool(1);
-  const double begin = OwnSeconds();
-  Looks looks;
-  ASSERT_TRUE(Fit(soup, GetParam().options, pool, looks).ok());
-  const double whole = OwnSeconds() - begin;
-  EXPECT_LT(looks.longest_seconds(), kLongestStretch * whole);
-  EXPECT_LT(looks.SecondsSinceLook(), kLongestStretch * whole);
+  const Stretches stretches = ShortestOf(3, soup, GetParam().options, pool);
+  EXPECT_LT(stretches.longest, kLongestStretch * stretches.whole);
+  EXPECT_LT(stretches.last, kLongestStretch * stretches.whole);
   std::vector<double> after;
   for (int i = 0; i < kLooksTried; ++i) {
-    Looks cancelled(1 + i * (looks.count() - 1) / (kLooksTried - 1));
+    Looks cancelled(1 + i * (stretches.looks - 1) / (kLooksTried - 1));
     const auto result = Fit(soup, GetParam().options, pool, cancelled);
     after.push_back(cancelled.SecondsSinceLook());
     EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled) << result.status();
   }
   const double longest_after = *std::max_element(after.begin(), after.end());
-  EXPECT_LT(longest_after, kLongestStretch * whole);
+  EXPECT_LT(longest_after, kLongestStretch * stretches.whole);
   std::printf(
       "%s on one thread: %d looks, %.1f ms from one to the next at most of %.0f ms; "
       "%.1f ms after the last\n",
-      GetParam().name.c_str(), looks.count(), 1e3 * looks.longest_seconds(), 1e3 * whole,
+      GetParam().name.c_str(), stretches.looks, 1e3 * stretches.longest, 1e3 * stretches.whole,
       1e3 * longest_after);
 }
 
