@@ -32,10 +32,14 @@ constexpr std::size_t kSortChunk = 4 * kMeshChunk;
 constexpr std::size_t kLeastShare = 8192;
 constexpr int kMostShares = 4;
 
+// The key of a vertex in the upper half, its index in the lower.
+using KeyedVertex = std::uint64_t;
+
+std::uint32_t KeyOf(KeyedVertex v) { return static_cast<std::uint32_t>(v >> 32); }
+
 // One pass of a counting sort: `order` by 12 bits of the keys.
-void SortByDigit(const std::vector<std::uint32_t>& keys, int shift, const ThreadPool& pool,
-                 std::vector<std::uint32_t>& order) {
-  const auto digit = [&](std::uint32_t i) { return (keys[i] >> shift) & (kDigits - 1); };
+void SortByDigit(int shift, const ThreadPool& pool, std::vector<KeyedVertex>& order) {
+  const auto digit = [&](KeyedVertex v) { return (KeyOf(v) >> shift) & (kDigits - 1); };
   const std::size_t chunks = (order.size() + kSortChunk - 1) / kSortChunk;
   std::vector<std::uint32_t> place(chunks * kDigits, 0);
   pool.ForChunks(order.size(), kSortChunk, [&](std::size_t begin, std::size_t end) {
@@ -46,7 +50,7 @@ void SortByDigit(const std::vector<std::uint32_t>& keys, int shift, const Thread
   for (std::size_t d = 0; d < kDigits; ++d) {
     for (std::size_t c = 0; c < chunks; ++c) next += std::exchange(place[c * kDigits + d], next);
   }
-  std::vector<std::uint32_t> sorted(order.size());
+  std::vector<KeyedVertex> sorted(order.size());
   pool.ForChunks(order.size(), kSortChunk, [&](std::size_t begin, std::size_t end) {
     std::uint32_t* const place_of = place.data() + begin / kSortChunk * kDigits;
     for (std::size_t i = begin; i < end; ++i) sorted[place_of[digit(order[i])]++] = order[i];
@@ -54,13 +58,11 @@ void SortByDigit(const std::vector<std::uint32_t>& keys, int shift, const Thread
   order.swap(sorted);
 }
 
-// Index order by key, equal keys by place.
-std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys,
+// Along the curve; at the same place of it by coordinates.
+std::vector<std::uint32_t> SortByKey(std::vector<KeyedVertex> order,
                                      const std::vector<Eigen::Vector3d>& points,
                                      const ThreadPool& pool) {
-  std::vector<std::uint32_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0u);
-  for (const int shift : {0, 12}) SortByDigit(keys, shift, pool, order);
+  for (const int shift : {0, 12}) SortByDigit(shift, pool, order);
   const auto comes_first = [&](std::uint32_t a, std::uint32_t b) {
     const Eigen::Vector3d& p = points[a];
     const Eigen::Vector3d& q = points[b];
@@ -68,26 +70,24 @@ std::vector<std::uint32_t> SortByKey(const std::vector<std::uint32_t>& keys,
     if (p.z() != q.z()) return p.z() < q.z();
     return p.x() != q.x() ? p.x() < q.x() : a < b;
   };
-  std::vector<std::uint32_t> sorted(keys.size());
-  pool.ForChunks(order.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) sorted[i] = keys[order[i]];
-  });
+  std::vector<std::uint32_t> sorted(order.size());
   pool.ForChunks(order.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t first = begin; first < end; ++first) {
-      if (first > 0 && sorted[first - 1] == sorted[first]) continue;
-      std::size_t last = first + 1;
-      while (last < sorted.size() && sorted[last] == sorted[first]) ++last;
-      if (last - first > 1) {
-        std::sort(order.begin() + static_cast<std::ptrdiff_t>(first),
-                  order.begin() + static_cast<std::ptrdiff_t>(last), comes_first);
+      // A run that began in the chunk before was sorted there.
+      if (first > 0 && KeyOf(order[first - 1]) == KeyOf(order[first])) continue;
+      std::size_t last = first;
+      for (; last < order.size() && KeyOf(order[last]) == KeyOf(order[first]); ++last) {
+        sorted[last] = static_cast<std::uint32_t>(order[last]);
       }
+      std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(first),
+                sorted.begin() + static_cast<std::ptrdiff_t>(last), comes_first);
     }
   });
-  return order;
+  return sorted;
 }
 
-std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points,
-                                     const ThreadPool& pool) {
+std::vector<KeyedVertex> CurveKeys(const std::vector<Eigen::Vector3d>& points,
+                                   const ThreadPool& pool) {
   Eigen::Vector3d low = points.front();
   Eigen::Vector3d high = low;
   for (const Eigen::Vector3d& p : points) {
@@ -96,13 +96,14 @@ std::vector<std::uint32_t> CurveKeys(const std::vector<Eigen::Vector3d>& points,
   }
   const double cells = (1u << kBitsPerAxis) - 1;
   const double side = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
-  std::vector<std::uint32_t> keys(points.size());
+  std::vector<KeyedVertex> keys(points.size());
   pool.ForChunks(points.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Eigen::Vector3d at = (points[v] - low) * (cells / side);
-      keys[v] = Spread(static_cast<std::uint32_t>(at.x())) |
-                Spread(static_cast<std::uint32_t>(at.y())) << 1 |
-                Spread(static_cast<std::uint32_t>(at.z())) << 2;
+      const std::uint32_t key = Spread(static_cast<std::uint32_t>(at.x())) |
+                                Spread(static_cast<std::uint32_t>(at.y())) << 1 |
+                                Spread(static_cast<std::uint32_t>(at.z())) << 2;
+      keys[v] = KeyedVertex{key} << 32 | v;
     }
   });
   return keys;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "core/base/chunk_sums.h"
@@ -44,22 +45,25 @@ constexpr tighten::TightenPhase kThoroughLoosening{.steps = 24,
                                                    .first_penalty = 1.2,
                                                    .last_penalty = 12.0,
                                                    .solve_to = {.centrality = 1e-4}};
-// Ten steps lead nearly as far when the first ones may be twice as long: 2 to 7 % more E_r. Longer
-// ones win a per cent more, but follow the points less smoothly: of 160 made bodies whose vertices
-// moved by rounding alone 118 to 126 kept their spheres to a hundredth of a millimetre in place of
-// 144 (133 with the thorough steps), and 80 where the last steps are three times as long.
+// Ten steps lead nearly as far when the first ones may be twice as long: 2 to 7 % more E_r. Fewer
+// or longer ones save little: eight cost up to 2 % of E_r.
 constexpr tighten::TightenPhase kQuickLoosening{.steps = 10,
                                                 .first_trust = 0.025,
                                                 .last_trust = 0.003,
                                                 .first_penalty = 1.4,
                                                 .last_penalty = 12.0,
-                                                .solve_to = kThoroughLoosening.solve_to};
+                                                .solve_to = {.centrality = 3e-4}};
 // A step each, relative to the body's size; before each but the first what sticks out between
-// vertices is looked for anew. (Nine steps with three such looks, as many as they were, lead to the
-// same E_r. So do programmes solved to a gap, but where the iterations end hangs on the last
-// digits: of 160 made bodies whose vertices are rounded to floats 34 to 56 keep their spheres to a
-// hundredth of a millimetre then with gaps of 1e-2 to 1e-4, and 118 with 1e-7, in place of 132.)
-constexpr std::array kTightTrusts = {0.004, 0.0028, 0.002, 0.0014, 0.001};
+// vertices is looked for anew. Long first ones win half a per cent of E_r. (Nine steps with three
+// such looks, as many as they were, lead to the same. So do programmes solved to a gap, or not as
+// near to the central path's end, but where their iterations end hangs on the last digits: of 160
+// made bodies whose vertices are rounded to floats 97 keep their spheres to a tenth of a
+// millimetre, and 7 with a centrality of 3e-4; tests/bench/rounding_trials.)
+constexpr std::array kTightTrusts = {0.01, 0.005, 0.0025, 0.0015, 0.001};
+// After a quick loosening of kFewPrimitives at most: the other steps would win 1 % of E_r at 64
+// primitives for a twentieth of a fit's time. Of more and smaller solids more sticks out.
+constexpr std::array kQuickTightTrusts = {0.008, 0.004, 0.0015};
+constexpr int kFewPrimitives = 150;
 constexpr tighten::TightenPhase kTightStep{.steps = 1,
                                            .first_penalty = 0.4,
                                            .last_penalty = 0.4,
@@ -195,17 +199,24 @@ class Coverer {
     }
     // What sticks out between vertices shows only where the vertices are in, and asking for it
     // moves the set on to other such places: looked at before each step, little is left to growing.
-    for (std::size_t i = 0; i < kTightTrusts.size() && !meter_.IsCancelled(); ++i) {
+    const std::span<const double> trusts = TightTrusts();
+    for (std::size_t i = 0; i < trusts.size() && !meter_.IsCancelled(); ++i) {
       if (i > 0) Collect();
       tighten::TightenPhase step = kTightStep;
-      step.first_trust = step.last_trust = kTightTrusts[i];
+      step.first_trust = step.last_trust = trusts[i];
       const tighten::PointGrid between(between_, ground_.fold);
-      meter_.ExpectShare(1.0 / static_cast<double>(kTightTrusts.size() - i), kTightUntil,
+      meter_.ExpectShare(1.0 / static_cast<double>(trusts.size() - i), kTightUntil,
                          set_.primitive_count());
       tighten::PointsToHold vertices{ground_.points, AllowedAtVertices()};
       if (IsMeasured()) vertices.at_first = &at_points_;
       RunPhase(step, {vertices, {between, AllowedBetween()}}, 101 + i);
     }
+  }
+
+  [[nodiscard]] std::span<const double> TightTrusts() const {
+    const bool is_quick =
+        options_.loosening == Loosening::kQuick && set_.primitive_count() <= kFewPrimitives;
+    return is_quick ? std::span<const double>(kQuickTightTrusts) : kTightTrusts;
   }
 
   void RunPhase(tighten::TightenPhase phase, const std::vector<tighten::PointsToHold>& points,

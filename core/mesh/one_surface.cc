@@ -30,8 +30,37 @@ Ring WalkRing(std::span<const Triangle> triangles, std::span<const HalfEdge> mat
   return ring;
 }
 
-// `link` leads from each vertex to its lowest neighbour, or to itself where there is no lower one.
-bool HangsTogether(std::span<const Triangle> triangles, std::vector<std::uint32_t>& link) {
+}  // namespace
+
+std::optional<std::vector<std::uint32_t>> LowestInRings(std::span<const Triangle> triangles,
+                                                        std::span<const HalfEdge> mates,
+                                                        std::size_t vertex_count,
+                                                        const ThreadPool& pool) {
+  std::vector<HalfEdge> corner(vertex_count, kNoMate);
+  HalfEdge h = 0;
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t) corner[v] = h++;
+  }
+  std::vector<std::uint32_t> lowest_around(vertex_count);
+  const auto walk = [&](std::size_t begin, std::size_t end) {
+    std::size_t corners = 0;
+    for (std::size_t v = begin; v < end; ++v) {
+      lowest_around[v] = static_cast<std::uint32_t>(v);
+      if (corner[v] == kNoMate) continue;
+      const Ring ring = WalkRing(triangles, mates, corner[v]);
+      lowest_around[v] = ring.lowest;
+      corners += ring.corners;
+    }
+    return corners;
+  };
+  // A second ring at a vertex has corners that no walk meets.
+  if (SumOverChunks(pool, vertex_count, std::size_t{0}, walk) != mates.size()) return std::nullopt;
+  return lowest_around;
+}
+
+// The link of each vertex leads to its lowest neighbour, or to itself where there is no lower one
+// (an unused vertex is a piece).
+bool HangsTogether(std::span<const Triangle> triangles, std::vector<std::uint32_t> link) {
   std::size_t pieces = 0;
   for (std::uint32_t v = 0; v < link.size(); ++v) {
     if (link[v] == v) ++pieces;
@@ -51,30 +80,11 @@ bool HangsTogether(std::span<const Triangle> triangles, std::vector<std::uint32_
   return pieces == 1;
 }
 
-}  // namespace
-
 bool IsOneSurface(std::span<const Triangle> triangles, std::span<const HalfEdge> mates,
                   std::size_t vertex_count, const ThreadPool& pool) {
-  std::vector<HalfEdge> corner(vertex_count, kNoMate);
-  HalfEdge h = 0;
-  for (const Triangle& t : triangles) {
-    for (const std::uint32_t v : t) corner[v] = h++;
-  }
-  std::vector<std::uint32_t> lowest_around(vertex_count);
-  const auto walk = [&](std::size_t begin, std::size_t end) {
-    std::size_t corners = 0;
-    for (std::size_t v = begin; v < end; ++v) {
-      lowest_around[v] = static_cast<std::uint32_t>(v);
-      if (corner[v] == kNoMate) continue;
-      const Ring ring = WalkRing(triangles, mates, corner[v]);
-      lowest_around[v] = ring.lowest;
-      corners += ring.corners;
-    }
-    return corners;
-  };
-  // A second ring at a vertex has corners that no walk meets; an unused vertex is a piece.
-  if (SumOverChunks(pool, vertex_count, std::size_t{0}, walk) != mates.size()) return false;
-  return HangsTogether(triangles, lowest_around);
+  std::optional<std::vector<std::uint32_t>> lowest =
+      LowestInRings(triangles, mates, vertex_count, pool);
+  return lowest && HangsTogether(triangles, *std::move(lowest));
 }
 
 }  // namespace capfit::mesh

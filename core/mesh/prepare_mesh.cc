@@ -108,11 +108,13 @@ class MeshMender {
   std::optional<PreparedMesh> TakeAsItCame(EdgeMates& mates) {
     const std::span<const Triangle> triangles = surface_.triangles;  // where they go they stay
     const std::span<const HalfEdge> half_edges = mates.mate;
+    std::optional<std::vector<std::uint32_t>> lowest =
+        LowestInRings(triangles, half_edges, positions_.size(), pool_);
     bool is_one = false;
     std::optional<BodyMesh> taken;
     pool_.ForEach(2, [&](std::size_t half) {
       if (observer_.IsCancelled()) return;
-      if (half == 0) is_one = IsOneSurface(triangles, half_edges, positions_.size(), pool_);
+      if (half == 0) is_one = lowest && HangsTogether(triangles, *std::move(lowest));
       if (half == 1) taken = AsItCame(mates);
     });
     if (!taken) return std::nullopt;  // cancelled
@@ -341,8 +343,13 @@ absl::StatusOr<PreparedMesh> PrepareMesh(const formats::PolygonSoup& soup,
                                          const formats::MeshLimits& limits, const ThreadPool& pool,
                                          const FitObserver& observer,
                                          std::span<const char> is_left_out) {
-  CAPFIT_RETURN_IF_ERROR(formats::CheckSoup(soup, limits));
-  const std::vector<Eigen::Vector3d> decimals = formats::RecoverDecimalsOfFloats(soup.positions);
+  absl::Status checked;
+  std::vector<Eigen::Vector3d> decimals;
+  pool.ForEach(2, [&](std::size_t half) {
+    if (half == 0) checked = formats::CheckSoup(soup, limits);
+    if (half == 1) decimals = formats::RecoverDecimalsOfFloats(soup.positions);
+  });
+  CAPFIT_RETURN_IF_ERROR(checked);
   const std::vector<Eigen::Vector3d>& positions = decimals.empty() ? soup.positions : decimals;
   return MeshMender(soup, is_left_out, positions, pool, observer).Run();
 }
