@@ -54,12 +54,13 @@ constexpr tighten::TightenPhase kQuickLoosening{.steps = 10,
                                                 .last_penalty = 12.0,
                                                 .solve_to = {.centrality = 3e-4}};
 // A step each, relative to the body's size; before each but the first what sticks out between
-// vertices is looked for anew. Long first ones win half a per cent of E_r. (Nine steps with three
-// such looks, as many as they were, lead to the same. So do programmes solved to a gap, or not as
-// near to the central path's end, but where their iterations end hangs on the last digits: of 160
-// made bodies whose vertices are rounded to floats 97 keep their spheres to a tenth of a
-// millimetre, and 7 with a centrality of 3e-4; tests/bench/rounding_trials.)
-constexpr std::array kTightTrusts = {0.01, 0.005, 0.0025, 0.0015, 0.001};
+// vertices is looked for anew. (Nine steps with three such looks, as many as they were, lead to the
+// same E_r. So do programmes solved to a gap, or not as near to the central path's end, but where
+// their iterations end hangs on the last digits: of 160 made bodies whose vertices are rounded to
+// floats 97 keep their spheres to a tenth of a millimetre, and 7 with a centrality of 3e-4;
+// tests/bench/rounding_trials. Longer first steps win .1 % with found shapes, which move less well
+// with a skeleton then.)
+constexpr std::array kTightTrusts = {0.004, 0.0028, 0.002, 0.0014, 0.001};
 // After a quick loosening of kFewPrimitives at most: the other steps would win 1 % of E_r at 64
 // primitives for a twentieth of a fit's time. Of more and smaller solids more sticks out.
 constexpr std::array kQuickTightTrusts = {0.008, 0.004, 0.0015};

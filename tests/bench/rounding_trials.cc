@@ -55,8 +55,8 @@ int Main(int argc, char** argv) {
   double log_ratios = 0.0;
   double logs = 0.0;
   for (int seed = 0; seed < count; ++seed) {
-    const auto body = mannequin::MakeMannequin(
-        mannequin::RandomMannequin(static_cast<std::uint64_t>(seed)));
+    const auto body =
+        mannequin::MakeMannequin(mannequin::RandomMannequin(static_cast<std::uint64_t>(seed)));
     if (!body.ok()) continue;
     const auto fit = pipeline::Fit(*body, options, pool, nobody);
     const auto other = pipeline::Fit(Rounded(*body), options, pool, nobody);
@@ -69,10 +69,10 @@ int Main(int argc, char** argv) {
     logs += std::log(fit->metrics.E_r);
   }
   std::printf(
-      "%d bodies: %d keep their spheres to .01 mm, %d to .1 mm; E_r moves by %.3f %%; its geometric "
+      "%d bodies: %d keep their spheres to .01 mm, %d to .1 mm; E_r moves by %.3f %%; its "
+      "geometric "
       "mean is %.4f\n",
-      fitted, within_hundredth, within_tenth, 100.0 * log_ratios / fitted,
-      std::exp(logs / fitted));
+      fitted, within_hundredth, within_tenth, 100.0 * log_ratios / fitted, std::exp(logs / fitted));
   return fitted > 0 ? 0 : 1;
 }
 

@@ -1,12 +1,10 @@
 #include "client/picture/picture.h"
 
-#include <cairo.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -14,6 +12,7 @@
 #include "core/base/status.h"
 #include "core/body/anatomy.h"
 #include "core/mannequin/mannequin.h"
+#include "tests/client/picture/read_png.h"
 
 namespace capfit::client {
 namespace {
@@ -393,31 +392,6 @@ TEST(PageContentTest, PolygonsThatDoNotFitInAreRefusedWithTheHeightThatDoes) {
   EXPECT_THAT(std::string(page.status().message()), HasSubstr("for 40 polygons"));
   options.height.reset();
   EXPECT_TRUE(LayOutPage(ThreeColumns(person.figure), options).ok());
-}
-
-// The colours of a PNG, 0xffRRGGBB.
-Pixels ReadPng(const std::string& bytes) {
-  struct Source {
-    const std::string& bytes;
-    std::size_t at = 0;
-  } source{bytes};
-  const auto read = [](void* closure, unsigned char* data, unsigned int length) {
-    auto* const from = static_cast<Source*>(closure);
-    std::memcpy(data, from->bytes.data() + from->at, length);
-    from->at += length;
-    return CAIRO_STATUS_SUCCESS;
-  };
-  cairo_surface_t* const surface = cairo_image_surface_create_from_png_stream(read, &source);
-  Pixels pixels{
-      cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), {}};
-  const int stride = cairo_image_surface_get_stride(surface);
-  for (int y = 0; y < pixels.height; ++y) {
-    std::vector<std::uint32_t> row(static_cast<std::size_t>(pixels.width));
-    std::memcpy(row.data(), cairo_image_surface_get_data(surface) + y * stride, 4 * row.size());
-    for (const std::uint32_t pixel : row) pixels.argb.push_back(pixel | 0xff000000u);
-  }
-  cairo_surface_destroy(surface);
-  return pixels;
 }
 
 Color ColorAt(const Pixels& pixels, const Eigen::Vector2d& at) {
