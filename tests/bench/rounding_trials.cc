@@ -1,12 +1,12 @@
 // How far a fit moves with the last digits of its input: mannequins by lot, each as it is and with
 // its vertices rounded to floats.
 //
-//   rounding_trials [COUNT] [PRIMITIVES] [QUALITY]      default: 160 64 paper
+//   rounding_trials [--count 160] [--primitives 64] [--quality paper]
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <string>
@@ -39,13 +39,19 @@ double Moved(const capsule::PrimitiveSet& a, const capsule::PrimitiveSet& b) {
 }
 
 int Main(int argc, char** argv) {
-  const int count = argc > 1 ? std::atoi(argv[1]) : 160;
+  int count = 160;
   pipeline::FitOptions options;
-  options.max_primitives = argc > 2 ? std::atoi(argv[2]) : 64;
+  options.max_primitives = 64;
   options.parts = {true, true, true, true, true, true};
-  for (int q = 0; argc > 3 && q < pipeline::kQualityCount; ++q) {
+  std::string quality = "paper";
+  CLI::App app("How far a fit moves with the last digits of its input");
+  app.add_option("--count", count, "mannequins")->check(CLI::PositiveNumber);
+  app.add_option("--primitives", options.max_primitives);
+  app.add_option("--quality", quality)->check(CLI::IsMember({"paper", "balanced", "tight"}));
+  CLI11_PARSE(app, argc, argv);
+  for (int q = 0; q < pipeline::kQualityCount; ++q) {
     const auto named = static_cast<pipeline::Quality>(q);
-    if (pipeline::QualityName(named) == argv[3]) options.quality = named;
+    if (pipeline::QualityName(named) == quality) options.quality = named;
   }
   const ThreadPool pool;
   NullObserver nobody;
