@@ -23,6 +23,11 @@ constexpr double kCoverageToleranceM = 1e-9;
 // (three circles leave a single one for all the front of a hip).
 constexpr double kSplitAllowance = 1.25;
 
+// Settings of drafts. Over 19 bodies at six resolutions and 22 to 150 primitives, tightened from
+// drafts, E_r is the same to .4 % on average as from the best circles.
+constexpr int kDraftPoints = 50;
+constexpr int kDraftIterations = 3;
+
 // One piece of a split outline (or the whole of it) while circles are handed out.
 class Piece {
  public:
@@ -191,6 +196,14 @@ PolygonApproximation OneCircle(const section::Polygon& outline, bool symmetric) 
 }
 
 }  // namespace
+
+CircleOptions DraftOptions(const CircleOptions& options) {
+  CircleOptions draft = options;
+  draft.interior_points = kDraftPoints;
+  draft.max_iterations = kDraftIterations;
+  draft.max_idle_teleports = 0;
+  return draft;
+}
 
 PolygonApproximation ApproximatePolygon(const section::FeaturePolygon& polygon, int circle_count,
                                         const CircleOptions& options, const FitObserver& observer) {

@@ -187,6 +187,13 @@ class BodyFit {
            budget.max_capsules < kFewPrimitives / 2;
   }
 
+  // Tightening leads on from drafts to as small a set as from the best circles. With more of them to
+  // a polygon it does not always, and what it does not move must be right.
+  bool DraftsServe() const {
+    return options_.fit == FitMode::kEnclose && !options_.grows_only && !options_.polygon_error &&
+           TotalBudget(options_).UsualPrimitives() <= kDraftsServe;
+  }
+
   absl::Status Approximate() {
     clock_.Begin(Stage::kSection);
     const capsule::Budget total = TotalBudget(options_);
@@ -199,13 +206,13 @@ class BodyFit {
     clock_.Begin(Stage::kCircle);
     circle::CircleOptions circle_options;
     circle_options.seed = options_.seed;
-    // One local minimum tells how many circles a polygon is worth as well as the best of several.
-    circle::CircleOptions draft_options = circle_options;
-    draft_options.max_idle_teleports = 0;
-    const circle::ErrorCurves drafts(features.polygons, kMaxCirclesPerPolygon, draft_options, pool_,
-                                     clock_);
-    const circle::ErrorCurves curves(features.polygons, kMaxCirclesPerPolygon, circle_options,
-                                     pool_, clock_);
+    const circle::ErrorCurves drafts(features.polygons, kMaxCirclesPerPolygon,
+                                     circle::DraftOptions(circle_options), pool_, clock_);
+    std::optional<circle::ErrorCurves> best;
+    if (!DraftsServe()) {
+      best.emplace(features.polygons, kMaxCirclesPerPolygon, circle_options, pool_, clock_);
+    }
+    const circle::ErrorCurves& curves = best ? *best : drafts;
     (options_.polygon_error ? curves : drafts).Prepare(kCirclesFittedAhead);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
 
@@ -342,6 +349,7 @@ class BodyFit {
   static constexpr int kCirclesFittedAhead = 2;
   static constexpr int kUsualPrimitives = 64;  // where the budget does not tell
   static constexpr int kFewPrimitives = 48;
+  static constexpr int kDraftsServe = 150;  // primitives
   static constexpr double kGapAccuracyM = 1e-3;  // of the best fit's certificate
 
   const FitOptions& asked_;
