@@ -187,8 +187,8 @@ class BodyFit {
            budget.max_capsules < kFewPrimitives / 2;
   }
 
-  // Tightening leads on from drafts to as small a set as from the best circles. With more of them to
-  // a polygon it does not always, and what it does not move must be right.
+  // Tightening leads on from drafts to as small a set as from the best circles. With more of them
+  // to a polygon it does not always, and what it does not move must be right.
   bool DraftsServe() const {
     return options_.fit == FitMode::kEnclose && !options_.grows_only && !options_.polygon_error &&
            TotalBudget(options_).UsualPrimitives() <= kDraftsServe;
@@ -349,7 +349,7 @@ class BodyFit {
   static constexpr int kCirclesFittedAhead = 2;
   static constexpr int kUsualPrimitives = 64;  // where the budget does not tell
   static constexpr int kFewPrimitives = 48;
-  static constexpr int kDraftsServe = 150;  // primitives
+  static constexpr int kDraftsServe = 150;       // primitives
   static constexpr double kGapAccuracyM = 1e-3;  // of the best fit's certificate
 
   const FitOptions& asked_;

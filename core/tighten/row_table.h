@@ -32,6 +32,8 @@ template <typename Real>
 struct RowTable {
   using Array = Eigen::Array<Real, Eigen::Dynamic, 1>;
   static constexpr Eigen::Index kLane = 32 / sizeof(Real);
+  using Lane = Eigen::Array<Real, kLane, 1>;
+  using Lanes = std::array<Lane, 8>;  // one for each coefficient of a row
 
   explicit RowTable(const PenaltyProgram& program) {
     const std::vector<PenaltyRow>& rows = program.rows;
@@ -47,6 +49,50 @@ struct RowTable {
     for (const std::size_t i : order) Append(rows[i]);
     CloseGroup();
     count = next_;
+  }
+
+  // The lane from row k on, here and of coefficient c.
+  static auto At(Array& array, Eigen::Index k) { return array.template segment<kLane>(k); }
+  static Lane At(const Array& array, Eigen::Index k) { return array.template segment<kLane>(k); }
+  Lane Coefficient(Eigen::Index k, Eigen::Index c) const {
+    return coefficients.col(c).template segment<kLane>(k);
+  }
+
+  // Rows times their weights, added up lane by lane, and then what belongs to each variable.
+  void AddWeighted(Eigen::Index k, const Lane& weight, Lanes& sums) const {
+    for (Eigen::Index c = 0; c < 8; ++c) {
+      sums[static_cast<std::size_t>(c)] += weight * Coefficient(k, c);
+    }
+  }
+  static void Scatter(const RowGroup& group, const Lanes& sums, Eigen::VectorXd& to) {
+    for (int c = 0; c < 4; ++c) {
+      to[group.first_a + c] += sums[static_cast<std::size_t>(c)].sum();
+      if (group.first_b >= 0) to[group.first_b + c] += sums[static_cast<std::size_t>(4 + c)].sum();
+    }
+  }
+  static Lanes NoLanes() {
+    Lanes lanes;
+    lanes.fill(Lane::Zero());
+    return lanes;
+  }
+
+  // Of the variables that a group's rows touch.
+  static std::array<Real, 8> OwnPart(const RowGroup& group, const Eigen::VectorXd& of) {
+    std::array<Real, 8> own{};
+    for (int c = 0; c < 4; ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      own[at] = static_cast<Real>(of[group.first_a + c]);
+      if (group.first_b >= 0) own[at + 4] = static_cast<Real>(of[group.first_b + c]);
+    }
+    return own;
+  }
+
+  Lane Product(Eigen::Index k, const std::array<Real, 8>& own) const {
+    Lane product = Lane::Zero();
+    for (Eigen::Index c = 0; c < 8; ++c) {
+      product += own[static_cast<std::size_t>(c)] * Coefficient(k, c);
+    }
+    return product;
   }
 
   std::vector<RowGroup> groups;
