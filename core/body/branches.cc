@@ -18,6 +18,7 @@ struct Merge {
 
 // A vertex next to one that lies farther out and belongs to another tip.
 struct Saddle {
+  double level = 0.0;
   std::uint32_t vertex = 0;
   std::uint32_t other_tip = 0;
 };
@@ -70,14 +71,15 @@ std::vector<Merge> MergesFromTheTop(const SurfaceGraph& graph, std::span<const d
     Saddles found;
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
       for (const std::uint32_t n : graph.Neighbours(v)) {
-        if (tip[n] != tip[v] && is_farther(n, v)) found.list.push_back({v, tip[n]});
+        if (tip[n] == tip[v] || !is_farther(n, v)) continue;
+        found.list.push_back({distance[v], v, tip[n]});
       }
     }
     return found;
   };
   std::vector<Saddle> saddles = SumOverChunks(pool, tip.size(), Saddles{}, saddles_in).list;
   std::stable_sort(saddles.begin(), saddles.end(), [&](const Saddle& a, const Saddle& b) {
-    return is_farther(a.vertex, b.vertex);
+    return a.level != b.level ? a.level > b.level : a.vertex < b.vertex;
   });
   std::vector<std::uint32_t> survivor(tip.size());  // of each tip
   std::iota(survivor.begin(), survivor.end(), 0u);
@@ -87,7 +89,7 @@ std::vector<Merge> MergesFromTheTop(const SurfaceGraph& graph, std::span<const d
     std::uint32_t b = FollowLinks(survivor, saddle.other_tip);
     if (a == b) continue;
     if (is_farther(b, a)) std::swap(a, b);
-    merges.push_back({b, a, distance[saddle.vertex]});
+    merges.push_back({b, a, saddle.level});
     survivor[b] = a;
   }
   return merges;

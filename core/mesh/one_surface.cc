@@ -1,6 +1,7 @@
 #include "core/mesh/one_surface.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -36,11 +37,16 @@ std::optional<std::vector<std::uint32_t>> LowestInRings(std::span<const Triangle
                                                         std::span<const HalfEdge> mates,
                                                         std::size_t vertex_count,
                                                         const ThreadPool& pool) {
+  // One of each vertex, whichever: a ring is the same from all of its corners.
   std::vector<HalfEdge> corner(vertex_count, kNoMate);
-  HalfEdge h = 0;
-  for (const Triangle& t : triangles) {
-    for (const std::uint32_t v : t) corner[v] = h++;
-  }
+  pool.ForChunks(triangles.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    auto h = static_cast<HalfEdge>(3 * begin);
+    for (const Triangle& t : triangles.subspan(begin, end - begin)) {
+      for (const std::uint32_t v : t) {
+        std::atomic_ref(corner[v]).store(h++, std::memory_order_relaxed);
+      }
+    }
+  });
   std::vector<std::uint32_t> lowest_around(vertex_count);
   const auto walk = [&](std::size_t begin, std::size_t end) {
     std::size_t corners = 0;

@@ -97,8 +97,8 @@ class MeshMender {
   void Triangulate() {
     TriangulatedFaces faces =
         is_left_out_.empty()
-            ? TriangulateFaces(soup_, positions_)
-            : TriangulateFaces(formats::WithFaces(soup_, is_left_out_, 0), positions_);
+            ? TriangulateFaces(soup_, positions_, pool_)
+            : TriangulateFaces(formats::WithFaces(soup_, is_left_out_, 0), positions_, pool_);
     surface_.triangles = std::move(faces.triangles);
     degenerate_ = faces.degenerate;
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/chunk_sums.h"
 #include "core/mesh/triangulate_loop.h"
 
 namespace capfit::mesh {
@@ -22,8 +23,9 @@ constexpr std::size_t kManyFolded = 100;
 
 class FaceTriangulator {
  public:
-  FaceTriangulator(const formats::PolygonSoup& soup, std::span<const Eigen::Vector3d> positions)
-      : soup_(soup), positions_(positions) {
+  FaceTriangulator(const formats::PolygonSoup& soup, std::span<const Eigen::Vector3d> positions,
+                   const ThreadPool& pool)
+      : soup_(soup), positions_(positions), pool_(pool) {
     if (!soup.face_sizes.empty()) result_.triangles.reserve(soup.face_vertices.size() / 3);
   }
 
@@ -43,10 +45,16 @@ class FaceTriangulator {
   void TakeTriangles() {
     const std::span<const std::uint32_t> corners = soup_.face_vertices;
     result_.triangles.resize(corners.size() / 3);
-    for (std::size_t t = 0; t < result_.triangles.size(); ++t) {
-      result_.triangles[t] = {corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]};
-    }
-    result_.degenerate = std::erase_if(result_.triangles, IsDegenerate);
+    const auto take = [&](std::size_t begin, std::size_t end) {
+      std::size_t degenerate = 0;
+      for (std::size_t t = begin; t < end; ++t) {
+        result_.triangles[t] = {corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]};
+        degenerate += IsDegenerate(result_.triangles[t]) ? 1 : 0;
+      }
+      return degenerate;
+    };
+    result_.degenerate = SumOverChunks(pool_, result_.triangles.size(), std::size_t{0}, take);
+    if (result_.degenerate > 0) std::erase_if(result_.triangles, IsDegenerate);
   }
 
   static bool IsDegenerate(const Triangle& t) {
@@ -120,6 +128,7 @@ class FaceTriangulator {
 
   const formats::PolygonSoup& soup_;
   std::span<const Eigen::Vector3d> positions_;
+  const ThreadPool& pool_;
   TriangulatedFaces result_;
   std::vector<Eigen::Vector3d> points_;
   std::size_t steps_left_ = kMostCuttingSteps;
@@ -129,8 +138,9 @@ class FaceTriangulator {
 }  // namespace
 
 TriangulatedFaces TriangulateFaces(const formats::PolygonSoup& soup,
-                                   std::span<const Eigen::Vector3d> positions) {
-  return FaceTriangulator(soup, positions).Run();
+                                   std::span<const Eigen::Vector3d> positions,
+                                   const ThreadPool& pool) {
+  return FaceTriangulator(soup, positions, pool).Run();
 }
 
 }  // namespace capfit::mesh

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/formats/polygon_soup.h"
 #include "core/mesh/body_mesh.h"
 
@@ -33,9 +34,11 @@ struct TriangulatedFaces {
 //
 // Larger faces often have inward corners: they get the triangulation of least area
 // (beyond some millions of corners or some hundreds in one face, one by cutting ears). `soup` is
-// checked; `positions` stand for its own. O(corners) for the usual sizes of faces.
+// checked; `positions` stand for its own. O(corners) for the usual sizes of faces; a mesh of
+// nothing but triangles is taken by all threads.
 [[nodiscard]] TriangulatedFaces TriangulateFaces(const formats::PolygonSoup& soup,
-                                                 std::span<const Eigen::Vector3d> positions);
+                                                 std::span<const Eigen::Vector3d> positions,
+                                                 const ThreadPool& pool = ThreadPool(1));
 
 }  // namespace capfit::mesh
 

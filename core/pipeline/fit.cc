@@ -88,8 +88,8 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
-  // What covering takes from the body alone is made beside the first step of Build that does not
-  // keep all threads busy all the time.
+  // What covering and naming take from the body alone is made beside the first step of Build that
+  // does not keep all threads busy all the time.
   template <typename Work>
   void BesideCoverGround(const Work& work) {
     if (std::exchange(has_cover_ground_, true)) return work();
@@ -98,6 +98,7 @@ class BodyFit {
         options_.polygon_error ? kUsualPrimitives : TotalBudget(options_).UsualPrimitives();
     Backlog ground(pool_, clock_);
     ground.Add(1, [this, primitives](std::size_t) { LayCoverGround(primitives); });
+    ground.Add(1, [this](std::size_t) { skeleton_.emplace(*body_); });
     ground.Beside(work);
     ground.Finish();
   }
@@ -332,7 +333,7 @@ class BodyFit {
   absl::Status Bind(const formats::PolygonSoup& soup) {
     result_.primitives = ToCallerFrame(set_, caller_from_body_);
     result_.sphere_names = options_.layout ? NamesOf(*options_.layout) : SphereNames(*body_, set_);
-    result_.sphere_places = refine::PlacesOf(*body_, set_);
+    result_.sphere_places = refine::PlacesOf(*skeleton_, set_);
     if (!options_.want_polygons || IsSearched()) {
       // An index of a polygon that is not in the result would say nothing.
       for (capsule::SphereOrigin& origin : result_.primitives.origins) origin.polygon = -1;
@@ -364,6 +365,7 @@ class BodyFit {
   bool has_cover_ground_ = false;
   std::optional<coverage::CoverGround> cover_ground_;
   std::optional<metrics::MeasureGround> measure_ground_;
+  std::optional<refine::Skeleton> skeleton_;
   capsule::PrimitiveSet set_;
   // The published method's, beside set_: the smaller one is taken, once both cover.
   std::optional<capsule::PrimitiveSet> papers_;

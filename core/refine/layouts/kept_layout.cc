@@ -179,9 +179,8 @@ std::optional<BoneId> BoneByName(std::string_view name) {
   return static_cast<BoneId>(found - kBoneNames.begin());
 }
 
-std::vector<std::optional<BodyPlace>> PlacesOf(const body::Body& body,
+std::vector<std::optional<BodyPlace>> PlacesOf(const Skeleton& skeleton,
                                                const capsule::PrimitiveSet& set) {
-  const Skeleton skeleton(body);
   std::vector<std::optional<BodyPlace>> places(set.spheres.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     const geometry::Sphere& sphere = set.spheres[i];

@@ -49,8 +49,8 @@ struct KeptLayout {
 [[nodiscard]] std::optional<BoneId> BoneByName(std::string_view name);
 
 // The place of each sphere of `set` (body frame): on the nearest bone of its part, in the bones'
-// own radii, else on the nearest of all. O(bones * spheres + vertices).
-[[nodiscard]] std::vector<std::optional<BodyPlace>> PlacesOf(const body::Body& body,
+// own radii, else on the nearest of all. O(bones * spheres).
+[[nodiscard]] std::vector<std::optional<BodyPlace>> PlacesOf(const Skeleton& skeleton,
                                                              const capsule::PrimitiveSet& set);
 
 // INVALID_ARGUMENT naming the sphere or capsule ("layout.spheres[3].mirror is 40, must be below
