@@ -59,7 +59,7 @@ TEST(KeptLayout, HangsEverySphereByItsNumberWithItsImage) {
 TEST(KeptLayout, PlacesLeadBackToWhereTheSpheresWere) {
   const capsule::PrimitiveSet set = HangLayout(Standard(), Tall())->set();
   KeptLayout layout = Standard();
-  const auto places = PlacesOf(Tall(), set);
+  const auto places = PlacesOf(Skeleton(Tall()), set);
   for (std::size_t v = 0; v < places.size(); ++v) layout.spheres[v].place = places[v];
   const auto again = HangLayout(layout, Tall());
   ASSERT_TRUE(again.ok()) << again.status();
