@@ -173,36 +173,36 @@ class Coarsener {
 
   // Nodes that others leave no triangle of their own join a neighbour.
   void AbsorbLoneNodes() {
-    std::vector<std::uint32_t> heir(node_count_, kNone);
+    std::vector<std::uint32_t> joins(node_count_, kNone);
     for (const std::uint32_t i : chosen_) {
-      for (const std::uint32_t n : NodesOf(i)) heir[n] = n;
+      for (const std::uint32_t n : NodesOf(i)) joins[n] = n;
     }
-    if (std::find(heir.begin(), heir.end(), kNone) == heir.end()) return;
+    if (std::find(joins.begin(), joins.end(), kNone) == joins.end()) return;
     for (std::uint32_t v = 0; v < node_.size(); ++v) {
-      if (heir[node_[v]] != kNone) continue;
+      if (joins[node_[v]] != kNone) continue;
       for (std::uint32_t i = copy_.first_triangle[v]; i < copy_.first_triangle[v + 1]; ++i) {
         for (const std::uint32_t n : NodesOf(i)) {
-          if (heir[n] != kNone) heir[node_[v]] = heir[n];
+          if (joins[n] != kNone) joins[node_[v]] = joins[n];
         }
       }
     }
-    if (std::find(heir.begin(), heir.end(), kNone) != heir.end()) AskAllTriangles(heir);
+    if (std::find(joins.begin(), joins.end(), kNone) != joins.end()) AskAllTriangles(joins);
     std::vector<std::uint32_t> number(node_count_, 0);
     node_count_ = 0;
-    for (std::uint32_t n = 0; n < heir.size(); ++n) {
-      if (heir[n] == n || heir[n] == kNone) number[n] = node_count_++;
+    for (std::uint32_t n = 0; n < joins.size(); ++n) {
+      if (joins[n] == n || joins[n] == kNone) number[n] = node_count_++;
     }
-    for (std::uint32_t& n : node_) n = number[heir[n] == kNone ? n : heir[n]];
+    for (std::uint32_t& n : node_) n = number[joins[n] == kNone ? n : joins[n]];
   }
 
   // Of nodes whose neighbours all come before them.
-  void AskAllTriangles(std::vector<std::uint32_t>& heir) const {
+  void AskAllTriangles(std::vector<std::uint32_t>& joins) const {
     for (std::size_t i = 0; i < place_.size(); ++i) {
       const mesh::Triangle t = NodesOf(i);
       for (const std::uint32_t n : t) {
-        if (heir[n] != kNone) continue;
+        if (joins[n] != kNone) continue;
         for (const std::uint32_t other : t) {
-          if (heir[other] != kNone) heir[n] = heir[other];
+          if (joins[other] != kNone) joins[n] = joins[other];
         }
       }
     }

@@ -416,21 +416,21 @@ constexpr auto kPlainestFullEdges =
 
 // 20 + 12 for enclosing, with head, hands and feet.
 constexpr auto kShellFull32Nodes = std::to_array<LayoutNode>({
-    {BoneId::kChest, {0.35, 0.4, 0.4}, 1.0, true},       // 0
-    {BoneId::kRibs, {0.99, 0.0, -0.1}, 1.9, false},      // 1
-    {BoneId::kChest, {0.80, 0.0, -0.2}, 1.5, false},     // 2
-    {BoneId::kUpperArm, {0.06, -0.1, -0.1}, 1.4, true},  // 3
-    {BoneId::kHand, {0.42, -0.1, -0.2}, 1.2, true},      // 4
-    {BoneId::kBelly, {0.26, 0.5, 0.0}, 1.4, true},       // 5
-    {BoneId::kThigh, {0.66, 0.0, 0.2}, 1.1, true},       // 6
-    {BoneId::kHeel, {0.40, 0.0, -0.5}, 2.1, true},       // 7
-    {BoneId::kHand, {0.65, -0.2, 0.4}, 2.5, true},       // 8
-    {BoneId::kHead, {0.63, 0.0, 0.2}, 1.8, false},       // 9
-    {BoneId::kHead, {0.45, 0.0, 1.2}, 1.2, false},       // 10
-    {BoneId::kFoot, {0.90, 0.0, 0.3}, 1.7, true},        // 11
+    {BoneId::kRibs, {1.20, 0.49, 0.18}, 0.91, true},        // 0
+    {BoneId::kRibs, {1.02, 0.00, -0.04}, 1.84, false},      // 1
+    {BoneId::kChest, {0.68, 0.00, -0.16}, 1.54, false},     // 2
+    {BoneId::kUpperArm, {0.21, -0.05, -0.07}, 1.27, true},  // 3
+    {BoneId::kHand, {0.92, -0.30, -0.40}, 1.11, true},      // 4
+    {BoneId::kBelly, {0.26, 0.54, -0.05}, 1.35, true},      // 5
+    {BoneId::kThigh, {0.50, -0.07, 0.20}, 1.24, true},      // 6
+    {BoneId::kShin, {1.63, -0.00, -0.11}, 0.84, true},      // 7
+    {BoneId::kHand, {0.56, -0.26, 1.35}, 1.58, true},       // 8
+    {BoneId::kHead, {0.65, 0.00, 0.17}, 1.74, false},       // 9
+    {BoneId::kHead, {0.46, 0.00, 0.55}, 1.76, false},       // 10
+    {BoneId::kFoot, {0.91, -0.05, 0.31}, 1.50, true},       // 11
 });
 constexpr auto kShellFull32Edges = std::to_array<LayoutEdge>(
-    {{5, 6, false}, {6, 7, false}, {3, 4, false}, {7, 11, false}, {0, 5, false}, {2, 3, false}});
+    {{6, 7, false}, {3, 4, false}, {7, 11, false}, {0, 5, false}, {5, 6, false}, {2, 3, false}});
 
 // 32 + 31 for enclosing, with head, hands and feet.
 constexpr auto kShellFull64Nodes = std::to_array<LayoutNode>({
