@@ -57,7 +57,7 @@ constexpr tighten::TightenPhase kQuickLoosening{.steps = 10,
 // vertices is looked for anew. (Nine steps with three such looks, as many as they were, lead to the
 // same E_r. So do programmes solved to a gap, or not as near to the central path's end, but where
 // their iterations end hangs on the last digits: of 160 made bodies whose vertices are rounded to
-// floats 92 keep their spheres to a tenth of a millimetre, and 7 with a centrality of 3e-4;
+// floats 95 keep their spheres to a tenth of a millimetre, and 7 with a centrality of 3e-4;
 // tests/bench/rounding_trials. Longer first steps win .1 % with found shapes, which move less well
 // with a skeleton then.)
 constexpr std::array kTightTrusts = {0.004, 0.0028, 0.002, 0.0014, 0.001};

@@ -31,6 +31,8 @@ constexpr double kCentring = 0.03;
 // less three bodies of ten move by more than a hundredth of a millimetre when vertices are rounded
 // to floats, with 1e-5 one.
 constexpr double kAtCentre = 1e-5;
+// Iterations in doubles from there: with one, few of its digits are the floats' own, with two none.
+constexpr int kPolishing = 2;
 
 // The longest step in [0, most] that goes `share` of the way to the boundary at most; `worst` is
 // the largest of -change / value.
@@ -76,10 +78,10 @@ class InteriorPoint {
     return d_;
   }
 
-  // The point of the central path, from one that is nearly it: each step doubles the right digits.
+  // The point of the central path, from one that is nearly it.
   Eigen::VectorXd Polish(Eigen::VectorXd d) {
     StartOnPath(std::move(d));
-    Iterate();
+    for (int i = 0; i < kPolishing; ++i) Iterate();
     return d_;
   }
 

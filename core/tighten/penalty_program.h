@@ -41,7 +41,7 @@ struct SolveTo {
 // Primal-dual interior point with predictor and corrector (Mehrotra 1992); the rows' slacks are
 // eliminated, so that each iteration costs 36 products a row and one Cholesky factorisation by
 // blocks. Ten to twenty iterations, about 20 ns a row each; from a gap of a hundredth on, and for a
-// centrality all but the last one, rows are reckoned in floats, which takes half as long. The
+// centrality all but the last two, rows are reckoned in floats, which takes half as long. The
 // bounds hold strictly. Deterministic.
 [[nodiscard]] Eigen::VectorXd Solve(const PenaltyProgram& program, const SolveTo& to = {});
 
