@@ -31,7 +31,7 @@ constexpr double kCentring = 0.03;
 // less three bodies of ten move by more than a hundredth of a millimetre when vertices are rounded
 // to floats, with 1e-5 one.
 constexpr double kAtCentre = 1e-5;
-// Iterations in doubles from there: with one, few of its digits are the floats' own, with two none.
+// Iterations in doubles from there: after one, the last digits are still those of floats.
 constexpr int kPolishing = 2;
 
 // The longest step in [0, most] that goes `share` of the way to the boundary at most; `worst` is
