@@ -51,6 +51,31 @@ TEST(ApproximatePolygonTest, CoversRandomOutlinesWithTheAskedNumber) {
   }
 }
 
+TEST(ApproximatePolygonTest, DraftsCoverAndWasteLittleMore) {
+  Random random(57);
+  double best = 0.0;
+  double drafts = 0.0;
+  for (int scene = 0; scene < 40; ++scene) {
+    const section::FeaturePolygon polygon =
+        AsFeature(scene % 2 == 0 ? RandomStar(random, 40, 0.5) : MirroredTrunk(random, 96, 0.2));
+    const int count = 2 + scene % 4;
+    const PolygonApproximation draft =
+        ApproximatePolygon(polygon, count, DraftOptions({}), kObserver);
+    EXPECT_EQ(static_cast<int>(draft.circles.size()), count);
+    ExpectCovers(draft, polygon.outline, random);
+    drafts += draft.outside_area_m2;
+    best += ApproximatePolygon(polygon, count, {}, kObserver).outside_area_m2;
+  }
+  EXPECT_LT(drafts, 1.2 * best);
+  EXPECT_GT(drafts, best);
+}
+
+TEST(ApproximatePolygonTest, DraftsKeepWhatElseIsAsked) {
+  const CircleOptions draft = DraftOptions({.symmetric = true, .seed = 7});
+  EXPECT_TRUE(draft.symmetric);
+  EXPECT_EQ(draft.seed, 7u);
+}
+
 TEST(ApproximatePolygonTest, OneCircleIsTheSmallestEnclosingOne) {
   const PolygonApproximation result =
       ApproximatePolygon(AsFeature(Ellipse(0.3, 0.2, 64)), 1, {}, kObserver);
