@@ -24,7 +24,7 @@ constexpr double kCoverageToleranceM = 1e-9;
 constexpr double kSplitAllowance = 1.25;
 
 // Settings of drafts. Over 19 bodies at six resolutions and 22 to 150 primitives, tightened from
-// drafts, E_r is the same to .4 % on average as from the best circles.
+// drafts, E_r is the same to half a per cent on average as from the best circles.
 constexpr int kDraftPoints = 50;
 constexpr int kDraftIterations = 3;
 
