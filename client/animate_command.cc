@@ -92,7 +92,7 @@ absl::StatusOr<AnyWeights> OneJointWeights(const ResultSkinning& skinning,
   std::vector<std::int32_t> joints = skinning.sphere_joints;
   for (std::size_t k = 0; k < result.capsules.size(); ++k) {
     for (const int end : result.capsules[k]) {
-      centers.push_back(result.spheres[static_cast<std::size_t>(end)].center_m);
+      centers.push_back(result.spheres[end].center_m);
       joints.push_back(skinning.capsule_joints[k]);
     }
   }
@@ -129,7 +129,7 @@ absl::StatusOr<CarriedSet> ReadCarried(const AnimateArguments& arguments) {
   for (const geometry::Sphere& sphere : result.spheres) set.radii.push_back(sphere.radius_m);
   if (arguments.is_one_joint) {
     for (const std::array<int, 2>& ends : result.capsules) {
-      for (const int end : ends) set.radii.push_back(set.radii[static_cast<std::size_t>(end)]);
+      for (const int end : ends) set.radii.push_back(set.radii[end]);
     }
   }
   set.sphere_count = result.spheres.size();

@@ -63,7 +63,7 @@ void AddPrimitives(const pipeline::FitResult& result, ordered_json& root) {
   if (HasPolygons(result)) root["sphere_polygons"] = polygons;
   ordered_json& capsule_parts = root["capsule_parts"] = ordered_json::array();
   for (const capsule::CapsuleEnds& ends : set.capsules) {
-    const auto part = [&](int end) { return set.origins[static_cast<std::size_t>(end)].part; };
+    const auto part = [&](int end) { return set.origins[end].part; };
     capsule_parts.push_back(PartJson(std::max(part(ends[0]), part(ends[1]))));
   }
 }

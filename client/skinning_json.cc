@@ -100,8 +100,7 @@ absl::StatusOr<formats::NamedJoint> ParseJoint(const json& value, std::size_t jo
   CAPFIT_ASSIGN_OR_RETURN(const json* const to_mesh, ListAt(value, "to_mesh", field + ".", 12, 12));
   for (int i = 0; i < 12; ++i) {
     CAPFIT_ASSIGN_OR_RETURN(joint.to_mesh(i / 4, i % 4),
-                            FiniteNumber((*to_mesh)[static_cast<std::size_t>(i)],
-                                         absl::StrCat(field, ".to_mesh[", i, "]")));
+                            FiniteNumber((*to_mesh)[i], absl::StrCat(field, ".to_mesh[", i, "]")));
   }
   joint.position = joint.to_mesh.col(3);
   joint.bind = joint.to_mesh;
@@ -191,8 +190,7 @@ absl::StatusOr<skinning::BoneWeights> ParseBones(const json& value, std::size_t 
       }
       Eigen::Vector3d offset;
       for (int axis = 0; axis < 3; ++axis) {
-        CAPFIT_ASSIGN_OR_RETURN(offset[axis],
-                                FiniteNumber((*offsets)[i][static_cast<std::size_t>(axis)], path));
+        CAPFIT_ASSIGN_OR_RETURN(offset[axis], FiniteNumber((*offsets)[i][axis], path));
       }
       weights.offsets.push_back(offset);
     }

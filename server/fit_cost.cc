@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/enum_index.h"
+
 namespace capfit::server {
 namespace {
 
@@ -19,7 +21,7 @@ constexpr double kMaxFactor = 1000.0;
 double FirstGuess(const FitSize& size) {
   double seconds = kSmallestSeconds +
                    kSecondsPerFace * static_cast<double>(std::max<std::int64_t>(0, size.faces));
-  seconds *= kQualityFactors[static_cast<std::size_t>(size.quality)];
+  seconds *= kQualityFactors[Index(size.quality)];
   if (size.is_dense) seconds *= kDenseFactor;
   return seconds;
 }

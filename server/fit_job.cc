@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 #include "core/base/version.h"
 #include "core/export/export.h"
@@ -48,7 +49,7 @@ std::string WordsOf(const pipeline::FitOptions& options) {
   if (!options.engine.empty()) absl::StrAppend(&words, " engine=", options.engine);
   if (options.layout) absl::StrAppend(&words, " layout");
   constexpr const char* kSkinning[] = {"", " dense", " sparse", " bones"};
-  absl::StrAppend(&words, kSkinning[static_cast<std::size_t>(options.skinning)]);
+  absl::StrAppend(&words, kSkinning[Index(options.skinning)]);
   for (const pipeline::ExportWish& wish : options.exports) {
     absl::StrAppend(&words, " export=", wish.format);
   }

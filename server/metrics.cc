@@ -175,7 +175,7 @@ void Metrics::Count(const CallRecord& record) {
     parts_->refused.Add({{"reason", RefusalOf(record.status)}}).Increment();
   }
   for (int i = 0; i < kStageCount; ++i) {
-    const double seconds = record.stage_seconds[static_cast<std::size_t>(i)];
+    const double seconds = record.stage_seconds[i];
     if (seconds <= 0.0) continue;
     const std::string stage(StageName(static_cast<Stage>(i)));
     parts_->stage_seconds.Add({{"stage", stage}}, SecondsBuckets()).Observe(seconds);

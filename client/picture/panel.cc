@@ -80,13 +80,13 @@ class Painter {
   [[nodiscard]] std::optional<Color> BodyColor(int i, int j) const {
     const Hit& hit = body_.at(i, j);
     if (hit.id < 0) return std::nullopt;
-    const mesh::Triangle& t = figure_.triangles[static_cast<std::size_t>(hit.id)];
+    const mesh::Triangle& t = figure_.triangles[hit.id];
     const Vector3d weights = Barycentric(t, i, j);
     Vector3d normal = Vector3d::Zero();
     double gap = 0.0;
     double fitted = 0.0;
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t vertex = t[static_cast<std::size_t>(k)];
+      const std::uint32_t vertex = t[k];
       normal += weights[k] * normals_[vertex];
       if (!gaps_.empty()) gap += weights[k] * gaps_[vertex];
       if (figure_.is_fitted.empty() || figure_.is_fitted[vertex]) fitted += weights[k];
@@ -104,13 +104,13 @@ class Painter {
   }
 
   [[nodiscard]] const Color& SolidColor(int i, int j) const {
-    return figure_.solid_colors[static_cast<std::size_t>(set_.at(i, j).id)];
+    return figure_.solid_colors[set_.at(i, j).id];
   }
   [[nodiscard]] Color SetColor(int i, int j) const {
     const Hit& hit = set_.at(i, j);
     const Vector3d point =
         view_.PointAt(i + 0.5, j + 0.5) + static_cast<double>(hit.depth) * view_.toward_eye();
-    const auto& solid = figure_.solids[static_cast<std::size_t>(hit.id)];
+    const auto& solid = figure_.solids[hit.id];
     return Lit(SolidColor(i, j), view_.Turn(solid.Locate(point).normal));
   }
 

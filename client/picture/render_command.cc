@@ -25,6 +25,7 @@
 #include "client/picture/result_set.h"
 #include "client/picture/result_words.h"
 #include "client/word_option.h"
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 #include "core/metrics/measure.h"
 
@@ -264,7 +265,7 @@ void MeasureGaps(const Inputs& in, const body::Body& body, const ThreadPool& poo
       metrics::SignedGaps(body, InBodyFrame(in.result, frame), PartsOfResult(in.result), pool);
   for (const std::int32_t vertex : body.enclosed().vertex_of_source) {
     figure.gaps.push_back(vertex < 0 ? std::numeric_limits<double>::quiet_NaN()
-                                     : gaps_m[static_cast<std::size_t>(vertex)] / frame.scale);
+                                     : gaps_m[vertex] / frame.scale);
   }
 }
 
@@ -279,8 +280,8 @@ std::vector<bool> FittedVertices(const ResultSet& result, const body::Body& body
       is_fitted.push_back(!body.shells.has_value());
       continue;
     }
-    const body::Segment segment = surface.vertex_segments[static_cast<std::size_t>(vertex)];
-    is_fitted.push_back(parts[static_cast<std::size_t>(body::PartOf(segment))]);
+    const body::Segment segment = surface.vertex_segments[vertex];
+    is_fitted.push_back(parts[Index(body::PartOf(segment))]);
   }
   return is_fitted;
 }

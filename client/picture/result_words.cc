@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/picture/result_body.h"
+#include "core/base/enum_index.h"
 
 namespace capfit::client {
 namespace {
@@ -60,7 +61,7 @@ PartFlags FittedParts(const ResultSet& result) {
 PartFlags PartsOnBody(const body::Body& body) {
   PartFlags there{};
   for (const body::Segment segment : body.vertex_segments) {
-    there[static_cast<std::size_t>(body::PartOf(segment))] = true;
+    there[Index(body::PartOf(segment))] = true;
   }
   return there;
 }

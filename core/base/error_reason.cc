@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "core/base/enum_index.h"
+
 namespace capfit {
 namespace {
 
@@ -46,15 +48,13 @@ constexpr std::array kReasons = {
     KnownReason{ErrorReason::kFitTooLong, "FIT_TOO_LONG", StatusCode::kDeadlineExceeded},
     KnownReason{ErrorReason::kInternal, "INTERNAL", StatusCode::kInternal},
 };
-static_assert(kReasons.size() == static_cast<std::size_t>(ErrorReason::kInternal) + 1);
+static_assert(kReasons.size() == Index(ErrorReason::kInternal) + 1);
 
 }  // namespace
 
 std::span<const KnownReason> ErrorReasons() { return kReasons; }
 
-std::string_view ErrorReasonName(ErrorReason reason) {
-  return kReasons[static_cast<std::size_t>(reason)].name;
-}
+std::string_view ErrorReasonName(ErrorReason reason) { return kReasons[Index(reason)].name; }
 
 std::optional<ErrorReason> ErrorReasonFromName(std::string_view name) {
   const auto found = std::find_if(kReasons.begin(), kReasons.end(),

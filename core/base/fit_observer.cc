@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 
 namespace capfit {
@@ -9,7 +10,7 @@ namespace capfit {
 std::string_view StageName(Stage stage) {
   static constexpr std::array<std::string_view, kStageCount> kNames = {
       "mesh", "body", "section", "circle", "capsule", "refine", "coverage", "metrics", "skinning"};
-  return kNames[static_cast<std::size_t>(stage)];
+  return kNames[Index(stage)];
 }
 
 absl::Status CheckCancelled(const FitObserver& observer) {

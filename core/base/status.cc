@@ -5,6 +5,7 @@
 
 #include "absl/strings/cord.h"
 #include "absl/strings/str_split.h"
+#include "core/base/enum_index.h"
 
 namespace capfit {
 namespace {
@@ -45,7 +46,7 @@ std::vector<std::vector<std::string>> RowsOf(const absl::Status& status, const c
 }  // namespace
 
 absl::Status Refused(ErrorReason reason, const std::string& message, const ErrorFacts& facts) {
-  const KnownReason& known = ErrorReasons()[static_cast<std::size_t>(reason)];
+  const KnownReason& known = ErrorReasons()[Index(reason)];
   absl::Status status(known.code, message);
   status.SetPayload(kReasonUrl, absl::Cord(std::string(known.name)));
   std::string text;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/enum_index.h"
+
 namespace capfit::body {
 namespace {
 
@@ -43,7 +45,7 @@ constexpr std::array<std::string_view, kLandmarkCount> kLandmarkNames = {"head_t
 
 }  // namespace
 
-std::string_view PartName(Part part) { return kPartNames[static_cast<std::size_t>(part)]; }
+std::string_view PartName(Part part) { return kPartNames[Index(part)]; }
 
 std::optional<Part> PartFromName(std::string_view name) {
   const auto found = std::find(kPartNames.begin(), kPartNames.end(), name);
@@ -51,9 +53,7 @@ std::optional<Part> PartFromName(std::string_view name) {
   return static_cast<Part>(found - kPartNames.begin());
 }
 
-std::string_view SegmentName(Segment segment) {
-  return kSegmentNames[static_cast<std::size_t>(segment)];
-}
+std::string_view SegmentName(Segment segment) { return kSegmentNames[Index(segment)]; }
 
 Part PartOf(Segment segment) {
   switch (segment) {
@@ -116,9 +116,7 @@ bool PartSelection::Includes(Part part) const {
   return false;
 }
 
-std::string_view LandmarkName(LandmarkId id) {
-  return kLandmarkNames[static_cast<std::size_t>(id)];
-}
+std::string_view LandmarkName(LandmarkId id) { return kLandmarkNames[Index(id)]; }
 
 std::optional<LandmarkId> LandmarkFromName(std::string_view name) {
   for (std::size_t i = 0; i < kLandmarkNames.size(); ++i) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/base/warning.h"
 #include "core/body/anatomy.h"
 #include "core/geometry/similarity.h"
@@ -82,10 +83,10 @@ struct Body {
   }
   EnclosedSurface enclosed() && = delete;
   [[nodiscard]] const std::optional<Landmark>& landmark(LandmarkId id) const {
-    return landmarks[static_cast<std::size_t>(id)];
+    return landmarks[Index(id)];
   }
   [[nodiscard]] const std::optional<MedialCurve>& chain(Part part) const {
-    return chains[static_cast<std::size_t>(part)];
+    return chains[Index(part)];
   }
 };
 

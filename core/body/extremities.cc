@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/enum_index.h"
 #include "core/body/tip_roles.h"
 
 namespace capfit::body {
@@ -196,8 +197,8 @@ Extremities FromSources(const std::vector<GeodesicSource>& sources,
     const Branch& branch = branches[candidates[candidate].branch];
     Limb limb = {branch.tip, 0.0, branch.tip_distance, {}, {}};
     const auto [left, right] = EndsOf(static_cast<Tip>(role));
-    const bool holds_left = candidates[candidate].holds[static_cast<std::size_t>(left)];
-    const bool holds_right = candidates[candidate].holds[static_cast<std::size_t>(right)];
+    const bool holds_left = candidates[candidate].holds[Index(left)];
+    const bool holds_right = candidates[candidate].holds[Index(right)];
     if (holds_left != holds_right) limb.is_left = holds_left;
     for (const int other : found.candidates) {
       if (other < 0 || other == candidate) continue;

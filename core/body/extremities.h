@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/base/fit_observer.h"
 #include "core/body/branches.h"
 #include "core/body/rig_ends.h"
@@ -34,9 +35,7 @@ struct Extremities {
   std::array<std::optional<Limb>, kTipCount> limbs;
   double misfit = 0.0;  // how far the proportions are from a body's; 0.1 is usual
 
-  [[nodiscard]] const std::optional<Limb>& limb(Tip tip) const {
-    return limbs[static_cast<std::size_t>(tip)];
-  }
+  [[nodiscard]] const std::optional<Limb>& limb(Tip tip) const { return limbs[Index(tip)]; }
   [[nodiscard]] int found() const;
 };
 

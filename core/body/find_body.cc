@@ -217,7 +217,7 @@ mesh::BodyMesh MeshInBodyFrame(const mesh::BodyMesh& mesh, WorkingCopy copy,
   std::vector<std::int32_t> vertex_of_source(mesh.vertex_of_source().size());
   for (std::size_t i = 0; i < vertex_of_source.size(); ++i) {
     const std::int32_t v = mesh.vertex_of_source()[i];
-    vertex_of_source[i] = v < 0 ? -1 : place[static_cast<std::size_t>(v)];
+    vertex_of_source[i] = v < 0 ? -1 : place[v];
   }
   return mesh::BodyMesh(std::move(vertices), std::move(copy.triangles), std::move(vertex_of_source),
                         std::move(copy.mates), pool);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 #include "core/body/limb_landmarks.h"
 #include "core/body/shoulder_landmarks.h"

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/enum_index.h"
+
 namespace capfit::body {
 namespace {
 
@@ -140,8 +142,8 @@ void Symmetrise(std::array<std::optional<MedialCurve>, kChainCount>& chains) {
     *chains[0] = CurveThrough(chains[0]->points_m);
   }
   for (const Part part : {Part::kLeftArm, Part::kLeftLeg}) {
-    auto& left = chains[static_cast<std::size_t>(part)];
-    auto& right = chains[static_cast<std::size_t>(MirrorPart(part))];
+    auto& left = chains[Index(part)];
+    auto& right = chains[Index(MirrorPart(part))];
     if (!left || !right) continue;
     for (std::size_t i = 0; i < left->points_m.size(); ++i) {
       left->points_m[i] = 0.5 * (left->points_m[i] + Mirrored(right->points_m[i]));

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/body/extremities.h"
 
 namespace capfit::body {
@@ -24,7 +25,7 @@ struct Rings {
   LevelCentroids trunk;
 
   [[nodiscard]] const std::optional<LevelCentroids>& limb(Tip tip) const {
-    return limbs[static_cast<std::size_t>(tip)];
+    return limbs[Index(tip)];
   }
 };
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
@@ -85,10 +86,7 @@ void VisitVertices(const Shape& shape, const Limb& limb, const Visit& visit) {
 using Landmarks = std::array<std::optional<Landmark>, kLandmarkCount>;
 
 // The landmark of a pair on a side: Sided(kLeftWrist, kRight) is the right wrist.
-[[nodiscard]] inline std::size_t Sided(LandmarkId left, int side) {
-  return static_cast<std::size_t>(left) + static_cast<std::size_t>(side);
-}
-[[nodiscard]] inline std::size_t Index(LandmarkId id) { return static_cast<std::size_t>(id); }
+[[nodiscard]] inline std::size_t Sided(LandmarkId left, int side) { return Index(left) + side; }
 
 // Enters a landmark that was found, unless the caller or a skeleton has told it.
 inline void Put(Landmarks& landmarks, std::size_t index, const Eigen::Vector3d& position_m,

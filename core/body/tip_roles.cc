@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/enum_index.h"
+
 namespace capfit::body {
 namespace {
 
@@ -150,8 +152,7 @@ class RoleFinder {
       if (roles_[role] < 0) continue;
       const auto [first, last] = EndsOf(static_cast<Tip>(role));
       const std::array<bool, kRigEndCount>& holds = candidates_[roles_[role]].holds;
-      const bool holds_its_end =
-          holds[static_cast<std::size_t>(first)] || holds[static_cast<std::size_t>(last)];
+      const bool holds_its_end = holds[Index(first)] || holds[Index(last)];
       if (!holds_its_end) ++contradictions;
     }
     return contradictions;

@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 #include "core/body/inside.h"
 #include "core/body/landmarks.h"

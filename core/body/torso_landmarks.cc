@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/enum_index.h"
 #include "core/body/cleft.h"
 
 namespace capfit::body {

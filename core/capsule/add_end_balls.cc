@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/capsule/build_primitives.h"
 #include "core/capsule/mirrored_set.h"
 #include "core/geometry/smallest_enclosing.h"
@@ -16,8 +17,7 @@ using PointsByPart = std::array<std::vector<Eigen::Vector3d>, body::kPartCount>;
 PointsByPart GroupByPart(const body::Body& body) {
   PointsByPart points;
   for (std::size_t v = 0; v < body.vertex_segments.size(); ++v) {
-    points[static_cast<std::size_t>(body::PartOf(body.vertex_segments[v]))].push_back(
-        body.mesh.vertices()[v]);
+    points[Index(body::PartOf(body.vertex_segments[v]))].push_back(body.mesh.vertices()[v]);
   }
   return points;
 }
@@ -47,11 +47,10 @@ std::vector<std::vector<Eigen::Vector3d>> Stretches(const std::vector<Eigen::Vec
   std::vector<double> places;
   for (const Eigen::Vector3d& p : points) places.push_back(longest.dot(p));
   const auto [low, high] = std::minmax_element(places.begin(), places.end());
-  std::vector<std::vector<Eigen::Vector3d>> stretches(static_cast<std::size_t>(count));
+  std::vector<std::vector<Eigen::Vector3d>> stretches(count);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double share = *high > *low ? (places[i] - *low) / (*high - *low) : 0.0;
-    stretches[static_cast<std::size_t>(std::min(static_cast<int>(share * count), count - 1))]
-        .push_back(points[i]);
+    stretches[std::min(static_cast<int>(share * count), count - 1)].push_back(points[i]);
   }
   std::erase_if(stretches, [](const auto& stretch) { return stretch.empty(); });
   return stretches;
@@ -126,8 +125,8 @@ PrimitiveSet MakeEndBalls(const body::Body& body, const body::PartSelection& par
   const PointsByPart points = GroupByPart(body);
   for (int index = body::kChainCount; index < body::kPartCount; ++index) {
     const body::Part part = static_cast<body::Part>(index);
-    const auto& own = points[static_cast<std::size_t>(part)];
-    const auto& others = points[static_cast<std::size_t>(body::MirrorPart(part))];
+    const auto& own = points[Index(part)];
+    const auto& others = points[Index(body::MirrorPart(part))];
     if (!parts.Includes(part) || own.empty()) continue;
     if (!body.is_symmetric || others.empty()) {
       AddAlone(part, own, balls.Of(part), set);

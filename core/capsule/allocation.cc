@@ -66,16 +66,14 @@ class Allocator {
   }
 
  private:
-  int GroupCount(std::size_t g) const {
-    return counts_[static_cast<std::size_t>(groups_[g].front())];
-  }
+  int GroupCount(std::size_t g) const { return counts_[groups_[g].front()]; }
   void SetGroup(std::size_t g, int count) {
-    for (const int polygon : groups_[g]) counts_[static_cast<std::size_t>(polygon)] = count;
+    for (const int polygon : groups_[g]) counts_[polygon] = count;
   }
   double Waste(std::size_t g, int count) const {
     double waste = 0.0;
     for (const int polygon : groups_[g]) {
-      waste += weights_[static_cast<std::size_t>(polygon)] * error_(polygon, count);
+      waste += weights_[polygon] * error_(polygon, count);
     }
     return waste;
   }
@@ -161,8 +159,7 @@ class Allocator {
     std::vector<std::vector<std::size_t>> chains;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       const bool follows =
-          g > 0 && SameChain(polygons_[static_cast<std::size_t>(groups_[g - 1].front())],
-                             polygons_[static_cast<std::size_t>(groups_[g].front())]);
+          g > 0 && SameChain(polygons_[groups_[g - 1].front()], polygons_[groups_[g].front()]);
       if (!follows) chains.emplace_back();
       if (follows && groups_[g].size() != groups_[g - 1].size()) return {};
       chains.back().push_back(g);
@@ -207,7 +204,7 @@ std::vector<int> AllocateByThreshold(std::span<const section::FeaturePolygon> po
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     const int mirror = polygons[i].mirror;
     if (mirror >= 0 && mirror < static_cast<int>(i)) {
-      counts[i] = counts[static_cast<std::size_t>(mirror)];
+      counts[i] = counts[mirror];
       continue;
     }
     const double allowed = threshold * polygons[i].outline.area_m2();

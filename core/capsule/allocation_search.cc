@@ -66,7 +66,7 @@ class ChainTable {
  public:
   ChainTable(const ChainChoices& chain, const CostIndex& costs) : chain_(chain), costs_(costs) {
     for (std::size_t p = 0; p < chain.polygons.size(); ++p) AddPolygon(p);
-    best_.assign(static_cast<std::size_t>(costs.size()), {});
+    best_.assign(costs.size(), {});
     for (std::size_t choice = 0; choice < chain.polygons.back().waste.size(); ++choice) {
       for (std::size_t cost = 0; cost < best_.size(); ++cost) {
         const double waste = stages_.back()[choice][cost].waste;
@@ -76,15 +76,15 @@ class ChainTable {
     }
   }
 
-  [[nodiscard]] double Waste(int cost) const { return best_[static_cast<std::size_t>(cost)].waste; }
+  [[nodiscard]] double Waste(int cost) const { return best_[cost].waste; }
 
   [[nodiscard]] std::vector<int> Counts(int cost) const {
     std::vector<int> counts(chain_.polygons.size());
-    auto choice = static_cast<std::size_t>(best_[static_cast<std::size_t>(cost)].choice);
+    int choice = best_[cost].choice;
     for (std::size_t p = counts.size(); p-- > 0;) {
       counts[p] = chain_.polygons[p].lowest + static_cast<int>(choice);
-      const Cell& cell = stages_[p][choice][static_cast<std::size_t>(cost)];
-      choice = static_cast<std::size_t>(cell.choice);
+      const Cell& cell = stages_[p][choice][cost];
+      choice = cell.choice;
       cost = cell.from;
     }
     return counts;
@@ -100,13 +100,12 @@ class ChainTable {
 
   void AddPolygon(std::size_t p) {
     const CountChoices& choices = chain_.polygons[p];
-    std::vector<Row> stage(choices.waste.size(), Row(static_cast<std::size_t>(costs_.size())));
+    std::vector<Row> stage(choices.waste.size(), Row(costs_.size()));
     for (std::size_t choice = 0; choice < choices.waste.size(); ++choice) {
       const int count = choices.lowest + static_cast<int>(choice);
       if (p == 0) {
         const int cost = costs_.Add(0, chain_.copies * count, 0);
-        if (cost >= 0)
-          stage[choice][static_cast<std::size_t>(cost)] = {choices.waste[choice], 0, 0};
+        if (cost >= 0) stage[choice][cost] = {choices.waste[choice], 0, 0};
         continue;
       }
       for (std::size_t before = 0; before < stages_.back().size(); ++before) {
@@ -124,7 +123,7 @@ class ChainTable {
       const int next =
           costs_.Add(static_cast<int>(cost), chain_.copies * spheres, chain_.copies * capsules);
       if (next < 0) continue;
-      Cell& cell = to[static_cast<std::size_t>(next)];
+      Cell& cell = to[next];
       const double sum = from[cost].waste + waste;
       if (ClearlyLess(sum, cell.waste)) cell = {sum, before, static_cast<int>(cost)};
     }
@@ -141,7 +140,7 @@ class Joined {
  public:
   Joined(const std::vector<ChainTable>& tables, const CostIndex& costs)
       : tables_(tables), costs_(costs) {
-    std::vector<Cell> start(static_cast<std::size_t>(costs.size()));
+    std::vector<Cell> start(costs.size());
     start[0].waste = 0.0;
     stages_.push_back(std::move(start));
     for (const ChainTable& table : tables) Join(table);
@@ -151,11 +150,11 @@ class Joined {
     const std::vector<Cell>& last = stages_.back();
     int best = -1;
     for (int cost = costs_.size() - 1; cost >= 0; --cost) {
-      const double waste = last[static_cast<std::size_t>(cost)].waste;
+      const double waste = last[cost].waste;
       if (waste == kImpossible) continue;
       // From the dearest down: past the slack only the first one counts.
       if (costs_.total_only() && best >= 0 && costs_.Unused(cost) > slack) break;
-      if (best < 0 || ClearlyLess(waste, last[static_cast<std::size_t>(best)].waste)) best = cost;
+      if (best < 0 || ClearlyLess(waste, last[best].waste)) best = cost;
     }
     return best;
   }
@@ -163,7 +162,7 @@ class Joined {
   [[nodiscard]] std::vector<std::vector<int>> Counts(int cost) const {
     std::vector<std::vector<int>> counts(tables_.size());
     for (std::size_t t = tables_.size(); t-- > 0;) {
-      const Cell& cell = stages_[t + 1][static_cast<std::size_t>(cost)];
+      const Cell& cell = stages_[t + 1][cost];
       counts[t] = tables_[t].Counts(cell.chain_cost);
       cost = cell.from;
     }
@@ -181,13 +180,13 @@ class Joined {
     const std::vector<Cell>& before = stages_.back();
     std::vector<Cell> after(before.size());
     for (int a = 0; a < costs_.size(); ++a) {
-      const double waste = before[static_cast<std::size_t>(a)].waste;
+      const double waste = before[a].waste;
       if (waste == kImpossible) continue;
       for (int b = 0; b < costs_.size(); ++b) {
         if (table.Waste(b) == kImpossible) continue;
         const int cost = costs_.Join(a, b);
         if (cost < 0) continue;
-        Cell& cell = after[static_cast<std::size_t>(cost)];
+        Cell& cell = after[cost];
         const double sum = waste + table.Waste(b);
         if (ClearlyLess(sum, cell.waste)) cell = {sum, b, a};
       }

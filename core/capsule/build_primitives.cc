@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/enum_index.h"
+
 namespace capfit::capsule {
 namespace {
 
@@ -61,12 +63,12 @@ class Builder {
 
  private:
   void AddSpheresOf(int p) {
-    const section::FeaturePolygon& polygon = polygons_[static_cast<std::size_t>(p)];
+    const section::FeaturePolygon& polygon = polygons_[p];
     if (polygon.mirror >= 0 && polygon.mirror < p && IsImageOf(p, polygon.mirror)) {
       AddImagesOf(polygon.mirror, p);
       return;
     }
-    for (const circle::Circle& c : approximations_[static_cast<std::size_t>(p)].circles) {
+    for (const circle::Circle& c : approximations_[p].circles) {
       set_.spheres.push_back({polygon.frame.ToSpace(c.center_m), c.radius_m});
       set_.origins.push_back({polygon.chain, p, -1});
     }
@@ -74,17 +76,17 @@ class Builder {
   }
 
   bool IsImageOf(int p, int source) const {
-    const auto& circles = approximations_[static_cast<std::size_t>(p)].circles;
-    return polygons_[static_cast<std::size_t>(source)].mirror == p &&
-           circles.size() == approximations_[static_cast<std::size_t>(source)].circles.size();
+    const auto& circles = approximations_[p].circles;
+    return polygons_[source].mirror == p &&
+           circles.size() == approximations_[source].circles.size();
   }
 
   // The other side's spheres are exact images, whatever its own circles say.
   void AddImagesOf(int source, int p) {
     for (const int i : SpheresOf(source)) {
-      set_.origins[static_cast<std::size_t>(i)].mirror = static_cast<int>(set_.spheres.size());
-      set_.spheres.push_back(MirrorImage(set_.spheres[static_cast<std::size_t>(i)]));
-      set_.origins.push_back({polygons_[static_cast<std::size_t>(p)].chain, p, i});
+      set_.origins[i].mirror = static_cast<int>(set_.spheres.size());
+      set_.spheres.push_back(MirrorImage(set_.spheres[i]));
+      set_.origins.push_back({polygons_[p].chain, p, i});
     }
   }
 
@@ -92,11 +94,11 @@ class Builder {
   // them exact. Each sphere goes to its best partner; one without a good partner stays unpaired.
   void PairWithin(const std::vector<int>& spheres) {
     for (const int i : spheres) {
-      if (set_.origins[static_cast<std::size_t>(i)].mirror >= 0) continue;
+      if (set_.origins[i].mirror >= 0) continue;
       int partner = -1;
       double least = kMirrorTolerance;
       for (const int j : spheres) {
-        if (j < i || set_.origins[static_cast<std::size_t>(j)].mirror >= 0) continue;
+        if (j < i || set_.origins[j].mirror >= 0) continue;
         const double error = MirrorError(At(i), At(j));
         if (error <= least) {
           least = error;
@@ -108,8 +110,8 @@ class Builder {
   }
 
   void MakePair(int i, int j) {
-    set_.origins[static_cast<std::size_t>(i)].mirror = j;
-    set_.origins[static_cast<std::size_t>(j)].mirror = i;
+    set_.origins[i].mirror = j;
+    set_.origins[j].mirror = i;
     if (i == j) {
       At(i).center_m.x() = 0.0;
     } else {
@@ -119,7 +121,7 @@ class Builder {
 
   // The limb's first polygon and the trunk, by the pair of spheres that leaves the least gap.
   void LinkLimb(int polygon, const std::vector<int>& torso) {
-    const int mirror = polygons_[static_cast<std::size_t>(polygon)].mirror;
+    const int mirror = polygons_[polygon].mirror;
     if (mirror >= 0 && mirror < polygon && LinkLikeMirror(polygon)) return;
     const CapsuleEnds best = LeastGap(set_.spheres, SpheresOf(polygon), torso);
     if (best[0] >= 0) {
@@ -131,9 +133,9 @@ class Builder {
   // Repeats the link of the other side, so that the set stays symmetric.
   bool LinkLikeMirror(int polygon) {
     for (const CapsuleEnds& link : links_) {
-      const int i = set_.origins[static_cast<std::size_t>(link[0])].mirror;
-      const int j = set_.origins[static_cast<std::size_t>(link[1])].mirror;
-      if (i < 0 || j < 0 || set_.origins[static_cast<std::size_t>(i)].polygon != polygon) continue;
+      const int i = set_.origins[link[0]].mirror;
+      const int j = set_.origins[link[1]].mirror;
+      if (i < 0 || j < 0 || set_.origins[i].polygon != polygon) continue;
       AddCapsule(i, j);
       return true;
     }
@@ -146,22 +148,20 @@ class Builder {
   std::array<std::vector<int>, body::kChainCount> Chains() const {
     std::array<std::vector<int>, body::kChainCount> chains;
     for (std::size_t p = 0; p < polygons_.size(); ++p) {
-      chains[static_cast<std::size_t>(polygons_[p].chain)].push_back(static_cast<int>(p));
+      chains[Index(polygons_[p].chain)].push_back(static_cast<int>(p));
     }
     for (std::vector<int>& chain : chains) {
-      std::stable_sort(chain.begin(), chain.end(), [&](int a, int b) {
-        return polygons_[static_cast<std::size_t>(a)].order <
-               polygons_[static_cast<std::size_t>(b)].order;
-      });
+      std::stable_sort(chain.begin(), chain.end(),
+                       [&](int a, int b) { return polygons_[a].order < polygons_[b].order; });
     }
     return chains;
   }
 
   std::vector<int> SpheresOf(int polygon) const {
     std::vector<int> spheres;
-    const auto& circles = approximations_[static_cast<std::size_t>(polygon)].circles;
+    const auto& circles = approximations_[polygon].circles;
     for (std::size_t c = 0; c < circles.size(); ++c) {
-      spheres.push_back(first_[static_cast<std::size_t>(polygon)] + static_cast<int>(c));
+      spheres.push_back(first_[polygon] + static_cast<int>(c));
     }
     return spheres;
   }
@@ -175,7 +175,7 @@ class Builder {
     return all;
   }
 
-  Sphere& At(int i) { return set_.spheres[static_cast<std::size_t>(i)]; }
+  Sphere& At(int i) { return set_.spheres[i]; }
 
   std::span<const section::FeaturePolygon> polygons_;
   std::span<const circle::PolygonApproximation> approximations_;
@@ -192,9 +192,8 @@ CapsuleEnds LeastGap(std::span<const Sphere> spheres, std::span<const int> from,
   double least = std::numeric_limits<double>::infinity();
   for (const int i : from) {
     for (const int j : to) {
-      const Sphere& other = spheres[static_cast<std::size_t>(j)];
-      const double gap =
-          (spheres[static_cast<std::size_t>(i)].center_m - other.center_m).norm() - other.radius_m;
+      const Sphere& other = spheres[j];
+      const double gap = (spheres[i].center_m - other.center_m).norm() - other.radius_m;
       if (gap >= least - kGapTieM) continue;
       least = gap;
       best = {i, j};

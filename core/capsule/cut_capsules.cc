@@ -14,7 +14,7 @@ int Worthiest(const MirroredSet& set, const std::vector<double>& worth, int cuts
   for (int e = 0; e < set.capsule_count(); ++e) {
     const int cost = CostOfCut(set, e);
     if (!set.IsCapsuleRepresentative(e) || cost > cuts) continue;
-    const double each = worth[static_cast<std::size_t>(e)] / cost;
+    const double each = worth[e] / cost;
     if (each > most) most = each, worthiest = e;
   }
   return worthiest;
@@ -27,7 +27,7 @@ void CutWorthiest(const Budget& budget, std::vector<double> worth, const WorthOf
   for (;;) {
     const int cut = Worthiest(set, worth, budget.Without(set.count()).Cuts());
     if (cut < 0) return;
-    const double whole = worth[static_cast<std::size_t>(cut)];
+    const double whole = worth[cut];
     const int image = set.ImageOfCapsule(cut);
     const auto [low, high] = std::minmax(cut, image);
     worth.erase(worth.begin() + high);

@@ -88,10 +88,10 @@ void MirroredSet::RemoveCapsule(int e) {
 std::vector<int> MirroredSet::RemoveSpheres(const std::vector<char>& removed) {
   std::vector<char> kept(set_.spheres.size(), 1);
   for (int v = 0; v < sphere_count(); ++v) {
-    if (removed[At(v)]) kept[At(v)] = kept[At(ImageOf(v))] = 0;
+    if (removed[v]) kept[v] = kept[ImageOf(v)] = 0;
   }
   std::vector<char> kept_capsules;
-  for (const auto& [a, b] : set_.capsules) kept_capsules.push_back(kept[At(a)] && kept[At(b)]);
+  for (const auto& [a, b] : set_.capsules) kept_capsules.push_back(kept[a] && kept[b]);
   return KeepOnly(kept, kept_capsules);
 }
 
@@ -106,11 +106,11 @@ std::vector<int> MirroredSet::KeepOnly(const std::vector<char>& spheres,
     set_.origins.push_back(old.origins[v]);
   }
   for (SphereOrigin& origin : set_.origins) {
-    if (origin.mirror >= 0) origin.mirror = index[At(origin.mirror)];
+    if (origin.mirror >= 0) origin.mirror = index[origin.mirror];
   }
   for (std::size_t e = 0; e < capsules.size(); ++e) {
     if (!capsules[e]) continue;
-    set_.capsules.push_back({index[At(old.capsules[e][0])], index[At(old.capsules[e][1])]});
+    set_.capsules.push_back({index[old.capsules[e][0]], index[old.capsules[e][1]]});
   }
   FindImages();
   return index;
@@ -122,7 +122,7 @@ int MirroredSet::Cut(int e) {
   const bool is_pair = ImageOfCapsule(e) != e;
   const geometry::Sphere middle{0.5 * (sphere(a).center_m + sphere(b).center_m),
                                 0.5 * (sphere(a).radius_m + sphere(b).radius_m)};
-  const body::Part part = set_.origins[At(b)].part;
+  const body::Part part = set_.origins[b].part;
   RemoveCapsule(e);
   const int added = is_pair || IsOwnImage(whole) ? AddSphere(middle, IsOwnImage(whole), part)
                                                  : AddAlone(middle, part);
@@ -135,11 +135,11 @@ int MirroredSet::PartFromPlane(int v, double aside_m) {
   const int image = sphere_count();
   std::erase_if(set_.capsules, [v](const CapsuleEnds& e) { return e[0] == v || e[1] == v; });
   set_.spheres.push_back(sphere(v));
-  set_.origins.push_back(set_.origins[At(v)]);
+  set_.origins.push_back(set_.origins[v]);
   sphere(v).center_m.x() += aside_m;
   sphere(image).center_m.x() -= aside_m;
-  set_.origins[At(v)].mirror = image;
-  set_.origins[At(image)].mirror = v;
+  set_.origins[v].mirror = image;
+  set_.origins[image].mirror = v;
   FindImages();
   return image;
 }
@@ -150,9 +150,9 @@ std::vector<int> MirroredSet::JoinOnPlane(int v) {
     if (n != v && !HasCapsule(n, v)) set_.capsules.push_back({std::min(n, v), std::max(n, v)});
   }
   sphere(v).center_m.x() = 0.0;
-  set_.origins[At(v)].mirror = v;
+  set_.origins[v].mirror = v;
   std::vector<char> kept(set_.spheres.size(), 1);
-  kept[At(image)] = 0;
+  kept[image] = 0;
   std::vector<char> kept_capsules;
   for (const auto& [a, b] : set_.capsules) kept_capsules.push_back(a != image && b != image);
   return KeepOnly(kept, kept_capsules);

@@ -29,20 +29,18 @@ class MirroredSet {
   [[nodiscard]] int primitive_count() const { return count().total(); }
   [[nodiscard]] const std::vector<geometry::Sphere>& spheres() const { return set_.spheres; }
   [[nodiscard]] const std::vector<CapsuleEnds>& capsules() const { return set_.capsules; }
-  [[nodiscard]] const geometry::Sphere& sphere(int v) const { return set_.spheres[At(v)]; }
-  [[nodiscard]] geometry::Sphere& sphere(int v) { return set_.spheres[At(v)]; }
-  [[nodiscard]] body::Part part(int v) const { return set_.origins[At(v)].part; }
-  [[nodiscard]] const CapsuleEnds& ends(int e) const { return set_.capsules[At(e)]; }
+  [[nodiscard]] const geometry::Sphere& sphere(int v) const { return set_.spheres[v]; }
+  [[nodiscard]] geometry::Sphere& sphere(int v) { return set_.spheres[v]; }
+  [[nodiscard]] body::Part part(int v) const { return set_.origins[v].part; }
+  [[nodiscard]] const CapsuleEnds& ends(int e) const { return set_.capsules[e]; }
 
   // The image of sphere `v` or capsule `e`; itself on the mid-plane and where there is none.
-  [[nodiscard]] int ImageOf(int v) const { return sphere_images_[At(v)]; }
-  [[nodiscard]] int ImageOfCapsule(int e) const { return capsule_images_[At(e)]; }
+  [[nodiscard]] int ImageOf(int v) const { return sphere_images_[v]; }
+  [[nodiscard]] int ImageOfCapsule(int e) const { return capsule_images_[e]; }
   [[nodiscard]] bool IsRepresentative(int v) const { return ImageOf(v) >= v; }
   [[nodiscard]] bool IsCapsuleRepresentative(int e) const { return ImageOfCapsule(e) >= e; }
   // On the mid-plane and bound to stay there.
-  [[nodiscard]] bool IsOnPlane(int v) const {
-    return is_mirrored_ && set_.origins[At(v)].mirror == v;
-  }
+  [[nodiscard]] bool IsOnPlane(int v) const { return is_mirrored_ && set_.origins[v].mirror == v; }
   // Of the capsule between two spheres, either way round; -1: there is none.
   [[nodiscard]] int IndexOfCapsule(int a, int b) const;
   [[nodiscard]] bool HasCapsule(int a, int b) const { return IndexOfCapsule(a, b) >= 0; }
@@ -77,7 +75,6 @@ class MirroredSet {
   void CopyToImages();
 
  private:
-  static std::size_t At(int i) { return static_cast<std::size_t>(i); }
   [[nodiscard]] bool HasImage(int v) const { return ImageOf(v) != v || IsOnPlane(v); }
   [[nodiscard]] bool IsOwnImage(const CapsuleEnds& ends) const;
   int AddAlone(const geometry::Sphere& sphere, body::Part part);

@@ -29,10 +29,9 @@ int Find(const IndexByEnds& by_ends, const CapsuleEnds& ends) {
 std::vector<int> SphereImages(const std::vector<SphereOrigin>& origins) {
   std::vector<int> images(origins.size(), -1);
   for (std::size_t i = 0; i < origins.size(); ++i) {
-    // An index of -1 is beyond all of them too.
-    const auto image = static_cast<std::size_t>(origins[i].mirror);
-    if (image >= origins.size() || origins[image].mirror != static_cast<int>(i)) continue;
-    images[i] = origins[i].mirror;
+    const int image = origins[i].mirror;
+    if (image < 0 || std::cmp_greater_equal(image, origins.size())) continue;
+    if (std::cmp_equal(origins[image].mirror, i)) images[i] = image;
   }
   return images;
 }
@@ -47,8 +46,8 @@ Images ImagesOf(const PrimitiveSet& set) {
   Images images{SphereImages(set.origins), std::vector<int>(set.capsules.size(), -1), false};
   const IndexByEnds by_ends = SortedByEnds(set.capsules);
   for (std::size_t k = 0; k < set.capsules.size(); ++k) {
-    const int a = images.spheres[static_cast<std::size_t>(set.capsules[k][0])];
-    const int b = images.spheres[static_cast<std::size_t>(set.capsules[k][1])];
+    const int a = images.spheres[set.capsules[k][0]];
+    const int b = images.spheres[set.capsules[k][1]];
     if (a >= 0 && b >= 0) images.capsules[k] = Find(by_ends, InOrder(a, b));
   }
   images.is_whole = HasAll(images.spheres) && HasAll(images.capsules);
@@ -57,14 +56,13 @@ Images ImagesOf(const PrimitiveSet& set) {
 
 body::Part PartOfCapsule(const PrimitiveSet& set, std::size_t index) {
   const auto [first, second] = set.capsules[index];
-  return std::max(set.origins[static_cast<std::size_t>(first)].part,
-                  set.origins[static_cast<std::size_t>(second)].part);
+  return std::max(set.origins[first].part, set.origins[second].part);
 }
 
 std::vector<bool> UsedSpheres(const PrimitiveSet& set) {
   std::vector<bool> is_used(set.spheres.size(), false);
   for (const CapsuleEnds& ends : set.capsules) {
-    for (const int end : ends) is_used[static_cast<std::size_t>(end)] = true;
+    for (const int end : ends) is_used[end] = true;
   }
   return is_used;
 }
@@ -73,7 +71,7 @@ std::vector<CapsuleEnds> SolidEnds(const PrimitiveSet& set) {
   std::vector<CapsuleEnds> solids = set.capsules;
   const std::vector<bool> is_used = UsedSpheres(set);
   for (int i = 0; i < static_cast<int>(set.spheres.size()); ++i) {
-    if (!is_used[static_cast<std::size_t>(i)]) solids.push_back({i, i});
+    if (!is_used[i]) solids.push_back({i, i});
   }
   return solids;
 }
@@ -82,8 +80,7 @@ std::vector<geometry::TaperedCapsule> Solids(const PrimitiveSet& set) {
   std::vector<geometry::TaperedCapsule> solids;
   solids.reserve(set.capsules.size() + set.spheres.size());
   for (const auto& [a, b] : SolidEnds(set)) {
-    solids.emplace_back(set.spheres[static_cast<std::size_t>(a)],
-                        set.spheres[static_cast<std::size_t>(b)]);
+    solids.emplace_back(set.spheres[a], set.spheres[b]);
   }
   return solids;
 }

@@ -33,8 +33,7 @@ struct PrimitiveSet {
   }
   [[nodiscard]] int primitive_count() const { return count().total(); }  // n_p
   [[nodiscard]] geometry::TaperedCapsule Capsule(std::size_t index) const {
-    return {spheres[static_cast<std::size_t>(capsules[index][0])],
-            spheres[static_cast<std::size_t>(capsules[index][1])]};
+    return {spheres[capsules[index][0]], spheres[capsules[index][1]]};
   }
 };
 

@@ -178,7 +178,7 @@ bool CoversSlant(Cover& cover, const Slant& slant, double tolerance_m) {
   }
   // Breadth first: an exposed point is found before much is certified.
   for (std::size_t next = 0; next < patches.size(); ++next) {
-    if (next >= static_cast<std::size_t>(kMaxCells)) return false;
+    if (next >= kMaxCells) return false;
     Patch patch = patches[next];
     const double half_length = patch.half_u * slant.length();
     const double half_girth = patch.half_v * slant.girth();
@@ -232,20 +232,19 @@ class Remover {
 
   void MakeGroups() {
     for (int i = 0; i < static_cast<int>(set_.capsules.size()); ++i) {
-      const int image = images_.capsules[static_cast<std::size_t>(i)];
+      const int image = images_.capsules[i];
       if (image >= 0 && image < i) continue;  // its group is there already
-      groups_.push_back(
-          {{i, image == i ? -1 : image}, set_.Capsule(static_cast<std::size_t>(i)).Volume_m3()});
+      groups_.push_back({{i, image == i ? -1 : image}, set_.Capsule(i).Volume_m3()});
     }
   }
 
   void RemoveIf(const Group& group, Test is_covered) {
-    if (is_gone_[static_cast<std::size_t>(group.capsules[0])]) return;
-    const TaperedCapsule capsule = set_.Capsule(static_cast<std::size_t>(group.capsules[0]));
+    if (is_gone_[group.capsules[0]]) return;
+    const TaperedCapsule capsule = set_.Capsule(group.capsules[0]);
     Cover cover = CoverWithout(group, capsule);
     if (!(this->*is_covered)(capsule, cover)) return;
     for (const int i : group.capsules) {
-      if (i >= 0) is_gone_[static_cast<std::size_t>(i)] = true;
+      if (i >= 0) is_gone_[i] = true;
     }
   }
 
@@ -259,9 +258,8 @@ class Remover {
       if (solid.SignedDistance(middle) <= reach) solids.push_back(solid);
     };
     for (int i = 0; i < static_cast<int>(set_.capsules.size()); ++i) {
-      const auto index = static_cast<std::size_t>(i);
-      if (is_gone_[index] || i == group.capsules[0] || i == group.capsules[1]) continue;
-      add(set_.Capsule(index));
+      if (is_gone_[i] || i == group.capsules[0] || i == group.capsules[1]) continue;
+      add(set_.Capsule(i));
     }
     for (const Sphere& sphere : set_.spheres) add({sphere, sphere});
     return Cover(std::move(solids));
@@ -304,7 +302,7 @@ std::vector<bool> FindIdleSpheres(const PrimitiveSet& set) {
   // An image with a rounding error of its own must not leave its partner behind.
   for (std::size_t i = 0; i < set.spheres.size(); ++i) {
     const int mirror = set.origins[i].mirror;
-    if (mirror >= 0 && !is_idle[static_cast<std::size_t>(mirror)]) is_idle[i] = false;
+    if (mirror >= 0 && !is_idle[mirror]) is_idle[i] = false;
   }
   return is_idle;
 }

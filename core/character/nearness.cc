@@ -28,7 +28,7 @@ Cell CellOf(const Eigen::Vector3d& point, double cell) {
   Cell at{};
   for (int k = 0; k < 3; ++k) {
     const double share = std::clamp(std::floor(point[k] / cell), -1e15, 1e15);
-    at[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(share);
+    at[k] = static_cast<std::int64_t>(share);
   }
   return at;
 }

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <string>
 
+#include "core/base/enum_index.h"
+
 namespace capfit::character {
 namespace {
 
@@ -102,7 +104,7 @@ bool IsGeneral(PartKind kind) { return kind == PartKind::kBody || kind == PartKi
 std::string_view PartKindName(PartKind kind) {
   static constexpr std::array<std::string_view, 8> kNames = {
       "body", "clothing", "shoe", "skirt", "hair", "inner", "accessory", "fragment"};
-  return kNames[static_cast<std::size_t>(kind)];
+  return kNames[Index(kind)];
 }
 
 std::optional<PartKind> KindFromName(std::string_view name) {

@@ -73,7 +73,7 @@ std::vector<int> PiecesOfInterior(const section::FeaturePolygon& polygon,
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t piece = 0; piece < polygon.split->pieces.size(); ++piece) {
       for (const int v : polygon.split->pieces[piece]) {
-        const double d = (vertices[static_cast<std::size_t>(v)] - interior[p]).squaredNorm();
+        const double d = (vertices[v] - interior[p]).squaredNorm();
         if (d >= least) continue;
         least = d;
         owners[p] = static_cast<int>(piece);
@@ -106,7 +106,7 @@ std::vector<Piece> SplitPieces(const section::FeaturePolygon& polygon, const Cir
   for (std::size_t i = 0; i < polygon.split->pieces.size(); ++i) {
     std::vector<Eigen::Vector2d> boundary;
     for (const int v : polygon.split->pieces[i]) {
-      boundary.push_back(vertices[static_cast<std::size_t>(v)]);
+      boundary.push_back(vertices[v]);
     }
     std::vector<Eigen::Vector2d> inner;
     for (std::size_t p = 0; p < interior.size(); ++p) {

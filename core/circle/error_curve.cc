@@ -33,28 +33,26 @@ ErrorCurves::ErrorCurves(std::span<const section::FeaturePolygon> polygons, int 
       options_(options),
       pool_(pool),
       observer_(observer),
-      entries_(new Entry[polygons.size() * static_cast<std::size_t>(max_circles_)]),
+      entries_(new Entry[polygons.size() * max_circles_]),
       asked_(new std::atomic<int>[polygons.size()]) {}
 
 ErrorCurves::~ErrorCurves() = default;
 
 ErrorCurves::Entry& ErrorCurves::EntryOf(int polygon_index, int circle_count) const {
-  return entries_[static_cast<std::size_t>(polygon_index) * static_cast<std::size_t>(max_circles_) +
-                  static_cast<std::size_t>(std::clamp(circle_count, 1, max_circles_) - 1)];
+  return entries_[polygon_index * max_circles_ + std::clamp(circle_count, 1, max_circles_) - 1];
 }
 
 const PolygonApproximation& ErrorCurves::Compute(int polygon_index, int circle_count) const {
-  const auto index = static_cast<std::size_t>(polygon_index);
   const int count = std::clamp(circle_count, 1, max_circles_);
   Entry& entry = EntryOf(polygon_index, count);
   std::call_once(entry.once, [&] {
-    const section::FeaturePolygon& polygon = polygons_[index];
+    const section::FeaturePolygon& polygon = polygons_[polygon_index];
     if (polygon.mirror >= 0 && polygon.mirror < polygon_index) {
       entry.approximation = Mirrored(Compute(polygon.mirror, count));
     } else {
       CircleOptions options = options_;
       options.symmetric = polygon.mirror == polygon_index;
-      options.seed = options_.seed + index * 1024 + static_cast<std::size_t>(count);
+      options.seed = options_.seed + polygon_index * 1024 + count;
       entry.approximation = ApproximatePolygon(polygon, count, options, observer_);
     }
     entry.is_known = true;
@@ -64,17 +62,15 @@ const PolygonApproximation& ErrorCurves::Compute(int polygon_index, int circle_c
 
 // Who asks for one polygon will soon ask for those that have been asked for nearly as often.
 void ErrorCurves::ComputeTogether(int polygon_index, int circle_count) const {
-  const auto source = [this](std::size_t i) {  // what the polygon's circles follow from
+  const auto source = [this](int i) {  // what the polygon's circles follow from
     const int mirror = polygons_[i].mirror;
-    return mirror >= 0 ? std::min(i, static_cast<std::size_t>(mirror)) : i;
+    return mirror >= 0 ? std::min(i, mirror) : i;
   };
-  std::atomic<int>& asked = asked_[source(static_cast<std::size_t>(polygon_index))];
+  std::atomic<int>& asked = asked_[source(polygon_index)];
   asked = std::max(asked.load(), circle_count);
   if (EntryOf(polygon_index, circle_count).is_known) return;
-  pool_.ForEach(polygons_.size(), [&](std::size_t i) {
-    if (source(i) == i && asked_[i] >= circle_count - 1) {
-      (void)Compute(static_cast<int>(i), circle_count);
-    }
+  pool_.ForEach(polygons_.size(), [&](int i) {
+    if (source(i) == i && asked_[i] >= circle_count - 1) (void)Compute(i, circle_count);
   });
 }
 
@@ -92,14 +88,12 @@ double ErrorCurves::BestAreaM2(int polygon_index, int circle_count) const {
 }
 
 void ErrorCurves::Prepare(int circle_count) const {
-  const auto counts = static_cast<std::size_t>(std::clamp(circle_count, 1, max_circles_));
+  const std::size_t counts = std::clamp(circle_count, 1, max_circles_);
   // The largest counts take longest, so they start first.
   pool_.ForEach(polygons_.size() * counts, [&](std::size_t job) {
     const auto polygon = static_cast<int>(job % polygons_.size());
-    if (polygons_[static_cast<std::size_t>(polygon)].mirror >= 0 &&
-        polygons_[static_cast<std::size_t>(polygon)].mirror < polygon) {
-      return;  // follows from its image
-    }
+    const int mirror = polygons_[polygon].mirror;
+    if (mirror >= 0 && mirror < polygon) return;  // follows from its image
     (void)Compute(polygon, static_cast<int>(counts - job / polygons_.size()));
   });
 }

@@ -105,13 +105,11 @@ class Fitter {
                             next.radius - best_.radius);
     Eigen::Vector3d y = Gradient(next) - Gradient(best_);
     for (int k = 0; k < qp.active_count; ++k) {
-      const auto index = static_cast<std::size_t>(k);
-      const Eigen::Vector3d& normal =
-          constraints_[static_cast<std::size_t>(qp.active[index])].normal;
+      const Eigen::Vector3d& normal = constraints_[qp.active[k]].normal;
       // normal = (p - o) / |p - o|: how it turned on the way from the old centre to the new one.
-      const Eigen::Vector2d p = best_.center + normal.head<2>() * DistanceOf(qp.active[index]);
+      const Eigen::Vector2d p = best_.center + normal.head<2>() * DistanceOf(qp.active[k]);
       const Eigen::Vector2d turned = (p - next.center).normalized();
-      y.head<2>() -= qp.multipliers[index] * (turned - normal.head<2>());
+      y.head<2>() -= qp.multipliers[k] * (turned - normal.head<2>());
     }
     const Eigen::Vector3d bs = b * s;
     const double sbs = s.dot(bs);
@@ -124,9 +122,7 @@ class Fitter {
     b += y * y.transpose() / s.dot(y) - bs * bs.transpose() / sbs;
   }
 
-  double DistanceOf(int constraint) const {
-    return constraints_[static_cast<std::size_t>(constraint)].bound + best_.radius;
-  }
+  double DistanceOf(int constraint) const { return constraints_[constraint].bound + best_.radius; }
 
   const section::Polygon& outline_;
   std::span<const Eigen::Vector2d> points_;

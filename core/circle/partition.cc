@@ -45,13 +45,12 @@ class AreaByRadius {
   };
 
   const Entry& EntryAt(int index) {
-    const auto i = static_cast<std::size_t>(index);
-    if (!known_[i]) {
+    if (!known_[index]) {
       const OutsideArea area = CircleOutsideAreaWithGradient({center_, index * step_}, *outline_);
-      entries_[i] = {area.area_m2, area.by_radius_m};
-      known_[i] = true;
+      entries_[index] = {area.area_m2, area.by_radius_m};
+      known_[index] = true;
     }
-    return entries_[i];
+    return entries_[index];
   }
 
   Eigen::Vector2d center_;
@@ -127,7 +126,7 @@ class Partitioner {
       best_area = area;
       best_distance = distances[i];
     }
-    Growing& winner = circles_[static_cast<std::size_t>(best)];
+    Growing& winner = circles_[best];
     winner.radius = best_distance;
     winner.area = best_area;
     return best;

@@ -49,7 +49,7 @@ class DualActiveSet {
   // Moves in the primal and dual space together until half-space `p` holds; drops active ones whose
   // multiplier reaches 0 on the way. False when no step is possible.
   bool TakeIn(int p) {
-    const HalfSpace& h = half_spaces_[static_cast<std::size_t>(p)];
+    const HalfSpace& h = half_spaces_[p];
     double multiplier = 0.0;
     for (int guard = 0; guard < 8; ++guard) {
       const Eigen::Vector3d dual = DualDirection(h.normal);
@@ -65,7 +65,7 @@ class DualActiveSet {
       int leaving = -1;
       double partial = std::numeric_limits<double>::infinity();
       for (int k = 0; k < solution_.active_count; ++k) {
-        const double ratio = solution_.multipliers[Index(k)] / dual[k];
+        const double ratio = solution_.multipliers[k] / dual[k];
         if (dual[k] > kTiny && ratio < partial) {
           partial = ratio;
           leaving = k;
@@ -75,7 +75,7 @@ class DualActiveSet {
       if (t == std::numeric_limits<double>::infinity()) return false;
       if (movable) solution_.x += t * primal;
       for (int k = 0; k < solution_.active_count; ++k) {
-        double& value = solution_.multipliers[Index(k)];
+        double& value = solution_.multipliers[k];
         value = std::max(0.0, value - t * dual[k]);
       }
       multiplier += t;
@@ -100,22 +100,21 @@ class DualActiveSet {
   }
 
   bool Add(int p, double multiplier) {
-    solution_.active[Index(solution_.active_count)] = p;
-    solution_.multipliers[Index(solution_.active_count)] = multiplier;
+    solution_.active[solution_.active_count] = p;
+    solution_.multipliers[solution_.active_count] = multiplier;
     ++solution_.active_count;
     return true;
   }
   void Drop(int k) {
     for (int i = k; i + 1 < solution_.active_count; ++i) {
-      solution_.active[Index(i)] = solution_.active[Index(i + 1)];
-      solution_.multipliers[Index(i)] = solution_.multipliers[Index(i + 1)];
+      solution_.active[i] = solution_.active[i + 1];
+      solution_.multipliers[i] = solution_.multipliers[i + 1];
     }
     --solution_.active_count;
   }
   const Eigen::Vector3d& ActiveNormal(int k) const {
-    return half_spaces_[static_cast<std::size_t>(solution_.active[Index(k)])].normal;
+    return half_spaces_[solution_.active[k]].normal;
   }
-  static std::size_t Index(int k) { return static_cast<std::size_t>(k); }
 
   const Eigen::Matrix3d& inverse_b_;
   std::span<const HalfSpace> half_spaces_;

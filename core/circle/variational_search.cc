@@ -159,7 +159,7 @@ class Search {
       clusters[i].circle.center_m = seeds[i].center_m;
     }
     for (std::size_t p = 0; p < owners.size(); ++p) {
-      clusters[static_cast<std::size_t>(owners[p])].points.push_back(static_cast<int>(p));
+      clusters[owners[p]].points.push_back(static_cast<int>(p));
     }
     FillEmpty(clusters);
     for (Cluster& cluster : clusters) {
@@ -188,7 +188,7 @@ class Search {
     std::vector<Eigen::Vector2d> points;
     points.reserve(cluster.points.size());
     for (const int p : cluster.points) {
-      points.push_back(region_.points_m[static_cast<std::size_t>(p)]);
+      points.push_back(region_.points_m[p]);
     }
     return ConvexHull(points);  // indices rise, so the points are still sorted
   }
@@ -235,7 +235,7 @@ class Search {
         highest = ratios[circle];
         most = i;
       }
-      circle += static_cast<std::size_t>(CircleCount(clusters[i].place));
+      circle += CircleCount(clusters[i].place);
     }
     return most;
   }
@@ -262,9 +262,9 @@ class Search {
     double least = std::numeric_limits<double>::infinity();
     bool found_interior = false;
     for (const int p : cluster.points) {
-      const bool is_interior = region_.place_on_boundary[static_cast<std::size_t>(p)] < 0;
+      const bool is_interior = region_.place_on_boundary[p] < 0;
       if (found_interior && !is_interior) continue;
-      const Eigen::Vector2d& point = region_.points_m[static_cast<std::size_t>(p)];
+      const Eigen::Vector2d& point = region_.points_m[p];
       const double distance = (point - place).squaredNorm();
       if (is_interior == found_interior && !ClearlyLess(distance, least)) continue;
       nearest = point;
@@ -299,7 +299,7 @@ section::Polygon CoarseOutline(const section::Polygon& outline, int step) {
   const std::span<const Eigen::Vector2d> vertices = outline.vertices();
   if (vertices.size() < kLeastForCoarse) return outline;
   std::vector<Eigen::Vector2d> coarse;
-  for (std::size_t i = 0; i < vertices.size(); i += static_cast<std::size_t>(step)) {
+  for (std::size_t i = 0; i < vertices.size(); i += step) {
     coarse.push_back(vertices[i]);
   }
   absl::StatusOr<section::Polygon> polygon = section::Polygon::Create(std::move(coarse));

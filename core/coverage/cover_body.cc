@@ -144,9 +144,7 @@ class Coverer {
   // What an end sphere swallows is that sphere, which stays.
   void RemoveSwallowed() {
     std::erase_if(set_.capsules, [this](const capsule::CapsuleEnds& ends) {
-      return geometry::TaperedCapsule(set_.spheres[static_cast<std::size_t>(ends[0])],
-                                      set_.spheres[static_cast<std::size_t>(ends[1])])
-          .IsSphere();
+      return geometry::TaperedCapsule(set_.spheres[ends[0]], set_.spheres[ends[1]]).IsSphere();
     });
   }
 
@@ -156,8 +154,8 @@ class Coverer {
     for (int round = 0; round < kShowingRounds; ++round) {
       for (std::size_t k = 0; k < set_.capsules.size(); ++k) {
         if (!set_.Capsule(k).IsSphere()) continue;
-        geometry::Sphere* small = &set_.spheres[static_cast<std::size_t>(set_.capsules[k][0])];
-        geometry::Sphere* large = &set_.spheres[static_cast<std::size_t>(set_.capsules[k][1])];
+        geometry::Sphere* small = &set_.spheres[set_.capsules[k][0]];
+        geometry::Sphere* large = &set_.spheres[set_.capsules[k][1]];
         if (small->radius_m > large->radius_m) std::swap(small, large);
         small->radius_m = large->radius_m - (small->center_m - large->center_m).norm() + kShownBy;
       }
@@ -259,8 +257,7 @@ class Coverer {
       for (std::size_t i = begin; i < end; ++i) {
         if (target_.points_m[i].x() >= 0.0) continue;
         std::int32_t& solid = at_vertices_.solid[i];
-        solid =
-            static_cast<std::int32_t>(variables_.image_of_solid(static_cast<std::size_t>(solid)));
+        solid = static_cast<std::int32_t>(variables_.image_of_solid(solid));
       }
     });
     return at_vertices_;
@@ -321,8 +318,7 @@ class Coverer {
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < at.distance_m.size(); ++i) {
       if (at.distance_m[i] < most - kGridAccuracyM) continue;
-      const auto solid = static_cast<std::size_t>(at.solid[i]);
-      most = std::max(most, shapes[solid].SignedDistance(target_.points_m[i]));
+      most = std::max(most, shapes[at.solid[i]].SignedDistance(target_.points_m[i]));
     }
     return most;
   }

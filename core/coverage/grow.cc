@@ -22,7 +22,7 @@ struct Nearest {
 
 void Lower(const std::vector<TaperedCapsule>& shapes, int solid, const Eigen::Vector3d& point,
            Nearest& nearest) {
-  const double distance = shapes[static_cast<std::size_t>(solid)].SignedDistance(point);
+  const double distance = shapes[solid].SignedDistance(point);
   if (distance < nearest.distance_m) nearest = {distance, solid};
 }
 
@@ -41,8 +41,7 @@ class Grower {
   std::vector<int> Grow(const Demand& demand, int solid) {
     const capsule::PrimitiveSet before = set_;
     const Eigen::VectorXd direction = DirectionTo(demand.point_m, solid);
-    const double missing =
-        shapes_[static_cast<std::size_t>(solid)].SignedDistance(demand.point_m) - demand.allowed_m;
+    const double missing = shapes_[solid].SignedDistance(demand.point_m) - demand.allowed_m;
     const auto meets = [&](double growth) {
       set_ = before;
       variables_.Apply(growth * direction, set_);
@@ -70,16 +69,15 @@ class Grower {
 
  private:
   TaperedCapsule ShapeOf(int solid) const {
-    const capsule::CapsuleEnds& ends = variables_.solids()[static_cast<std::size_t>(solid)];
-    return {set_.spheres[static_cast<std::size_t>(ends[0])],
-            set_.spheres[static_cast<std::size_t>(ends[1])]};
+    const capsule::CapsuleEnds& ends = variables_.solids()[solid];
+    return {set_.spheres[ends[0]], set_.spheres[ends[1]]};
   }
 
   // Change of the variables per unit of growth. A move never exceeds the growth, so that every
   // sphere contains what it was.
   Eigen::VectorXd DirectionTo(const Eigen::Vector3d& point, int solid) const {
-    const geometry::CapsuleDistance at = shapes_[static_cast<std::size_t>(solid)].Locate(point);
-    const capsule::CapsuleEnds& ends = variables_.solids()[static_cast<std::size_t>(solid)];
+    const geometry::CapsuleDistance at = shapes_[solid].Locate(point);
+    const capsule::CapsuleEnds& ends = variables_.solids()[solid];
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(variables_.count());
     std::vector<int> growing;
     if (at.axis_parameter < 1.0) growing.push_back(ends[0]);

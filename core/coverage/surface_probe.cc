@@ -116,8 +116,7 @@ bool IsNearTo(const tighten::CoverTarget& target, const mesh::Triangle& t,
               const std::vector<TaperedCapsule>& solids, double limit_m) {
   return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
     if (at.solid[corner] == solid && at.distance_m[corner] <= limit_m - kGridAccuracy) return true;
-    return solids[static_cast<std::size_t>(solid)].SignedDistance(target.points_m[corner]) <=
-           limit_m;
+    return solids[solid].SignedDistance(target.points_m[corner]) <= limit_m;
   });
 }
 
@@ -328,8 +327,7 @@ double CertifiedGap(const tighten::CoverTarget& target, const tighten::UnionDist
   double gap = std::max(0.0, at_least_m);
   for (std::size_t v = 0; v < target.points_m.size(); ++v) {
     if (at_vertices.distance_m[v] <= -kGridAccuracy) continue;
-    gap = std::max(gap, solids[static_cast<std::size_t>(at_vertices.solid[v])].SignedDistance(
-                            target.points_m[v]));
+    gap = std::max(gap, solids[at_vertices.solid[v]].SignedDistance(target.points_m[v]));
   }
   const NearbyTriangles nearby(target, at_vertices, pool);
   const std::size_t count = target.triangles.size();

@@ -1,6 +1,7 @@
 #include "core/export/collider_set.h"
 
 #include <cmath>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
@@ -17,7 +18,7 @@ absl::Status CheckSize(const std::string& field, std::size_t size, std::size_t m
 absl::Status CheckIndices(const std::string& field, const std::vector<std::int32_t>& indices,
                           std::size_t end) {
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    if (indices[i] < 0 || static_cast<std::size_t>(indices[i]) >= end) {
+    if (indices[i] < 0 || std::cmp_greater_equal(indices[i], end)) {
       return IndexOutOfRange(absl::StrCat(field, "[", i, "]"), indices[i], end);
     }
   }
@@ -83,8 +84,7 @@ std::vector<std::string> CapsuleNames(const ColliderSet& set) {
   std::vector<std::string> names;
   names.reserve(set.capsule_count());
   for (const capsule::CapsuleEnds& ends : set.primitives.capsules) {
-    names.push_back(absl::StrCat(set.sphere_names[static_cast<std::size_t>(ends[0])], "__",
-                                 set.sphere_names[static_cast<std::size_t>(ends[1])]));
+    names.push_back(absl::StrCat(set.sphere_names[ends[0]], "__", set.sphere_names[ends[1]]));
   }
   return names;
 }
@@ -92,7 +92,7 @@ std::vector<std::string> CapsuleNames(const ColliderSet& set) {
 std::vector<std::size_t> LoneSpheres(const ColliderSet& set) {
   std::vector<char> is_used(set.sphere_count(), 0);
   for (const capsule::CapsuleEnds& ends : set.primitives.capsules) {
-    for (const int end : ends) is_used[static_cast<std::size_t>(end)] = 1;
+    for (const int end : ends) is_used[end] = 1;
   }
   std::vector<std::size_t> lone;
   for (std::size_t i = 0; i < is_used.size(); ++i) {

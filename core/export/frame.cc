@@ -23,7 +23,7 @@ Eigen::Matrix3d NearestQuarterTurns(const Eigen::Matrix3d& turn) {
     for (int signs = 0; signs < 8; ++signs) {
       Eigen::Matrix3d candidate = Eigen::Matrix3d::Zero();
       for (int row = 0; row < 3; ++row) {
-        candidate(row, order[static_cast<std::size_t>(row)]) = (signs >> row & 1) != 0 ? -1.0 : 1.0;
+        candidate(row, order[row]) = (signs >> row & 1) != 0 ? -1.0 : 1.0;
       }
       const double trace = candidate.cwiseProduct(turn).sum();
       if (candidate.determinant() > 0.0 && trace > best_trace) {

@@ -18,7 +18,7 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
 Eigen::Isometry3d JointFrame(const ColliderSet& upright, std::int32_t index) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   if (index < 0) return frame;
-  const formats::NamedJoint& joint = upright.joints[static_cast<std::size_t>(index)];
+  const formats::NamedJoint& joint = upright.joints[index];
   frame.linear() = NearestRotation(joint.to_mesh.leftCols<3>());
   frame.translation() = joint.to_mesh.col(3);
   return frame;

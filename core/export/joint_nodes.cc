@@ -1,6 +1,7 @@
 #include "core/export/joint_nodes.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
@@ -18,7 +19,7 @@ absl::StatusOr<JointNodes> JointNodes::Create(const ColliderSet& set, GltfDocume
   const std::size_t count = formats::ArrayAt(document.root(), "nodes").size();
   for (std::size_t j = 0; j < set.joints.size(); ++j) {
     const std::int32_t node = set.joints[j].node;
-    if (node < 0 || static_cast<std::size_t>(node) >= count) {
+    if (node < 0 || std::cmp_greater_equal(node, count)) {
       return IndexOutOfRange(absl::StrCat("joints[", j, "].node"), node, count);
     }
   }
@@ -29,12 +30,12 @@ absl::StatusOr<JointNodes> JointNodes::Create(const ColliderSet& set, GltfDocume
 
 std::optional<std::size_t> JointNodes::NodeOf(std::int32_t joint) {
   if (joint < 0) return std::nullopt;
-  const auto own = static_cast<std::size_t>(set_.joints[static_cast<std::size_t>(joint)].node);
+  const std::size_t own = set_.joints[joint].node;
   std::size_t node = own;
   while (node != formats::GltfNodes::kNone && !document_.HasInverse(node)) {
     node = document_.nodes().parent[node];
   }
-  if (node != own) is_passed_over_[static_cast<std::size_t>(joint)] = 1;
+  if (node != own) is_passed_over_[joint] = 1;
   if (node == formats::GltfNodes::kNone) return std::nullopt;
   return node;
 }
@@ -60,8 +61,8 @@ std::size_t JointNodes::UnscaledNodeOf(std::int32_t joint) {
   const auto [found, is_new] = unscaled_.try_emplace(*node, 0);
   if (is_new) {
     const Eigen::Isometry3d moved(Eigen::Translation3d(to_world.translation()));
-    found->second = document_.AddPlacedNode(
-        absl::StrCat("capfit_", set_.joints[static_cast<std::size_t>(joint)].name), moved, *node);
+    found->second =
+        document_.AddPlacedNode(absl::StrCat("capfit_", set_.joints[joint].name), moved, *node);
   }
   return found->second;
 }
@@ -70,8 +71,7 @@ std::vector<Warning> JointNodes::TakeWarnings() && {
   const auto count = std::count(is_passed_over_.begin(), is_passed_over_.end(), 1);
   if (count == 0) return {};
   const auto first = std::find(is_passed_over_.begin(), is_passed_over_.end(), 1);
-  const std::string name =
-      set_.joints[static_cast<std::size_t>(first - is_passed_over_.begin())].name;
+  const std::string name = set_.joints[first - is_passed_over_.begin()].name;
   return {{"JOINT_FLATTENS",
            absl::StrCat(count, " joints, the first '", name,
                         "', have a matrix without inverse (a scale of 0): their colliders hang on "

@@ -38,7 +38,7 @@ class MujocoWriter {
     const std::vector<std::string> names = JointNames(upright_);
     std::string bodies;
     for (const auto& [joint, geoms] : geoms_of_joint) {
-      const std::string name = joint < 0 ? "capfit" : names[static_cast<std::size_t>(joint)];
+      const std::string name = joint < 0 ? "capfit" : names[joint];
       const Eigen::Isometry3d frame = JointFrameIn(ZUpFrame(), upright_, joint);
       absl::StrAppend(&bodies, "    <body name=\"", XmlText(name), "\" mocap=\"true\" pos=\"",
                       NumbersText(frame.translation()), "\" quat=\"", QuaternionText(frame),

@@ -19,8 +19,7 @@ constexpr std::size_t kNvClothLimit = 32;
 std::string Carrier(const ColliderSet& set, const std::vector<std::int32_t>& joints,
                     std::size_t index) {
   if (joints.empty()) return "";
-  return absl::StrCat(", on ",
-                      CommentText(set.joints[static_cast<std::size_t>(joints[index])].name));
+  return absl::StrCat(", on ", CommentText(set.joints[joints[index]].name));
 }
 
 std::string SphereLines(const ColliderSet& upright) {

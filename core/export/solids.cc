@@ -28,8 +28,8 @@ std::vector<Solid> SolidsOf(const ColliderSet& set) {
   std::vector<std::string> names = CapsuleNames(set);
   std::vector<Solid> solids;
   for (std::size_t k = 0; k < set.capsule_count(); ++k) {
-    const auto first = static_cast<std::size_t>(primitives.capsules[k][0]);
-    const auto second = static_cast<std::size_t>(primitives.capsules[k][1]);
+    const std::size_t first = primitives.capsules[k][0];
+    const std::size_t second = primitives.capsules[k][1];
     solids.push_back({std::move(names[k]),
                       JointOf(set.capsule_joints, k),
                       k,

@@ -24,7 +24,7 @@ std::string Line(const std::vector<std::string>& fields) {
 
 std::string JointName(const std::vector<std::string>& names,
                       const std::vector<std::int32_t>& joints, std::size_t index) {
-  return joints.empty() ? "" : CsvText(names[static_cast<std::size_t>(joints[index])]);
+  return joints.empty() ? "" : CsvText(names[joints[index]]);
 }
 
 std::string Head(const ColliderSet& set, const std::string& format) {

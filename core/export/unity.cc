@@ -69,13 +69,12 @@ class UnityWriter {
 
   UnityJson BonePoint(std::int32_t joint, const Eigen::Vector3d& upright) const {
     if (joint < 0) return Point(upright);
-    return Point(bone_from_model_[static_cast<std::size_t>(joint)] * upright);
+    return Point(bone_from_model_[joint] * upright);
   }
 
   UnityJson BoneDirection(std::int32_t joint, const Eigen::Vector3d& upright) const {
     if (joint < 0) return Point(upright);
-    return Point(
-        (bone_from_model_[static_cast<std::size_t>(joint)].linear() * upright).normalized());
+    return Point((bone_from_model_[joint].linear() * upright).normalized());
   }
 
   UnityJson Bones() const {

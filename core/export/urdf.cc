@@ -50,8 +50,7 @@ class UrdfWriter {
     names.insert(names.begin(), kRoot);
     names = UniqueNames(std::move(names), "joint");
     for (const auto& [joint, collisions] : collisions_) {
-      if (joint >= 0)
-        absl::StrAppend(&xml, Link(names[static_cast<std::size_t>(joint) + 1], joint));
+      if (joint >= 0) absl::StrAppend(&xml, Link(names[joint + 1], joint));
     }
     return {{{"colliders.urdf", xml + "</robot>\n"}}, Warnings()};
   }

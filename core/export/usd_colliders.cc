@@ -67,7 +67,7 @@ class UsdWriter {
 
  private:
   void Line(int depth, const std::string& text) {
-    text_.append(static_cast<std::size_t>(4 * depth), ' ');
+    text_.append(4 * depth, ' ');
     text_ += text + "\n";
   }
 
@@ -90,7 +90,7 @@ class UsdWriter {
   }
 
   [[nodiscard]] std::string NameOf(std::int32_t joint) const {
-    return joint < 0 ? "body" : set_.joints[static_cast<std::size_t>(joint)].name;
+    return joint < 0 ? "body" : set_.joints[joint].name;
   }
 
   void WriteJoint(const std::string& prim, std::int32_t joint,

@@ -234,10 +234,8 @@ std::vector<Placing> GltfClips::JointsAt(std::size_t clip, double seconds,
   std::vector<Placing> placings;
   placings.reserve(joints.size());
   for (const NamedJoint& joint : joints) {
-    const bool has_node = joint.node >= 0 && static_cast<std::size_t>(joint.node) < poses.size();
-    placings.push_back(has_node
-                           ? Placing(to_world[static_cast<std::size_t>(joint.node)].topRows<3>())
-                           : joint.to_mesh);
+    const bool has_node = joint.node >= 0 && std::cmp_less(joint.node, poses.size());
+    placings.push_back(has_node ? Placing(to_world[joint.node].topRows<3>()) : joint.to_mesh);
   }
   return placings;
 }

@@ -163,11 +163,10 @@ std::optional<GltfComponent> ComponentOf(draco::DataType type) {
 std::optional<GltfAccessor> ValuesOf(const draco::Mesh& mesh,
                                      const draco::PointAttribute& attribute) {
   const std::optional<GltfComponent> type = ComponentOf(attribute.data_type());
-  const auto stride = static_cast<std::size_t>(attribute.byte_stride());
-  const auto components = static_cast<std::size_t>(attribute.num_components());
+  const std::size_t stride = attribute.byte_stride();
+  const std::size_t components = attribute.num_components();
   if (!type.has_value() || components == 0 ||
-      stride !=
-          components * static_cast<std::size_t>(draco::DataTypeLength(attribute.data_type()))) {
+      stride != components * draco::DataTypeLength(attribute.data_type())) {
     return std::nullopt;
   }
   if (!attribute.is_mapping_identity() && attribute.indices_map_size() < mesh.num_points()) {
@@ -188,7 +187,7 @@ absl::StatusOr<DracoPrimitive> PrimitiveOf(const draco::Mesh& mesh,
                                            std::span<const std::uint32_t> attributes,
                                            const FilePlace& place) {
   DracoPrimitive primitive;
-  primitive.corners.reserve(3 * static_cast<std::size_t>(mesh.num_faces()));
+  primitive.corners.reserve(std::size_t{3} * mesh.num_faces());
   for (std::uint32_t f = 0; f < mesh.num_faces(); ++f) {
     for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(f))) {
       if (corner.value() >= mesh.num_points()) return Damaged(place, "a face has no such point");

@@ -131,7 +131,7 @@ class SkeletonReader {
     for (std::size_t j = 0; j < nodes.size(); ++j) {
       Eigen::Matrix4d inverse_bind;
       for (Eigen::Index k = 0; k < 16; ++k) {
-        inverse_bind(k % 4, k / 4) = matrices.At(j, static_cast<std::size_t>(k));
+        inverse_bind(k % 4, k / 4) = matrices.At(j, k);
       }
       skin.placings[j] = (nodes_.to_world[nodes[j]] * inverse_bind).topRows<3>();
       inverse_binds.push_back(inverse_bind);
@@ -176,7 +176,7 @@ class SkeletonReader {
     if (!node.has_value() || name.empty() || name.size() > kLongestBone) return absl::OkStatus();
     const FilePlace place = AtElement(absl::StrCat("human bone ", Printable(name)));
     CAPFIT_ASSIGN_OR_RETURN(const std::int32_t joint, JointAt(*node, place));
-    skeleton_.joints[static_cast<std::size_t>(joint)].human_bone = name;
+    skeleton_.joints[joint].human_bone = name;
     return absl::OkStatus();
   }
 
@@ -188,7 +188,7 @@ class SkeletonReader {
           nodes_.parent[n] == GltfNodes::kNone ? -1 : skeleton_.nearest_joint[nodes_.parent[n]];
       const std::int32_t joint = joint_of_node_[n];
       skeleton_.nearest_joint[n] = joint >= 0 ? joint : above;
-      if (joint >= 0) skeleton_.joints[static_cast<std::size_t>(joint)].parent = above;
+      if (joint >= 0) skeleton_.joints[joint].parent = above;
     }
   }
 

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace capfit::mannequin {
 namespace {
@@ -14,10 +15,7 @@ struct Grid {
   int width;
   int height;
   Ring vertices;
-  [[nodiscard]] std::uint32_t& at(int a, int b) {
-    return vertices[static_cast<std::size_t>(b) * static_cast<std::size_t>(width + 1) +
-                    static_cast<std::size_t>(a)];
-  }
+  [[nodiscard]] std::uint32_t& at(int a, int b) { return vertices[b * (width + 1) + a]; }
 };
 
 // Puts the ring around the grid, starting with the side b == 0.
@@ -48,8 +46,8 @@ void CageBuilder::Bridge(const Ring& from, const Ring& to, bool closed) {
 }
 
 void CageBuilder::Cap(const Ring& ring, int width, int height, const Vector3d& bulge) {
-  assert(ring.size() == static_cast<std::size_t>(2 * (width + height)));
-  Grid grid{width, height, Ring(static_cast<std::size_t>((width + 1) * (height + 1)))};
+  assert(std::cmp_equal(ring.size(), 2 * (width + height)));
+  Grid grid{width, height, Ring((width + 1) * (height + 1))};
   LayBorder(ring, grid);
   const auto p = [&](int a, int b) { return position(grid.at(a, b)); };
   for (int b = 1; b < height; ++b) {

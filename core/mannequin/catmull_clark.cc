@@ -146,7 +146,7 @@ SmoothSurface::SmoothSurface(const QuadMesh& cage, int levels) : size_((1 << lev
   Subdivision fine(cage);
   for (int level = 0; level < levels; ++level) fine.Refine();
   points_ = fine.LimitPoints();
-  const auto size = static_cast<std::size_t>(size_);
+  const std::size_t size = size_;
   grid_.resize(cage.quads.size() * size * size);
   for (std::size_t q = 0; q < fine.quads().size(); ++q) {
     // The base-4 digits of q tell the way down from the cage's face: corner 0 .. 3 at each level.
@@ -154,8 +154,8 @@ SmoothSurface::SmoothSurface(const QuadMesh& cage, int levels) : size_((1 << lev
     std::size_t j = 0;
     for (int level = 0; level < levels; ++level) {
       const std::size_t corner = (q >> (2 * level)) & 3;
-      i |= static_cast<std::size_t>(corner == 1 || corner == 2) << level;
-      j |= static_cast<std::size_t>(corner >= 2) << level;
+      i |= (corner == 1 || corner == 2 ? 1 : 0) << level;
+      j |= (corner >= 2 ? 1 : 0) << level;
     }
     const std::size_t face = q >> (2 * levels);
     std::uint32_t* const base = &grid_[(face * size + i) * size + j];

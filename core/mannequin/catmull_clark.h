@@ -21,9 +21,7 @@ class SmoothSurface {
   [[nodiscard]] int grid_size() const { return size_; }  // 2^levels + 1
   // Row i runs along the face's edge 0-1, column j along its edge 0-3.
   [[nodiscard]] const Eigen::Vector3d& GridPoint(std::size_t face, int i, int j) const {
-    const auto size = static_cast<std::size_t>(size_);
-    return points_[grid_[(face * size + static_cast<std::size_t>(i)) * size +
-                         static_cast<std::size_t>(j)]];
+    return points_[grid_[(face * size_ + i) * size_ + j]];
   }
   // The surface at (u, v) in [0, 1]^2 of a face, u along its edge 0-1: bilinear in the grid.
   [[nodiscard]] Eigen::Vector3d At(std::size_t face, double u, double v) const;

@@ -116,8 +116,8 @@ class Sampler {
       return corner;
     }
     std::vector<std::uint32_t>& edge = edges_[Undirected(a, b)];
-    if (edge.empty()) edge.assign(static_cast<std::size_t>(n), kNone);
-    std::uint32_t& vertex = edge[static_cast<std::size_t>(a < b ? i : n - i)];
+    if (edge.empty()) edge.assign(n, kNone);
+    std::uint32_t& vertex = edge[a < b ? i : n - i];
     if (vertex == kNone) vertex = Add(face, u, v, OnPlane(a) && OnPlane(b));
     return vertex;
   }

@@ -35,10 +35,10 @@ class RimFinder {
   static constexpr std::uint32_t kNotOnPath = 0xFFFFFFFFu;
 
   std::vector<bool>::reference IsUsed(HalfedgeHandle h) {
-    return used_[static_cast<std::size_t>(mesh_.edge_handle(h).idx())];
+    return used_[mesh_.edge_handle(h).idx()];
   }
   std::uint32_t& PlaceOfStart(HalfedgeHandle h) {
-    return place_on_path_[static_cast<std::size_t>(mesh_.from_vertex_handle(h).idx())];
+    return place_on_path_[mesh_.from_vertex_handle(h).idx()];
   }
 
   void WalkFrom(HalfedgeHandle first) {
@@ -81,7 +81,7 @@ HalfEdgeMesh::HalfEdgeMesh(std::size_t vertex_count, const Surface& surface) {
     if (mate != kNoMate) handles[mate] = HalfedgeHandle(2 * edges + 1);
     ++edges;
   }
-  resize(vertex_count, static_cast<std::size_t>(edges), surface.triangles.size());
+  resize(vertex_count, edges, surface.triangles.size());
   LinkTriangles(surface, handles);
   LinkRims(surface, handles);
 }
@@ -189,7 +189,7 @@ Surface HalfEdgeMesh::ToSurface() const {
     Triangle corners;
     HalfedgeHandle h = halfedge_handle(face);
     for (std::uint32_t& corner : corners) {
-      names[static_cast<std::size_t>(h.idx())] =
+      names[h.idx()] =
           static_cast<HalfEdge>(3 * surface.triangles.size() + (&corner - corners.data()));
       corner = static_cast<std::uint32_t>(from_vertex_handle(h).idx());
       h = next_halfedge_handle(h);

@@ -31,10 +31,7 @@ NearestVertex::NearestVertex(std::span<const Eigen::Vector3d> vertices) : vertic
     const auto axis = static_cast<Eigen::Index>(k);
     size_[k] = static_cast<int>(std::floor((high[axis] - low_[axis]) / cell_)) + 1;
   }
-  begin_.assign(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-                        static_cast<std::size_t>(size_[2]) +
-                    1,
-                0);
+  begin_.assign(std::size_t{1} * size_[0] * size_[1] * size_[2] + 1, 0);
   std::vector<std::uint32_t> cell_of(vertices.size());
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     cell_of[v] = static_cast<std::uint32_t>(IndexOf(CellOf(vertices[v])));
@@ -59,9 +56,7 @@ NearestVertex::Cell NearestVertex::CellOf(const Eigen::Vector3d& point) const {
 }
 
 std::size_t NearestVertex::IndexOf(const Cell& cell) const {
-  const auto at = [&](std::size_t k) { return static_cast<std::size_t>(cell[k]); };
-  return (at(2) * static_cast<std::size_t>(size_[1]) + at(1)) * static_cast<std::size_t>(size_[0]) +
-         at(0);
+  return (std::size_t{1} * size_[1] * cell[2] + cell[1]) * size_[0] + cell[0];
 }
 
 double NearestVertex::SquaredBeside(const Eigen::Vector3d& point, int axis, int cell) const {

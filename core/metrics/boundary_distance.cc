@@ -118,13 +118,13 @@ void BoundaryDistance::FindNeighbours(const ThreadPool& pool) {
 }
 
 bool BoundaryDistance::IsExposed(const Eigen::Vector3d& point_m, std::int32_t solid) const {
-  const std::vector<std::int32_t>& others = neighbours_[static_cast<std::size_t>(solid)];
+  const std::vector<std::int32_t>& others = neighbours_[solid];
   return std::all_of(others.begin(), others.end(),
                      [&](std::int32_t other) { return DepthAt(point_m, other) >= -tolerance_m_; });
 }
 
 double BoundaryDistance::DepthAt(const Eigen::Vector3d& point_m, std::int32_t solid) const {
-  return solids_[static_cast<std::size_t>(solid)].SignedDistance(point_m);
+  return solids_[solid].SignedDistance(point_m);
 }
 
 // Free of branches, so that it vectorises.
@@ -170,7 +170,7 @@ BoundaryDistance::SurfaceGrid BoundaryDistance::MakeGrid(std::size_t solid,
   grid.depth.assign(count, std::numeric_limits<double>::infinity());
   grid.nearest.assign(count, -1.0);
   for (const std::int32_t other : neighbours_[solid]) {
-    grid.Lower(tighten::DistanceKernel(solids_[static_cast<std::size_t>(other)]), other);
+    grid.Lower(tighten::DistanceKernel(solids_[other]), other);
   }
   return grid;
 }
@@ -197,8 +197,8 @@ void BoundaryDistance::FindCreases(std::size_t solid, double spacing_m,
 
 BoundaryDistance::CreasePoint BoundaryDistance::Between(const CreasePoint& exposed,
                                                         Eigen::Vector3d hidden) const {
-  const TaperedCapsule& on = solids_[static_cast<std::size_t>(exposed.on)];
-  const TaperedCapsule& under = solids_[static_cast<std::size_t>(exposed.under)];
+  const TaperedCapsule& on = solids_[exposed.on];
+  const TaperedCapsule& under = solids_[exposed.under];
   const double apart = (hidden - exposed.position_m).norm();
   CreasePoint result = exposed;
   result.position_m = OnBoth(on, under, 0.5 * (exposed.position_m + hidden));
@@ -215,7 +215,7 @@ BoundaryDistance::CreasePoint BoundaryDistance::Between(const CreasePoint& expos
     const Eigen::Vector3d middle = between - off.distance_m * off.normal;
     std::int32_t deepest = -1;
     double depth = -tolerance_m_;
-    for (const std::int32_t other : neighbours_[static_cast<std::size_t>(exposed.on)]) {
+    for (const std::int32_t other : neighbours_[exposed.on]) {
       const double here = DepthAt(middle, other);
       if (here >= depth) continue;
       depth = here;
@@ -242,8 +242,7 @@ std::vector<double> BoundaryDistance::SignedAt(std::span<const Eigen::Vector3d> 
   std::vector<Eigen::Vector3d> feet_m(grid.size());
   pool.ForChunks(grid.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const geometry::CapsuleDistance at =
-          solids_[static_cast<std::size_t>(nearest.solid[i])].Locate(grid.point(i));
+      const geometry::CapsuleDistance at = solids_[nearest.solid[i]].Locate(grid.point(i));
       distances[grid.order()[i]] = at.distance_m;
       feet_m[i] = grid.point(i) - at.distance_m * at.normal;
     }
@@ -269,8 +268,8 @@ double BoundaryDistance::ToCrease(const Eigen::Vector3d& point_m) const {
 }
 
 double BoundaryDistance::Slide(const Eigen::Vector3d& point_m, const CreasePoint& start) const {
-  const TaperedCapsule& on = solids_[static_cast<std::size_t>(start.on)];
-  const TaperedCapsule& under = solids_[static_cast<std::size_t>(start.under)];
+  const TaperedCapsule& on = solids_[start.on];
+  const TaperedCapsule& under = solids_[start.under];
   Eigen::Vector3d at = start.position_m;
   double best = (point_m - at).norm();
   double share = 1.0;  // of the step to take; less after one that led off the boundary

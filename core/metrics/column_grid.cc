@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/enum_index.h"
 #include "core/base/fit_observer.h"
 #include "core/base/random.h"
 
@@ -230,7 +231,7 @@ BodyRows::Cuts BodyRows::Cut(std::size_t row, const GridMargin& margin) const {
             Inside(crossings, parts, surface_.skin_begin, parts.size(), columns, margin.beside)};
   for (const mesh::ColumnCrossing& crossing : crossings) {
     if (crossing.triangle < surface_.skin_begin) continue;
-    const auto part = static_cast<std::size_t>(parts[crossing.triangle]);
+    const std::size_t part = Index(parts[crossing.triangle]);
     cuts.fitted_flux[part] -= crossing.turn * (crossing.along - surface_.middle_z[part]);
   }
   return cuts;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/chunk_sums.h"
+#include "core/base/enum_index.h"
 #include "core/mesh/surface_sums.h"
 
 namespace capfit::metrics {
@@ -106,7 +107,7 @@ class Maker {
     }
     surface_.vertices.reserve(vertices.size());
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-      const auto segment = static_cast<std::size_t>(body_.vertex_segments[v]);
+      const std::size_t segment = Index(body_.vertex_segments[v]);
       part_of_[v] = part_of_segment[segment];
       selected_[v] = is_selected[segment];
       if (selected_[v] != 0) surface_.vertices.push_back(v);
@@ -130,7 +131,7 @@ class Maker {
     const std::span<const mesh::Triangle> triangles = surface_.fitted();
     std::array<bool, body::kPartCount> is_found{};
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const auto part = static_cast<std::size_t>(surface_.parts[surface_.skin_begin + t]);
+      const std::size_t part = Index(surface_.parts[surface_.skin_begin + t]);
       if (std::exchange(is_found[part], true)) continue;
       surface_.middle_z[part] = surface_.points_m[triangles[t][0]].z();
       if (surface_.skin_begin + t < surface_.skin_end) surface_.has_part[part] = true;
@@ -144,7 +145,7 @@ class Maker {
     const std::span<const mesh::Triangle> triangles = surface_.fitted();
     PartNumbers flux{};
     for (std::size_t t = begin; t < end; ++t) {
-      const auto part = static_cast<std::size_t>(surface_.parts[surface_.skin_begin + t]);
+      const std::size_t part = Index(surface_.parts[surface_.skin_begin + t]);
       const Eigen::Vector3d area = mesh::AreaVector(surface_.points_m, triangles[t]);
       surface_.skin_areas_m2[t] = area.norm();
       flux[part] +=

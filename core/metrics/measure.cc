@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/chunk_sums.h"
+#include "core/base/enum_index.h"
 #include "core/metrics/boundary_distance.h"
 #include "core/metrics/fitted_surface.h"
 #include "core/metrics/volumes.h"
@@ -51,7 +52,7 @@ void PutVolumes(const Volumes& volumes, Metrics& metrics) {
 }
 
 PartMetrics* PartOf(body::Part part, Metrics& metrics) {
-  std::optional<PartMetrics>& found = metrics.parts[static_cast<std::size_t>(part)];
+  std::optional<PartMetrics>& found = metrics.parts[Index(part)];
   return found ? &*found : nullptr;
 }
 
@@ -89,7 +90,7 @@ std::vector<SurfaceSample> SampleSurface(const FittedSurface& surface, int count
   const std::vector<double>& areas = surface.skin_areas_m2;
   const double step_m2 = std::accumulate(areas.begin(), areas.end(), 0.0) / count;
   std::vector<SurfaceSample> samples;
-  samples.reserve(static_cast<std::size_t>(count));
+  samples.reserve(count);
   double at_u = 0.0;
   double at_v = 0.0;
   std::size_t at = 0;
@@ -120,7 +121,7 @@ tighten::PointGrid VerticesOf(const FittedSurface& fitted) {
 double SharpDistance(double distance_m, std::int32_t solid, const Eigen::Vector3d& point,
                      const std::vector<geometry::TaperedCapsule>& solids) {
   if (distance_m <= -kGridErrorM) return distance_m;
-  return solids[static_cast<std::size_t>(solid)].SignedDistance(point);
+  return solids[solid].SignedDistance(point);
 }
 
 std::vector<double> VertexDistances(const tighten::PointGrid& grid,
@@ -216,7 +217,7 @@ PartGapSums SumVertices(const FittedSurface& fitted, const std::vector<double>& 
   pool.ForChunks(skin.size(), kTrianglesPerSum, [&](std::size_t begin, std::size_t end) {
     PartGapSums& sums = chunks[begin / kTrianglesPerSum];
     for (std::size_t t = begin; t < end; ++t) {
-      GapSums& part = sums[static_cast<std::size_t>(fitted.parts[fitted.skin_begin + t])];
+      GapSums& part = sums[Index(fitted.parts[fitted.skin_begin + t])];
       double sum = 0.0;
       for (const std::uint32_t corner : skin[t]) {
         const double gap = std::abs(distances[corner]);
@@ -248,7 +249,7 @@ void AddSamples(const FittedSurface& fitted, const std::vector<double>& distance
       BoundaryDistance(solids, kCreaseGridPoints, pool).SignedAt(points_m, pool);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::size_t triangle = samples[i].triangle;
-    GapSums& part = sums[static_cast<std::size_t>(fitted.parts[fitted.skin_begin + triangle])];
+    GapSums& part = sums[Index(fitted.parts[fitted.skin_begin + triangle])];
     part.signed_m.push_back(signed_m[i]);
     part.beyond_linear += std::abs(signed_m[i]);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/enum_index.h"
+
 namespace capfit::metrics {
 namespace {
 
@@ -26,7 +28,7 @@ Part NeighbourOf(Part part) {
 
 std::size_t HomeOf(Part part, const std::array<bool, body::kPartCount>& is_fitted) {
   for (const Part one : {part, NeighbourOf(part)}) {
-    if (is_fitted[static_cast<std::size_t>(one)]) return static_cast<std::size_t>(one);
+    if (is_fitted[Index(one)]) return Index(one);
   }
   const auto first = std::find(is_fitted.begin(), is_fitted.end(), true);
   return first == is_fitted.end() ? 0 : static_cast<std::size_t>(first - is_fitted.begin());
@@ -129,9 +131,7 @@ void PartLengths::AddStretch(const Column& column, std::size_t first, std::size_
     volumes.outside += length;
     volumes.set += length;
   };
-  const auto is_fitted = [&](std::int32_t part) {
-    return part >= 0 && is_fitted_[static_cast<std::size_t>(part)];
-  };
+  const auto is_fitted = [&](std::int32_t part) { return part >= 0 && is_fitted_[part]; };
   const double length = stretch.interval.end - stretch.interval.begin;
   if (length <= 0.0) return;
   const bool has_begin = is_fitted(stretch.begin_part);
@@ -148,9 +148,9 @@ void PartLengths::AddStretch(const Column& column, std::size_t first, std::size_
 }
 
 std::int32_t PartLengths::PartOfSolid(std::int32_t solid, const Eigen::Vector3d& at_m) const {
-  const auto& [a, b] = solid_parts_[static_cast<std::size_t>(solid)];
+  const auto& [a, b] = solid_parts_[solid];
   if (a == b) return static_cast<std::int32_t>(a);
-  const double along = solids_[static_cast<std::size_t>(solid)].Locate(at_m).axis_parameter;
+  const double along = solids_[solid].Locate(at_m).axis_parameter;
   return static_cast<std::int32_t>(along < 0.5 ? a : b);
 }
 

@@ -45,7 +45,7 @@ class PartLengths {
   };
 
   [[nodiscard]] PartVolumes& At(std::int32_t part, Volumes& lengths) const {
-    return lengths.parts[home_[static_cast<std::size_t>(part)]];
+    return lengths.parts[home_[part]];
   }
   void AddFitted(std::span<const geometry::Interval> fitted, std::span<const std::int32_t> parts,
                  std::span<const geometry::Interval> set, Volumes& lengths) const;

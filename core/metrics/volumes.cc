@@ -37,10 +37,10 @@ void Correct(double exact_flux, PartVolumes& part) {
 std::vector<SolidParts> PartsOfSolids(const capsule::PrimitiveSet& set) {
   std::vector<SolidParts> parts;
   std::vector<bool> is_used(set.spheres.size(), false);
-  const auto part = [&](int sphere) { return set.origins[static_cast<std::size_t>(sphere)].part; };
+  const auto part = [&](int sphere) { return set.origins[sphere].part; };
   for (const capsule::CapsuleEnds& ends : set.capsules) {
     parts.push_back({part(ends[0]), part(ends[1])});
-    for (const int end : ends) is_used[static_cast<std::size_t>(end)] = true;
+    for (const int end : ends) is_used[end] = true;
   }
   for (std::size_t i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) parts.push_back({set.origins[i].part, set.origins[i].part});

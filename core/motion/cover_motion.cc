@@ -52,8 +52,6 @@ constexpr tighten::TightenPhase kRadiiPhase{.steps = 6,
                                             .last_penalty = 0.4,
                                             .fixed_centers = true};
 
-std::size_t U(int i) { return static_cast<std::size_t>(i); }
-
 // What a frame's set is: images are images at rest only.
 capsule::PrimitiveSet Posed(const capsule::PrimitiveSet& set, std::span<const Vec3> centers) {
   capsule::PrimitiveSet posed = set;
@@ -198,7 +196,7 @@ class MotionCoverer {
     if (!(radius_m > set_.spheres[sphere].radius_m)) return;
     set_.spheres[sphere].radius_m = radius_m;
     const int image = set_.origins[sphere].mirror;
-    if (image >= 0) set_.spheres[U(image)].radius_m = radius_m;
+    if (image >= 0) set_.spheres[image].radius_m = radius_m;
   }
 
   void FitRadiiToFrames() {
@@ -223,15 +221,15 @@ class MotionCoverer {
     bool has_grown = false;
     for (std::size_t i = 0; i < grids_[frame].size(); ++i) {
       if (at.distance_m[i] <= allowed_) continue;
-      has_grown = GrowTo(grids_[frame].point(i), solids[U(at.solid[i])], posed) || has_grown;
+      has_grown = GrowTo(grids_[frame].point(i), solids[at.solid[i]], posed) || has_grown;
     }
     return has_grown;
   }
 
   bool GrowTo(const Vec3& point, const capsule::CapsuleEnds& solid,
               capsule::PrimitiveSet& posed) const {
-    geometry::Sphere& a = posed.spheres[U(solid[0])];
-    geometry::Sphere& b = posed.spheres[U(solid[1])];
+    geometry::Sphere& a = posed.spheres[solid[0]];
+    geometry::Sphere& b = posed.spheres[solid[1]];
     const geometry::CapsuleDistance at = TaperedCapsule(a, b).Locate(point);
     const double missing = at.distance_m - allowed_;
     if (!(missing > 1e-12)) return false;

@@ -40,11 +40,10 @@ LocalTurns::LocalTurns(std::span<const Eigen::Vector3d> rest_m, const capsule::P
   const tighten::PointGrid grid(rest_m);
   const tighten::UnionDistances at = grid.DistancesTo(shapes, -1.0, pool);
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const auto nearest = static_cast<std::size_t>(at.solid[i]);
+    const int nearest = at.solid[i];
     const double t = shapes[nearest].Locate(grid.point(i)).axis_parameter;
     for (const int end : {0, 1}) {
-      const Share share{grid.order()[i],
-                        static_cast<std::uint32_t>(solids[nearest][static_cast<std::size_t>(end)]),
+      const Share share{grid.order()[i], static_cast<std::uint32_t>(solids[nearest][end]),
                         end == 0 ? 1.0 - t : t};
       if (!(share.weight > 0.0)) continue;
       shares_.push_back(share);

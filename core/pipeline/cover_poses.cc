@@ -27,7 +27,7 @@ std::vector<std::uint32_t> SourcesOfTarget(const BodyAtRest& rest) {
   std::vector<std::uint32_t> source(surface.vertices_m.size(), 0);
   for (std::size_t s = surface.vertex_of_source.size(); s-- > 0;) {
     const std::int32_t vertex = surface.vertex_of_source[s];
-    if (vertex >= 0) source[static_cast<std::size_t>(vertex)] = static_cast<std::uint32_t>(s);
+    if (vertex >= 0) source[vertex] = static_cast<std::uint32_t>(s);
   }
   std::vector<std::uint32_t> sources;
   for (const std::uint32_t vertex : rest.target.vertices) sources.push_back(source[vertex]);

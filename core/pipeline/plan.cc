@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 #include "core/capsule/build_primitives.h"
 #include "core/pipeline/engines.h"
@@ -97,12 +98,12 @@ capsule::PrimitiveCount Times(double room, const capsule::PrimitiveCount& cost) 
 std::vector<body::Part> EndsPresent(const body::Body& body, const body::PartSelection& parts) {
   std::array<bool, body::kPartCount> has_vertices{};
   for (const body::Segment segment : body.vertex_segments) {
-    has_vertices[static_cast<std::size_t>(body::PartOf(segment))] = true;
+    has_vertices[Index(body::PartOf(segment))] = true;
   }
   std::vector<body::Part> ends;
   for (int i = body::kChainCount; i < body::kPartCount; ++i) {
     const body::Part part = static_cast<body::Part>(i);
-    if (parts.Includes(part) && has_vertices[static_cast<std::size_t>(i)]) ends.push_back(part);
+    if (parts.Includes(part) && has_vertices[i]) ends.push_back(part);
   }
   return ends;
 }

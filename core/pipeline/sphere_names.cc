@@ -177,10 +177,9 @@ struct Entry {
 
 std::optional<std::size_t> ImageOf(const capsule::PrimitiveSet& set, std::size_t index) {
   const int mirror = set.origins[index].mirror;
-  if (mirror < 0 || mirror >= static_cast<int>(set.spheres.size())) return std::nullopt;
-  const auto image = static_cast<std::size_t>(mirror);
-  if (set.origins[image].mirror != static_cast<int>(index)) return std::nullopt;
-  return image;
+  if (mirror < 0 || std::cmp_greater_equal(mirror, set.spheres.size())) return std::nullopt;
+  if (!std::cmp_equal(set.origins[mirror].mirror, index)) return std::nullopt;
+  return mirror;
 }
 
 // Whether the sphere speaks for its pair: the left one.

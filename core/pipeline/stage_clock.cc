@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/base/enum_index.h"
+
 namespace capfit::pipeline {
 namespace {
 
@@ -31,7 +33,7 @@ std::array<double, kStageCount> SharesOf(const FitOptions& options) {
   const bool has_polygons =
       !is_searched || options.want_polygons || options.polygon_error.has_value();
   std::array<double, kStageCount> shares{};
-  const auto set = [&](Stage stage, double ms) { shares[static_cast<std::size_t>(stage)] = ms; };
+  const auto set = [&](Stage stage, double ms) { shares[Index(stage)] = ms; };
   set(Stage::kMesh, kMeshMs);
   set(Stage::kBody, kBodyMs);
   if (has_polygons) {
@@ -76,15 +78,14 @@ void StageClock::Begin(Stage stage) {
 
 void StageClock::End() {
   if (!current_.has_value()) return;
-  result_.stage_seconds[static_cast<std::size_t>(*current_)] +=
-      Seconds(Clock::now() - stage_start_);
+  result_.stage_seconds[Index(*current_)] += Seconds(Clock::now() - stage_start_);
   result_.seconds = Seconds(Clock::now() - start_);
   current_.reset();
 }
 
 void StageClock::OnFraction(double fraction_of_stage) {
   if (!current_.has_value()) return;
-  const auto stage = static_cast<std::size_t>(*current_);
+  const std::size_t stage = Index(*current_);
   const double before = std::accumulate(shares_.begin(), shares_.begin() + stage, 0.0);
   const double done = before + std::clamp(fraction_of_stage, 0.0, 1.0) * shares_[stage];
   if (done < fraction_done_ + kSmallestStep) return;

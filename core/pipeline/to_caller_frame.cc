@@ -68,8 +68,7 @@ std::vector<float> VertexGaps(std::span<const std::int32_t> vertex_of_source,
   gaps.reserve(vertex_of_source.size());
   for (const std::int32_t vertex : vertex_of_source) {
     gaps.push_back(vertex < 0 ? std::numeric_limits<float>::quiet_NaN()
-                              : static_cast<float>(caller_from_body.scale *
-                                                   gaps_m[static_cast<std::size_t>(vertex)]));
+                              : static_cast<float>(caller_from_body.scale * gaps_m[vertex]));
   }
   return gaps;
 }

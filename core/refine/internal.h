@@ -3,7 +3,6 @@
 #define CAPFIT_CORE_REFINE_INTERNAL_H_
 
 #include <cmath>
-#include <cstddef>
 
 namespace capfit::refine {
 
@@ -18,8 +17,6 @@ inline constexpr int kFewPrimitives = 80;
 
 // Of a whole: steps of so much spread evenly, however many there are.
 inline constexpr double kGoldenShare = 0.6180339887498949;
-
-[[nodiscard]] constexpr std::size_t U(int i) { return static_cast<std::size_t>(i); }
 
 // What is left of x above its next lower integer, in [0, 1).
 [[nodiscard]] inline double Fraction(double x) { return x - std::floor(x); }

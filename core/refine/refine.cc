@@ -305,7 +305,7 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
     if (graphs.size() > 1) values[i] = fine->Value(graphs[i], pool);
   });
   const auto best = std::min_element(values.begin(), values.end()) - values.begin();
-  return std::move(graphs[static_cast<std::size_t>(best)]);
+  return std::move(graphs[best]);
 }
 
 // A layout that hangs on the body in the places that it had on another one.
@@ -344,9 +344,11 @@ body::Part PartAt(const body::Body& body, const Vec3& point_m) {
 void MirrorParts(const body::PartSelection& parts, capsule::PrimitiveSet& set) {
   for (std::size_t v = 0; v < set.origins.size(); ++v) {
     body::Part& part = set.origins[v].part;
-    const std::size_t image = U(set.origins[v].mirror);
-    if (image > v) set.origins[image].part = body::MirrorPart(part);
-    if (image == v && body::MirrorPart(part) != part && parts.torso) part = body::Part::kTorso;
+    const int image = set.origins[v].mirror;
+    if (std::cmp_greater(image, v)) set.origins[image].part = body::MirrorPart(part);
+    if (std::cmp_equal(image, v) && body::MirrorPart(part) != part && parts.torso) {
+      part = body::Part::kTorso;
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/enum_index.h"
 #include "core/section/outline.h"
 #include "core/section/part_section.h"
 #include "core/section/stations.h"
@@ -103,7 +104,7 @@ class Extractor {
   bool EndsOpen(Part chain) const {
     constexpr std::array<Part, body::kChainCount> kNext{
         Part::kHead, Part::kLeftHand, Part::kRightHand, Part::kLeftFoot, Part::kRightFoot};
-    const Part next = kNext[static_cast<std::size_t>(chain)];
+    const Part next = kNext[Index(chain)];
     return std::none_of(body_.vertex_segments.begin(), body_.vertex_segments.end(),
                         [next](body::Segment s) { return body::PartOf(s) == next; });
   }
@@ -234,8 +235,7 @@ class Extractor {
     if (!chest) return height;
     const Eigen::Vector3d ahead = Ahead(bust.frame);
     for (const int apex : valleys.apex) {
-      const Eigen::Vector3d tip =
-          bust.frame.ToSpace(bust.outline.vertices()[static_cast<std::size_t>(apex)]);
+      const Eigen::Vector3d tip = bust.frame.ToSpace(bust.outline.vertices()[apex]);
       height = std::min(height, ahead.dot(tip) - FrontAt(*chest, below, tip.x(), ahead));
     }
     return std::max(0.0, height);

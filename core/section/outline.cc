@@ -190,11 +190,11 @@ std::optional<std::vector<Eigen::Vector2d>> Symmetrised(std::span<const Eigen::V
       ResamplePath(PathBetween(points, *low, *high), half + 1);
   const std::vector<Eigen::Vector2d> left =
       ResamplePath(PathBetween(points, *high, *low), half + 1);
-  std::vector<Eigen::Vector2d> result(static_cast<std::size_t>(2 * half));
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(half); ++k) {
+  std::vector<Eigen::Vector2d> result(2 * half);
+  for (int k = 0; k <= half; ++k) {
     const Eigen::Vector2d& a = right[k];
-    const Eigen::Vector2d& b = left[static_cast<std::size_t>(half) - k];
-    const bool on_axis = k == 0 || k == static_cast<std::size_t>(half);
+    const Eigen::Vector2d& b = left[half - k];
+    const bool on_axis = k == 0 || k == half;
     const double x = on_axis ? 0.0 : std::max(0.0, 0.5 * (a.x() - b.x()));
     const double y = 0.5 * (a.y() + b.y());
     result[k] = {x, y};

@@ -40,9 +40,9 @@ class View {
   }
 
   [[nodiscard]] double width() const { return 2.0 * half_width_; }
-  [[nodiscard]] double ahead(int i) const { return ahead_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] double aside(int i) const { return aside_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] double angle(int i) const { return angles_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] double ahead(int i) const { return ahead_[i]; }
+  [[nodiscard]] double aside(int i) const { return aside_[i]; }
+  [[nodiscard]] double angle(int i) const { return angles_[i]; }
 
   // The deepest local minimum with an angle in [low, high]; -1 where there is none.
   [[nodiscard]] int DeepestValley(double low, double high) const {
@@ -51,7 +51,7 @@ class View {
       if (angles_[i] < low || angles_[i] > high) continue;
       const double here = depth_[i];
       if (here > depth_[(i + 1) % count_] || here > depth_[(i + count_ - 1) % count_]) continue;
-      if (best < 0 || here < depth_[static_cast<std::size_t>(best)]) best = static_cast<int>(i);
+      if (best < 0 || here < depth_[best]) best = static_cast<int>(i);
     }
     return best;
   }

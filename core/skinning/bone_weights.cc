@@ -157,7 +157,7 @@ std::map<std::uint16_t, Share> SharesOf(const SparseWeights& sparse, std::size_t
 std::size_t DepthOf(std::uint16_t joint, std::span<const NamedJoint> joints) {
   std::size_t depth = 0;
   for (std::int32_t above = joints[joint].parent; above >= 0 && depth < joints.size(); ++depth) {
-    above = joints[static_cast<std::size_t>(above)].parent;
+    above = joints[above].parent;
   }
   return depth;
 }

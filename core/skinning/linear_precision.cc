@@ -235,11 +235,11 @@ std::vector<float> RoundPrecisely(std::span<const Eigen::Vector3d> offsets,
     if (least < kMomentTolerance) break;
     const std::array<std::size_t, 4> four = FourSmall(moments, weights, is_strict);
     Eigen::Matrix4d supply;
-    for (int k = 0; k < 4; ++k) supply.col(k) = moments[four[static_cast<std::size_t>(k)]];
+    for (int k = 0; k < 4; ++k) supply.col(k) = moments[four[k]];
     const Eigen::Vector4d change = supply.fullPivLu().solve(missing);
     std::vector<float> mended = rounded;
     for (int k = 0; k < 4; ++k) {
-      float& weight = mended[four[static_cast<std::size_t>(k)]];
+      float& weight = mended[four[k]];
       weight = static_cast<float>(weight + change[k]);
     }
     const double left = Missing(moments, mended).norm();

@@ -22,7 +22,7 @@ class SourceMap {
   SourceMap(std::span<const std::int32_t> vertex_of_source, std::size_t vertices)
       : vertex_of_source_(vertex_of_source), share_(vertices, 0.0) {
     for (const std::int32_t vertex : vertex_of_source_) {
-      if (vertex >= 0) share_[static_cast<std::size_t>(vertex)] += 1.0;
+      if (vertex >= 0) share_[vertex] += 1.0;
     }
     for (double& share : share_) share = share > 0.0 ? 1.0 / share : 0.0;
   }
@@ -61,7 +61,7 @@ class SourceMap {
         const std::uint32_t next = triangle[(k + 1) % 3];
         const std::int32_t at = slot[triangle[k]];
         if (at < 0 || share_[next] == 0.0) continue;
-        heirs_[static_cast<std::size_t>(at)].neighbours.push_back(next);
+        heirs_[at].neighbours.push_back(next);
       }
     }
   }
@@ -110,8 +110,8 @@ void FillRows(const mesh::BodyMesh& mesh, const SourceMap& sources,
     for (std::size_t s = 0; s < row.size(); ++s) {
       const std::int32_t vertex = vertex_of_source[s];
       if (vertex < 0) continue;
-      const auto v = static_cast<std::size_t>(vertex);
-      row[s] = static_cast<float>(sources.share(v) * raw.weights[v][static_cast<Eigen::Index>(k)]);
+      row[s] = static_cast<float>(sources.share(vertex) *
+                                  raw.weights[vertex][static_cast<Eigen::Index>(k)]);
     }
     MendFloatSum(row);
   }

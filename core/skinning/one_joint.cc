@@ -20,7 +20,7 @@ constexpr double kChordOf30Degrees = 0.51763809020504152;
 bool HangsOn(std::int32_t joint, std::int32_t above, std::span<const NamedJoint> joints) {
   for (std::size_t step = 0; joint >= 0 && step <= joints.size(); ++step) {
     if (joint == above) return true;
-    joint = joints[static_cast<std::size_t>(joint)].parent;
+    joint = joints[joint].parent;
   }
   return false;
 }
@@ -38,7 +38,7 @@ std::set<std::int32_t> Turning(std::size_t sphere, const BoneWeights& weights,
   for (std::size_t i = weights.RowBegin(sphere); i < weights.row_ends[sphere]; ++i) {
     std::int32_t joint = weights.joints[i];
     while (joint >= 0 && turning.insert(joint).second) {
-      joint = joints[static_cast<std::size_t>(joint)].parent;
+      joint = joints[joint].parent;
     }
   }
   return turning;
@@ -50,13 +50,13 @@ double DriftOn(std::int32_t joint, std::size_t sphere, const BoneWeights& weight
                std::span<const NamedJoint> joints) {
   std::set<std::int32_t> turning = Turning(sphere, weights, joints);
   for (std::int32_t above = joint; above >= 0 && turning.insert(above).second;) {
-    above = joints[static_cast<std::size_t>(above)].parent;
+    above = joints[above].parent;
   }
   double drift = 0.0;
   for (const std::int32_t turned : turning) {
     // A turn R about x moves the centre by (R - 1) of the sum of weight * (place - x) over what
     // turns, and the joint's own idea of it by (R - 1) (centre - x) if the joint turns too.
-    const Eigen::Vector3d& about = joints[static_cast<std::size_t>(turned)].to_mesh.col(3);
+    const Eigen::Vector3d& about = joints[turned].to_mesh.col(3);
     const bool is_carried = HangsOn(joint, turned, joints);
     Eigen::Vector3d apart = Eigen::Vector3d::Zero();
     for (std::size_t i = weights.RowBegin(sphere); i < weights.row_ends[sphere]; ++i) {
@@ -92,13 +92,12 @@ OneJoint ChooseJoints(const BoneWeights& weights, std::span<const NamedJoint> jo
   }
   for (const std::array<int, 2>& ends : capsules) {
     std::set<std::int32_t> candidates;
-    for (const int end : ends) holders(static_cast<std::size_t>(end), candidates);
+    for (const int end : ends) holders(end, candidates);
     std::int32_t best = -1;
     double least = std::numeric_limits<double>::infinity();
     for (const std::int32_t joint : candidates) {
-      const double drift =
-          std::max(DriftOn(joint, static_cast<std::size_t>(ends[0]), weights, joints),
-                   DriftOn(joint, static_cast<std::size_t>(ends[1]), weights, joints));
+      const double drift = std::max(DriftOn(joint, ends[0], weights, joints),
+                                    DriftOn(joint, ends[1], weights, joints));
       if (best >= 0 && !ClearlyLess(drift, least)) continue;
       best = joint;
       least = drift;
@@ -115,7 +114,7 @@ BoneWeights OnOneJoint(std::span<const Eigen::Vector3d> centers,
   BoneWeights result;
   result.joint_count = joints.size();
   for (std::size_t i = 0; i < centers.size(); ++i) {
-    const formats::Placing& to_mesh = joints[static_cast<std::size_t>(of_center[i])].to_mesh;
+    const formats::Placing& to_mesh = joints[of_center[i]].to_mesh;
     Eigen::Matrix3d from_mesh;
     bool has_inverse = false;
     to_mesh.leftCols<3>().computeInverseWithCheck(from_mesh, has_inverse, 0.0);

@@ -33,8 +33,7 @@ class SparseCarriers {
     const std::span<const std::int32_t> of_source =
         carriers ? carriers->carrier_of_source : mesh.vertex_of_source();
     for (std::size_t s = of_source.size(); s-- > 0;) {
-      if (of_source[s] >= 0)
-        source_[static_cast<std::size_t>(of_source[s])] = static_cast<std::int32_t>(s);
+      if (of_source[s] >= 0) source_[of_source[s]] = static_cast<std::int32_t>(s);
     }
   }
 
@@ -62,7 +61,7 @@ struct Entry {
   double weight = 0.0;
 };
 
-Eigen::Vector4d Moments(const Eigen::Vector3d& offset) {
+Eigen::Vector4d MomentsOf(const Eigen::Vector3d& offset) {
   return {1.0, offset.x(), offset.y(), offset.z()};
 }
 
@@ -113,10 +112,10 @@ void Mend(std::span<Entry> entries, const std::vector<double>& shares, double we
   }
   const double inverse = extent > 0.0 ? 1.0 / std::sqrt(extent) : 0.0;
   Eigen::Matrix4d supply = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d missing = Moments(inverse * (moment - weight * middle));
+  Eigen::Vector4d missing = MomentsOf(inverse * (moment - weight * middle));
   missing[0] = weight;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Eigen::Vector4d m = Moments(inverse * (entries[i].offset - middle));
+    const Eigen::Vector4d m = MomentsOf(inverse * (entries[i].offset - middle));
     supply += shares[i] * m * m.transpose();
     missing -= entries[i].weight * m;
   }
@@ -126,7 +125,7 @@ void Mend(std::span<Entry> entries, const std::vector<double>& shares, double we
       stiffness > 0.0 ? Eigen::Vector4d(supply.ldlt().solve(missing))
                       : Eigen::Vector4d(supply.completeOrthogonalDecomposition().solve(missing));
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Eigen::Vector4d m = Moments(inverse * (entries[i].offset - middle));
+    const Eigen::Vector4d m = MomentsOf(inverse * (entries[i].offset - middle));
     entries[i].weight += shares[i] * change.dot(m);
   }
 }

@@ -251,7 +251,7 @@ std::array<TriangleWeights, kLanes> MeanValueTriangles(
   const LaneTriangles lanes = WeighLanes(sights[0], sights[1], sights[2]);
   std::array<TriangleWeights, kLanes> result;
   for (int lane = 0; lane < kLanes; ++lane) {
-    TriangleWeights& weights = result[static_cast<std::size_t>(lane)];
+    TriangleWeights& weights = result[lane];
     for (std::size_t k = 0; k < 3; ++k) weights.weights[k] = lanes.added[k][lane];
     if (lanes.care[lane] < 0.0) continue;
     const CarefulTriangle careful({&sights[0], &sights[1], &sights[2]}, lane);

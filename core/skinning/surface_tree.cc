@@ -174,8 +174,8 @@ class Builder {
   }
 
   void Join(SurfacePatch& patch) const {
-    const SurfacePatch& a = patches_[static_cast<std::size_t>(patch.parts[0])];
-    const SurfacePatch& b = patches_[static_cast<std::size_t>(patch.parts[1])];
+    const SurfacePatch& a = patches_[patch.parts[0]];
+    const SurfacePatch& b = patches_[patch.parts[1]];
     patch.area_vector = a.area_vector + b.area_vector;
     patch.area = a.area + b.area;
     patch.square_reach = std::max(a.square_reach, b.square_reach);

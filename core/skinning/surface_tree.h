@@ -45,9 +45,7 @@ class SurfaceTree {
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
   // The whole surface.
   [[nodiscard]] const SurfacePatch& root() const { return patches_.back(); }
-  [[nodiscard]] const SurfacePatch& patch(std::int32_t index) const {
-    return patches_[static_cast<std::size_t>(index)];
-  }
+  [[nodiscard]] const SurfacePatch& patch(std::int32_t index) const { return patches_[index]; }
   // All vertices, those of each patch together.
   [[nodiscard]] std::span<const std::uint32_t> order() const& { return order_; }
   std::span<const std::uint32_t> order() && = delete;

@@ -7,8 +7,6 @@
 namespace capfit::tighten {
 namespace {
 
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
-
 void Insert(std::vector<int>& sorted, int value) {
   const auto place = std::lower_bound(sorted.begin(), sorted.end(), value);
   if (place == sorted.end() || *place != value) sorted.insert(place, value);
@@ -22,28 +20,28 @@ void Remove(std::vector<int>& sorted, int value) {
 
 NormalMatrix::NormalMatrix(Eigen::Index variables, std::span<const std::pair<int, int>> pairs)
     : groups_(static_cast<int>(variables / 4)) {
-  Ties ties(At(groups_));
+  Ties ties(groups_);
   for (const auto& [a, b] : pairs) {
-    Insert(ties[At(a / 4)], b / 4);
-    Insert(ties[At(b / 4)], a / 4);
+    Insert(ties[a / 4], b / 4);
+    Insert(ties[b / 4], a / 4);
   }
   PlaceBlocks(Eliminate(std::move(ties)));
 }
 
 // Each time the group that is tied to the fewest; those are tied to each other from then on.
 NormalMatrix::Ties NormalMatrix::Eliminate(Ties ties) {
-  column_of_group_.assign(At(groups_), -1);
+  column_of_group_.assign(groups_, -1);
   for (int column = 0; column < groups_; ++column) {
     int next = -1;
     for (int g = 0; g < groups_; ++g) {
-      if (column_of_group_[At(g)] >= 0) continue;
-      if (next < 0 || ties[At(g)].size() < ties[At(next)].size()) next = g;
+      if (column_of_group_[g] >= 0) continue;
+      if (next < 0 || ties[g].size() < ties[next].size()) next = g;
     }
-    column_of_group_[At(next)] = column;
-    for (const int a : ties[At(next)]) {
-      Remove(ties[At(a)], next);
-      for (const int b : ties[At(next)]) {
-        if (a != b) Insert(ties[At(a)], b);
+    column_of_group_[next] = column;
+    for (const int a : ties[next]) {
+      Remove(ties[a], next);
+      for (const int b : ties[next]) {
+        if (a != b) Insert(ties[a], b);
       }
     }
   }
@@ -51,10 +49,10 @@ NormalMatrix::Ties NormalMatrix::Eliminate(Ties ties) {
 }
 
 void NormalMatrix::PlaceBlocks(const Ties& later) {
-  std::vector<std::vector<int>> rows(At(groups_));
+  std::vector<std::vector<int>> rows(groups_);
   for (int g = 0; g < groups_; ++g) {
-    std::vector<int>& own = rows[At(column_of_group_[At(g)])];
-    for (const int tied : later[At(g)]) own.push_back(column_of_group_[At(tied)]);
+    std::vector<int>& own = rows[column_of_group_[g]];
+    for (const int tied : later[g]) own.push_back(column_of_group_[tied]);
     std::sort(own.begin(), own.end());
   }
   for (const std::vector<int>& own : rows) {
@@ -67,28 +65,28 @@ void NormalMatrix::PlaceBlocks(const Ties& later) {
       for (std::size_t b = 0; b <= a; ++b) targets_.push_back(BlockAt(own[a], own[b]));
     }
   }
-  blocks_.resize(At(groups_) + rows_.size());
-  inverses_.resize(At(groups_));
+  blocks_.resize(groups_ + rows_.size());
+  inverses_.resize(groups_);
 }
 
 std::uint32_t NormalMatrix::BlockAt(int row, int column) const {
   if (row == column) return static_cast<std::uint32_t>(row);
-  const auto first = rows_.begin() + begin_[At(column)];
-  const auto last = rows_.begin() + begin_[At(column) + 1];
+  const auto first = rows_.begin() + begin_[column];
+  const auto last = rows_.begin() + begin_[column + 1];
   const auto place = std::lower_bound(first, last, row);
   return static_cast<std::uint32_t>(groups_ + (place - rows_.begin()));
 }
 
 NormalMatrix::Place NormalMatrix::PlaceOf(int row, int column) const {
-  const int r = column_of_group_[At(row / 4)];
-  const int c = column_of_group_[At(column / 4)];
+  const int r = column_of_group_[row / 4];
+  const int c = column_of_group_[column / 4];
   return {BlockAt(std::max(r, c), std::min(r, c)), r < c};
 }
 
 void NormalMatrix::Reset(const Eigen::VectorXd& diagonal) {
   std::fill(blocks_.begin(), blocks_.end(), Eigen::Matrix4d::Zero());
   for (int g = 0; g < groups_; ++g) {
-    blocks_[At(column_of_group_[At(g)])].diagonal() = diagonal.segment<4>(4 * g);
+    blocks_[column_of_group_[g]].diagonal() = diagonal.segment<4>(4 * g);
   }
 }
 
@@ -111,24 +109,24 @@ void NormalMatrix::Factorise() {
 Eigen::VectorXd NormalMatrix::Solve(const Eigen::VectorXd& right_side) const {
   Eigen::VectorXd by_column(right_side.size());
   for (int g = 0; g < groups_; ++g) {
-    by_column.segment<4>(4 * column_of_group_[At(g)]) = right_side.segment<4>(4 * g);
+    by_column.segment<4>(4 * column_of_group_[g]) = right_side.segment<4>(4 * g);
   }
   const auto part = [&by_column](int column) { return by_column.segment<4>(4 * column); };
   for (int column = 0; column < groups_; ++column) {
-    part(column) = (inverses_[At(column)] * part(column)).eval();
-    for (std::size_t k = begin_[At(column)]; k < begin_[At(column) + 1]; ++k) {
+    part(column) = (inverses_[column] * part(column)).eval();
+    for (std::size_t k = begin_[column]; k < begin_[column + 1]; ++k) {
       part(rows_[k]).noalias() -= blocks_[inverses_.size() + k] * part(column);
     }
   }
   for (int column = groups_ - 1; column >= 0; --column) {
-    for (std::size_t k = begin_[At(column)]; k < begin_[At(column) + 1]; ++k) {
+    for (std::size_t k = begin_[column]; k < begin_[column + 1]; ++k) {
       part(column).noalias() -= blocks_[inverses_.size() + k].transpose() * part(rows_[k]);
     }
-    part(column) = (inverses_[At(column)].transpose() * part(column)).eval();
+    part(column) = (inverses_[column].transpose() * part(column)).eval();
   }
   Eigen::VectorXd result(right_side.size());
   for (int g = 0; g < groups_; ++g) {
-    result.segment<4>(4 * g) = by_column.segment<4>(4 * column_of_group_[At(g)]);
+    result.segment<4>(4 * g) = by_column.segment<4>(4 * column_of_group_[g]);
   }
   return result;
 }

@@ -218,13 +218,13 @@ class InteriorPoint {
       const Lane weighted_lower = weight * rows_.Coefficient(k, left + 1);
       for (Eigen::Index j = 0; j < kColumns; ++j) {
         const Lane other = rows_.Coefficient(k, right + j);
-        upper[static_cast<std::size_t>(j)] += weighted_upper * other;
-        lower[static_cast<std::size_t>(j)] += weighted_lower * other;
+        upper[j] += weighted_upper * other;
+        lower[j] += weighted_lower * other;
       }
     }
     for (Eigen::Index j = 0; j < kColumns; ++j) {
-      rows(0, j) = upper[static_cast<std::size_t>(j)].sum();
-      rows(1, j) = lower[static_cast<std::size_t>(j)].sum();
+      rows(0, j) = upper[j].sum();
+      rows(1, j) = lower[j].sum();
     }
   }
 

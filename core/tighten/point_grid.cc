@@ -28,7 +28,7 @@ struct Grid {
     std::array<std::uint32_t, 3> at{};
     for (int k = 0; k < 3; ++k) {
       const auto i = static_cast<std::uint32_t>((point[k] - low[k]) / cell);
-      at[static_cast<std::size_t>(k)] = std::min(i, counts[static_cast<std::size_t>(k)] - 1);
+      at[k] = std::min(i, counts[k] - 1);
     }
     return (at[2] * counts[1] + at[1]) * counts[0] + at[0];
   }
@@ -59,8 +59,7 @@ Grid MakeGrid(std::span<const Eigen::Vector3d> points, PointGrid::Fold fold) {
   const double max_cells = 64.0 + kMaxCellsPerPoint * static_cast<double>(points.size());
   while ((extent / grid.cell).ceil().max(1.0).prod() > max_cells) grid.cell *= 1.25;
   for (int k = 0; k < 3; ++k) {
-    grid.counts[static_cast<std::size_t>(k)] =
-        static_cast<std::uint32_t>(std::max(1.0, std::ceil(extent[k] / grid.cell)));
+    grid.counts[k] = static_cast<std::uint32_t>(std::max(1.0, std::ceil(extent[k] / grid.cell)));
   }
   return grid;
 }

@@ -7,10 +7,10 @@ namespace capfit::tighten {
 // A counting sort, as groups are few.
 std::vector<std::size_t> RowsByGroup(const PenaltyProgram& program) {
   const std::vector<PenaltyRow>& rows = program.rows;
-  const auto width = static_cast<std::size_t>(program.gradient.size() / 4) + 1;
+  const Eigen::Index width = program.gradient.size() / 4 + 1;
   const auto key = [width](const PenaltyRow& row) {
     const int b = row.first[1] < 0 ? 0 : row.first[1] / 4 + 1;
-    return static_cast<std::size_t>(row.first[0] / 4) * width + static_cast<std::size_t>(b);
+    return row.first[0] / 4 * width + b;
   };
   std::vector<std::uint32_t> begin(width * width + 1, 0);
   for (const PenaltyRow& row : rows) ++begin[key(row) + 1];

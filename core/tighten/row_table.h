@@ -61,13 +61,13 @@ struct RowTable {
   // Rows times their weights, added up lane by lane, and then what belongs to each variable.
   void AddWeighted(Eigen::Index k, const Lane& weight, Lanes& sums) const {
     for (Eigen::Index c = 0; c < 8; ++c) {
-      sums[static_cast<std::size_t>(c)] += weight * Coefficient(k, c);
+      sums[c] += weight * Coefficient(k, c);
     }
   }
   static void Scatter(const RowGroup& group, const Lanes& sums, Eigen::VectorXd& to) {
     for (int c = 0; c < 4; ++c) {
-      to[group.first_a + c] += sums[static_cast<std::size_t>(c)].sum();
-      if (group.first_b >= 0) to[group.first_b + c] += sums[static_cast<std::size_t>(4 + c)].sum();
+      to[group.first_a + c] += sums[c].sum();
+      if (group.first_b >= 0) to[group.first_b + c] += sums[4 + c].sum();
     }
   }
   static Lanes NoLanes() {
@@ -80,9 +80,8 @@ struct RowTable {
   static std::array<Real, 8> OwnPart(const RowGroup& group, const Eigen::VectorXd& of) {
     std::array<Real, 8> own{};
     for (int c = 0; c < 4; ++c) {
-      const auto at = static_cast<std::size_t>(c);
-      own[at] = static_cast<Real>(of[group.first_a + c]);
-      if (group.first_b >= 0) own[at + 4] = static_cast<Real>(of[group.first_b + c]);
+      own[c] = static_cast<Real>(of[group.first_a + c]);
+      if (group.first_b >= 0) own[c + 4] = static_cast<Real>(of[group.first_b + c]);
     }
     return own;
   }
@@ -90,7 +89,7 @@ struct RowTable {
   Lane Product(Eigen::Index k, const std::array<Real, 8>& own) const {
     Lane product = Lane::Zero();
     for (Eigen::Index c = 0; c < 8; ++c) {
-      product += own[static_cast<std::size_t>(c)] * Coefficient(k, c);
+      product += own[c] * Coefficient(k, c);
     }
     return product;
   }
@@ -108,7 +107,7 @@ struct RowTable {
       groups.push_back({next_, next_, row.first[0], row.first[1], {}, {}, {}});
     }
     for (Eigen::Index c = 0; c < 8; ++c) {
-      coefficients(next_, c) = static_cast<Real>(row.coefficients[static_cast<std::size_t>(c)]);
+      coefficients(next_, c) = static_cast<Real>(row.coefficients[c]);
     }
     value[next_] = static_cast<Real>(row.value);
     penalty[next_] = static_cast<Real>(row.penalty);

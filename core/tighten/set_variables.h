@@ -23,9 +23,7 @@ class SetVariables {
   explicit SetVariables(capsule::PrimitiveSet& set);
 
   [[nodiscard]] int count() const { return 4 * orbit_count_; }
-  [[nodiscard]] const SphereVariables& of(int sphere) const {
-    return spheres_[static_cast<std::size_t>(sphere)];
-  }
+  [[nodiscard]] const SphereVariables& of(int sphere) const { return spheres_[sphere]; }
   // capsule::SolidEnds of the set.
   [[nodiscard]] const std::vector<capsule::CapsuleEnds>& solids() const { return solids_; }
   // One sphere of each group of four variables, the one that sees x with its own sign.
@@ -35,7 +33,8 @@ class SetVariables {
   // on the mid-plane; otherwise each counts as its own.
   [[nodiscard]] bool is_symmetric() const { return images_.is_whole; }
   [[nodiscard]] std::size_t image_of_sphere(std::size_t sphere) const {
-    return is_symmetric() ? static_cast<std::size_t>(images_.spheres[sphere]) : sphere;
+    if (!is_symmetric()) return sphere;
+    return images_.spheres[sphere];
   }
   [[nodiscard]] std::size_t image_of_solid(std::size_t solid) const {
     return is_symmetric() ? solid_images_[solid] : solid;

@@ -86,7 +86,7 @@ class NodeSums {
       nodes_.push_back(node);
       sums_.push_back(Eigen::Vector4d::Zero());
     }
-    return sums_[static_cast<std::size_t>(slot)];
+    return sums_[slot];
   }
 
   std::vector<std::int32_t> slots_;  // by node; -1: none yet

@@ -33,7 +33,7 @@ struct Samples {
 
   [[nodiscard]] bool IsFull() const { return count == kMost; }
   void Add(const Eigen::Vector3f& normal, const Eigen::Vector3f& center, float radius) {
-    const auto i = static_cast<std::size_t>(count++);
+    const int i = count++;
     nx[i] = normal.x(), ny[i] = normal.y(), nz[i] = normal.z();
     x[i] = center.x() + radius * normal.x();
     y[i] = center.y() + radius * normal.y();
@@ -45,7 +45,7 @@ struct Samples {
   // vector registers.
   void FillUp() {
     while (count % kLane != 0) {
-      const auto last = static_cast<std::size_t>(count - 1);
+      const int last = count - 1;
       Add({nx[last], ny[last], nz[last]}, {x[last], y[last], z[last]}, 0.0f);
       seen[last + 1] = 0.0f;
     }
@@ -54,9 +54,9 @@ struct Samples {
   // Multiplies what is seen of each sample with what `share_of` gives for its index.
   template <typename ShareOf>
   void Hide(const ShareOf& share_of) {
-    for (std::size_t first = 0; first < static_cast<std::size_t>(count); first += kLane) {
+    for (int first = 0; first < count; first += kLane) {
       if (!IsSeen(first)) continue;
-      for (std::size_t i = first; i < first + kLane; ++i) seen[i] *= share_of(i);
+      for (int i = first; i < first + kLane; ++i) seen[i] *= share_of(i);
     }
   }
 
@@ -64,9 +64,9 @@ struct Samples {
   // empty it, and leaves none here.
   template <typename WhenFull>
   void MoveSeen(Samples& to, const WhenFull& when_full) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    for (int i = 0; i < count; ++i) {
       if (seen[i] == 0.0f) continue;
-      const auto next = static_cast<std::size_t>(to.count++);
+      const int next = to.count++;
       to.x[next] = x[i], to.y[next] = y[i], to.z[next] = z[i];
       to.nx[next] = nx[i], to.ny[next] = ny[i], to.nz[next] = nz[i];
       to.seen[next] = seen[i];
@@ -77,7 +77,7 @@ struct Samples {
 
  private:
   // Whether any sample of a lane is: shares are never negative, so one with any bit set is seen.
-  [[nodiscard]] bool IsSeen(std::size_t first) const {
+  [[nodiscard]] bool IsSeen(int first) const {
     std::array<std::uint64_t, kLane * sizeof(float) / sizeof(std::uint64_t)> bits;
     std::memcpy(bits.data(), seen.data() + first, sizeof(bits));
     return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;

@@ -89,12 +89,11 @@ class Tightener {
     program.hessian =
         Eigen::VectorXd::Constant(variables_.count(), kIdleCurvature / (size_ * size_));
     for (int i = 0; i < static_cast<int>(set_.spheres.size()); ++i) {
-      const auto index = static_cast<std::size_t>(i);
-      const Eigen::Vector4d by_sphere = gradient.by_sphere[index] / volume_;
+      const Eigen::Vector4d by_sphere = gradient.by_sphere[i] / volume_;
       const int first = variables_.of(i).first;
       program.gradient.segment<4>(first) += variables_.ToVariables(i, by_sphere);
       program.hessian.segment<4>(first).array() +=
-          0.5 * by_sphere.w() / std::max(set_.spheres[index].radius_m, kLeastRadius * size_);
+          0.5 * by_sphere.w() / std::max(set_.spheres[i].radius_m, kLeastRadius * size_);
     }
   }
 
@@ -105,7 +104,7 @@ class Tightener {
     }
     program.lower = -program.upper;
     for (const int i : variables_.representatives()) {
-      const double radius = set_.spheres[static_cast<std::size_t>(i)].radius_m;
+      const double radius = set_.spheres[i].radius_m;
       const double room = std::max(radius - kLeastRadius * size_, 1e-3 * std::min(trust_m, radius));
       double& lower = program.lower[variables_.of(i).first + 3];
       lower = std::max(lower, -room);
@@ -132,17 +131,15 @@ class Tightener {
   static Eigen::Vector4d SpeedOf(const Eigen::Vector3d& normal, const CarriedPose* pose,
                                  int sphere) {
     const Eigen::Vector3d at_rest =
-        pose == nullptr ? normal
-                        : pose->turns[static_cast<std::size_t>(sphere)].transpose() * normal;
+        pose == nullptr ? normal : pose->turns[sphere].transpose() * normal;
     return {at_rest.x(), at_rest.y(), at_rest.z(), 1.0};
   }
 
   // `place`: of the point in the grid.
   PenaltyRow PointRow(const PointsToHold& points, const std::vector<TaperedCapsule>& shapes,
                       std::uint32_t place, std::int32_t nearest, double penalty) const {
-    const auto index = static_cast<std::size_t>(nearest);
-    const geometry::CapsuleDistance at = shapes[index].Locate(points.points.point(place));
-    const capsule::CapsuleEnds& solid = variables_.solids()[index];
+    const geometry::CapsuleDistance at = shapes[nearest].Locate(points.points.point(place));
+    const capsule::CapsuleEnds& solid = variables_.solids()[nearest];
     return RowOf(solid, -(1.0 - at.axis_parameter) * SpeedOf(at.normal, points.pose, solid[0]),
                  -at.axis_parameter * SpeedOf(at.normal, points.pose, solid[1]),
                  at.distance_m - points.allowed_m, penalty);
@@ -225,7 +222,7 @@ class Tightener {
       if (distances.distance_m[i] - points.allowed_m <= -depth_m) continue;
       const Eigen::Array3i place =
           (points.points.point(i).array() / spacing_m + kCellOffset).floor().cast<int>();
-      const auto own = static_cast<std::size_t>(distances.solid[i]);
+      const std::size_t own = distances.solid[i];
       const std::size_t solid = std::min(own, variables_.image_of_solid(own));
       std::size_t c = 0;
       while (c < count && !(cells[c].solid == solid && (cells[c].place == place).all())) ++c;

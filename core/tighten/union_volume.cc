@@ -122,9 +122,7 @@ class Sampler {
       result.volume_m3 += share.volume;
     };
     for (std::size_t k = 0; k < solids_.size(); ++k) {
-      const auto [a, b] = solids_[k];
-      const auto first = static_cast<std::size_t>(a);
-      const auto second = static_cast<std::size_t>(b);
+      const auto [first, second] = solids_[k];
       const std::size_t image = variables_.image_of_solid(k);
       const Share& share = slants[std::min(k, image)];
       add(share);
@@ -132,8 +130,7 @@ class Sampler {
         result.by_sphere[first] += share.a;
         result.by_sphere[second] += share.b;
       } else {
-        const bool in_order =
-            variables_.image_of_sphere(static_cast<std::size_t>(solids_[image][0])) == first;
+        const bool in_order = std::cmp_equal(variables_.image_of_sphere(solids_[image][0]), first);
         result.by_sphere[first] += Mirrored(in_order ? share.a : share.b);
         result.by_sphere[second] += Mirrored(in_order ? share.b : share.a);
       }
@@ -212,7 +209,7 @@ class Sampler {
     }
     return places;
   }
-  int PlaceOf(int sphere) const { return places_[static_cast<std::size_t>(sphere)]; }
+  int PlaceOf(int sphere) const { return places_[sphere]; }
 
   Surroundings SurroundingsOf(std::size_t sphere_index) const {
     const Sphere& sphere = set_.spheres[sphere_index];
@@ -350,7 +347,7 @@ class Sampler {
     const Eigen::Array3d offset = from - origin_;
     Eigen::Array4d speed = Eigen::Array4d::Zero();
     Eigen::Array3d flux = Eigen::Array3d::Zero();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(samples.count); ++i) {
+    for (int i = 0; i < samples.count; ++i) {
       const Eigen::Array3d normal(samples.nx[i], samples.ny[i], samples.nz[i]);
       const Eigen::Array3d point(samples.x[i], samples.y[i], samples.z[i]);
       const double seen = samples.seen[i];

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/layout_conversion.h"
@@ -92,7 +93,7 @@ metrics::Metrics MetricsFromWire(const v1::Metrics& wire) {
   for (const v1::PartMetrics& one : wire.parts()) {
     const std::optional<body::Part> known = FromWire(one.part());
     if (!known) continue;
-    metrics::PartMetrics& part = metrics.parts[static_cast<std::size_t>(*known)].emplace();
+    metrics::PartMetrics& part = metrics.parts[Index(*known)].emplace();
     part.volume_m3 = one.volume_m3();
     CommonFromWire(one, part);
   }
@@ -380,7 +381,7 @@ absl::Status SummaryFromWire(const v1::Summary& wire, pipeline::FitResult& resul
   result.metrics = MetricsFromWire(wire.metrics());
   for (const v1::StageTime& stage : wire.stages()) {
     const std::optional<Stage> known = FromWire(stage.stage());
-    if (known) result.stage_seconds[static_cast<std::size_t>(*known)] = stage.seconds();
+    if (known) result.stage_seconds[Index(*known)] = stage.seconds();
   }
   result.seconds = wire.seconds();
   CAPFIT_ASSIGN_OR_RETURN(result.effective_options, EffectiveOptionsFromWire(wire.options()));

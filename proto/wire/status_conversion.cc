@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -86,7 +87,7 @@ absl::Status StatusOf(const grpc::Status& status, const google::rpc::ErrorInfo& 
   const auto code = static_cast<absl::StatusCode>(status.error_code());
   const std::optional<ErrorReason> reason = ErrorReasonFromName(info.reason());
   const std::string& message = status.error_message();
-  if (!reason || ErrorReasons()[static_cast<std::size_t>(*reason)].code != code) {
+  if (!reason || ErrorReasons()[Index(*reason)].code != code) {
     return {code, message};
   }
   ErrorFacts facts;

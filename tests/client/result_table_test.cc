@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "tests/server/fake_fit.h"
 
 namespace capfit::client {
@@ -38,7 +39,7 @@ TEST(ResultTable, FitsInto100Columns) {
   whole.surface_out = 1.0;
   whole.vertices_out = 99'999;
   whole.max_out_m = 0.99999;
-  whole.parts[static_cast<std::size_t>(body::Part::kRightHand)] = {
+  whole.parts[Index(body::Part::kRightHand)] = {
       500, 500, 0.099, 9.9999, 9.9999, 1.0, 9.0, 10.999, {0.999, 0.999, 0.999}, 1.0, 99'999, 0.9};
   std::istringstream lines(ResultTable(result));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;

@@ -27,7 +27,7 @@ formats::PolygonSoup CageBody(unsigned shape_number) {
   for (const Eigen::Vector3d& vertex : cage.vertices) soup.positions.push_back(kHeight_m * vertex);
   for (const mannequin::Quad& quad : cage.quads) {
     for (const int corner : {0, 1, 2, 0, 2, 3}) {
-      soup.face_vertices.push_back(quad[static_cast<std::size_t>(corner)]);
+      soup.face_vertices.push_back(quad[corner]);
     }
   }
   return soup;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 
 namespace capfit::fuzz {
@@ -89,7 +90,7 @@ std::string BrokenPromiseOfPrepare(const mesh::PreparedMesh& prepared,
 std::string BrokenPromiseOfRefusal(const absl::Status& refusal, bool is_file) {
   const auto reason = ReasonOf(refusal);
   if (!reason) return "a refusal has no reason: " + refusal.ToString();
-  if (ErrorReasons()[static_cast<std::size_t>(*reason)].code != refusal.code()) {
+  if (ErrorReasons()[Index(*reason)].code != refusal.code()) {
     return "a refusal's code is not that of its reason: " + refusal.ToString();
   }
   if (refusal.message().empty()) return "a refusal has no message";

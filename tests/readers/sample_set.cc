@@ -46,7 +46,7 @@ class Pose {
     Moves moves = Moves::Identity();
     std::int32_t index = static_cast<std::int32_t>(joint);
     for (std::size_t depth = 0; index >= 0 && depth < joints_.size(); ++depth) {
-      const formats::NamedJoint& at = joints_[static_cast<std::size_t>(index)];
+      const formats::NamedJoint& at = joints_[index];
       const Eigen::Vector3d axis(1.0, index % 3 - 1.0, (index * 7) % 5 - 2.0);
       const Eigen::AngleAxisd turn(0.3 + 0.1 * (index % 7), axis.normalized());
       const Eigen::Translation3d place(at.to_mesh.col(3));
@@ -107,7 +107,7 @@ json ExpectedCapsules(const ColliderSet& set, const Pose& pose) {
   std::vector<std::int32_t> joints;
   for (std::size_t k = 0; k < set.capsule_count(); ++k) {
     for (const int end : set.primitives.capsules[k]) {
-      ends.push_back(set.primitives.spheres[static_cast<std::size_t>(end)].center_m);
+      ends.push_back(set.primitives.spheres[end].center_m);
       joints.push_back(JointAt(set.capsule_joints, k));
     }
   }

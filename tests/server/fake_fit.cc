@@ -4,6 +4,8 @@
 #include <limits>
 #include <thread>
 
+#include "core/base/enum_index.h"
+
 namespace capfit::server {
 namespace {
 
@@ -35,9 +37,9 @@ metrics::Metrics HandMadeMetrics() {
   metrics.surface_out = 0.021;
   metrics.vertices_out = 3;
   metrics.max_out_m = 0.0004;
-  metrics.parts[static_cast<std::size_t>(body::Part::kTorso)] = {
+  metrics.parts[Index(body::Part::kTorso)] = {
       1, 0, 0.0375, 0.46, 0.37, 0.09, 1.1, 1.28, {0.022, 0.05, 0.11}, 0.014, 1, 0.0003};
-  metrics.parts[static_cast<std::size_t>(body::Part::kLeftArm)] = {
+  metrics.parts[Index(body::Part::kLeftArm)] = {
       1, 1, 0.0043, 0.61, 0.48, 0.13, 1.9, 1.35, {0.038, 0.09, 0.13}, 0.053, 2, 0.0004};
   return metrics;
 }

@@ -34,7 +34,7 @@ TEST(FitExecutor, RunsWhatIsQueuedInOrderBeforeItEnds) {
     for (int i = 0; i < 50; ++i) executor.Submit({}, [&order, i] { order.push_back(i); });
   }
   ASSERT_EQ(order.size(), 50U);
-  for (int i = 0; i < 50; ++i) EXPECT_EQ(order[static_cast<std::size_t>(i)], i);
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(order[i], i);
 }
 
 TEST(FitExecutor, AJobThatWaitsCanBeTakenBackOnce) {

@@ -39,9 +39,9 @@ void DescendBestFit(const OccupancyGrid& grid, const BestFitOptions& options,
     const double unbias = 1.0 / (1.0 - std::pow(kSquareDecay, step + 1));
     for (int v = 0; v < graph.sphere_count(); ++v) {
       if (!graph.IsRepresentative(v)) continue;
-      if (options.active != nullptr && !(*options.active)[U(v)]) continue;
-      const Eigen::Vector4d gradient = boundary.gradient_m2[U(v)] / grid.volume_m3;
-      Moments& m = moments[U(v)];
+      if (options.active != nullptr && !(*options.active)[v]) continue;
+      const Eigen::Vector4d gradient = boundary.gradient_m2[v] / grid.volume_m3;
+      Moments& m = moments[v];
       m.mean = kMeanDecay * m.mean + (1.0 - kMeanDecay) * gradient;
       m.square = kSquareDecay * m.square + (1.0 - kSquareDecay) * 0.5 * gradient.squaredNorm();
       const Eigen::Vector4d move = rate * m.mean / (std::sqrt(unbias * m.square) + 1e-9);

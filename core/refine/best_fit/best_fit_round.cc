@@ -45,7 +45,7 @@ double BestFitRound::Try(Trial trial, EditedGraph& edited) const {
   const Eigen::AlignedBox3d widest(box.min() - drift, box.max() + drift);
   LocalGraph local = LocalGraphIn(edited.graph, widest);
   std::vector<char> local_active;
-  for (const int v : local.nodes) local_active.push_back(active[U(v)]);
+  for (const int v : local.nodes) local_active.push_back(active[v]);
   // Who tries many looks between them: one is over in less than a millisecond.
   DescendBestFit(grid_, OptionsOf(glance, local_active), alone_, NullObserver(), local.graph);
   for (std::size_t v = 0; v < local.nodes.size(); ++v) {

@@ -38,8 +38,8 @@ Frame FrameAlong(const Eigen::Vector3f& axis, double turn) {
 }
 
 void AddShare(int v, double area_m2, const BoundarySamples::Sums& sums, BoundaryIntegral& result) {
-  result.gradient_m2[U(v)] += area_m2 * sums.force;
-  result.area_m2[U(v)] += area_m2 * sums.seen;
+  result.gradient_m2[v] += area_m2 * sums.force;
+  result.area_m2[v] += area_m2 * sums.seen;
 }
 
 }  // namespace
@@ -48,8 +48,8 @@ BoundaryIntegrator::BoundaryIntegrator(const capsule::MirroredSet& graph,
                                        const BoundaryOptions& options)
     : graph_(graph), options_(options), incident_(graph.spheres().size()) {
   for (int e = 0; e < graph.capsule_count(); ++e) {
-    incident_[U(graph.ends(e)[0])].push_back(e);
-    incident_[U(graph.ends(e)[1])].push_back(e);
+    incident_[graph.ends(e)[0]].push_back(e);
+    incident_[graph.ends(e)[1]].push_back(e);
   }
 }
 
@@ -72,7 +72,7 @@ const BoundaryIntegral& BoundaryIntegrator::Integrate(double phase, const Thread
 }
 
 bool BoundaryIntegrator::IsActive(int v) const {
-  return options_.active == nullptr || (*options_.active)[U(v)] != 0;
+  return options_.active == nullptr || (*options_.active)[v] != 0;
 }
 
 bool BoundaryIntegrator::HaveMovedFar() const {
@@ -107,7 +107,7 @@ void BoundaryIntegrator::FindPatches() {
   for (int e = 0; e < capsules; ++e) {
     if (!graph_.IsCapsuleRepresentative(e)) continue;
     if (!IsActive(graph_.ends(e)[0]) && !IsActive(graph_.ends(e)[1])) continue;
-    add(e, true, boxes[U(e)], [&](std::size_t j) { return j == U(e); });
+    add(e, true, boxes[e], [&](int j) { return j == e; });
   }
   for (int v = 0; v < graph_.sphere_count(); ++v) {
     if (!graph_.IsRepresentative(v) || !IsActive(v)) continue;
@@ -129,7 +129,7 @@ int BoundaryIntegrator::RingsOn(const Cone& cone) const {
 
 void BoundaryIntegrator::AddSide(const Patch& patch, Worker& worker) const {
   const int e = patch.index;
-  const Cone& cone = cones_[U(e)];
+  const Cone& cone = cones_[e];
   if (cone.is_sphere) return;
   static const auto cosine = static_cast<float>(std::cos(2.0 * kPi * kGoldenShare));
   static const auto sine = static_cast<float>(std::sin(2.0 * kPi * kGoldenShare));
@@ -138,16 +138,16 @@ void BoundaryIntegrator::AddSide(const Patch& patch, Worker& worker) const {
   Frame frame = FrameAlong({cone.ux, cone.uy, cone.uz}, 2.0 * kPi * (7.13 * phase_ + 0.377 * e));
   for (int first = 0; first < count; first += BoundarySamples::kLane) {
     Rings rings;
-    rings.count = U(std::min(count - first, BoundarySamples::kLane));
+    rings.count = std::min(count - first, BoundarySamples::kLane);
     for (int k = 0; k < BoundarySamples::kLane; ++k) {
       const double shift = Fraction(phase_ + 0.137 * e + kGoldenShare * (first + k));
       const double t = (first + k + shift) / count;
       const auto foot = static_cast<float>(t) * cone.length();
-      rings.t[U(k)] = static_cast<float>(t);
-      rings.x[U(k)] = cone.ax + foot * cone.ux;
-      rings.y[U(k)] = cone.ay + foot * cone.uy;
-      rings.z[U(k)] = cone.az + foot * cone.uz;
-      rings.radius[U(k)] = cone.radius + foot * cone.radius_slope;
+      rings.t[k] = static_cast<float>(t);
+      rings.x[k] = cone.ax + foot * cone.ux;
+      rings.y[k] = cone.ay + foot * cone.uy;
+      rings.z[k] = cone.az + foot * cone.uz;
+      rings.radius[k] = cone.radius + foot * cone.radius_slope;
     }
     MeasureRings(patch, rings, worker);
     for (std::size_t k = 0; k < rings.count; ++k) {
@@ -162,7 +162,7 @@ void BoundaryIntegrator::MeasureRings(const Patch& patch, const Rings& rings,
   worker.ring_occluders.clear();
   worker.ring_distances_m.clear();
   for (const int j : patch.near) {
-    const Cone cone = cones_[U(j)];
+    const Cone cone = cones_[j];
     alignas(32) Lane distance;
     alignas(32) Lane gap;
     for (std::size_t k = 0; k < distance.size(); ++k) {
@@ -180,7 +180,7 @@ void BoundaryIntegrator::MeasureRings(const Patch& patch, const Rings& rings,
 
 void BoundaryIntegrator::AddRing(const Patch& patch, const Rings& rings, std::size_t k,
                                  double width_m, const Frame& frame, Worker& worker) const {
-  const Cone& cone = cones_[U(patch.index)];
+  const Cone& cone = cones_[patch.index];
   const float radius = rings.radius[k];
   worker.occluders.clear();
   for (std::size_t n = 0; n < worker.ring_occluders.size(); ++n) {
@@ -192,7 +192,7 @@ void BoundaryIntegrator::AddRing(const Patch& patch, const Rings& rings, std::si
   const int count = BoundarySamples::CountFor(around_m / options_.spacing_m);
   worker.samples.PlaceRing(count, {rings.x[k], rings.y[k], rings.z[k]}, radius,
                            {cone.sin_half, cone.cos_half}, frame);
-  for (const int j : worker.occluders) worker.samples.HideBehind(cones_[U(j)]);
+  for (const int j : worker.occluders) worker.samples.HideBehind(cones_[j]);
   const bool has_image = graph_.is_mirrored() && graph_.ImageOfCapsule(patch.index) != patch.index;
   const double area_m2 = (has_image ? 2.0 : 1.0) * around_m * width_m / count;
   const BoundarySamples::Sums sums = worker.samples.Collect(options_.body);
@@ -214,22 +214,22 @@ void BoundaryIntegrator::AddEnd(const Patch& patch, Worker& worker) const {
   };
   float top = 1.0f;
   int most = -1;
-  for (const int e : incident_[U(v)]) {
-    const Cone& cone = cones_[U(e)];
+  for (const int e : incident_[v]) {
+    const Cone& cone = cones_[e];
     if (!cone.is_sphere && height_of(cone) < top) top = height_of(cone), most = e;
   }
   const Eigen::Vector3f axis =
-      most < 0 ? Eigen::Vector3f(Eigen::Vector3f::UnitZ()) : axis_of(cones_[U(most)]);
+      most < 0 ? Eigen::Vector3f(Eigen::Vector3f::UnitZ()) : axis_of(cones_[most]);
   const geometry::Sphere& sphere = graph_.sphere(v);
   const double area_m2 = 2.0 * kPi * (1.0 + top) * sphere.radius_m * sphere.radius_m;
   const int count = BoundarySamples::CountFor(area_m2 / (options_.spacing_m * options_.spacing_m));
   worker.samples.PlaceSpiral(count, sphere, top, phase_,
                              FrameAlong(axis, 2.0 * kPi * (3.7 * phase_ + kGoldenShare * v)));
-  for (const int e : incident_[U(v)]) {
-    const Cone& cone = cones_[U(e)];
+  for (const int e : incident_[v]) {
+    const Cone& cone = cones_[e];
     if (e != most && !cone.is_sphere) worker.samples.HideBeyond(axis_of(cone), height_of(cone));
   }
-  for (const int j : worker.occluders) worker.samples.HideBehind(cones_[U(j)]);
+  for (const int j : worker.occluders) worker.samples.HideBehind(cones_[j]);
   const bool has_image = graph_.is_mirrored() && !graph_.IsOnPlane(v);
   AddShare(v, (has_image ? 2.0 : 1.0) * area_m2 / count, worker.samples.Collect(options_.body),
            worker.sum);
@@ -238,14 +238,14 @@ void BoundaryIntegrator::AddEnd(const Patch& patch, Worker& worker) const {
 // What may hide something of an end; false where all of it is hidden.
 bool BoundaryIntegrator::FindOccluders(const Patch& patch, std::vector<int>& occluders) const {
   const int v = patch.index;
-  for (const int e : incident_[U(v)]) {
-    if (cones_[U(e)].is_sphere && cones_[U(e)].node_a != v) return false;
+  for (const int e : incident_[v]) {
+    if (cones_[e].is_sphere && cones_[e].node_a != v) return false;
   }
   occluders.clear();
   const Eigen::Vector3f center = graph_.sphere(v).center_m.cast<float>();
   const auto radius = static_cast<float>(graph_.sphere(v).radius_m);
   for (const int j : patch.near) {
-    const float distance = cones_[U(j)].SignedDistance(center.x(), center.y(), center.z());
+    const float distance = cones_[j].SignedDistance(center.x(), center.y(), center.z());
     if (distance <= -radius) return false;
     if (distance < radius) occluders.push_back(j);
   }
@@ -265,15 +265,15 @@ void BoundaryIntegrator::AddUp() {
 void BoundaryIntegrator::FoldImages() {
   if (!graph_.is_mirrored()) return;
   for (int v = 0; v < graph_.sphere_count(); ++v) {
-    Eigen::Vector4d& from = result_.gradient_m2[U(v)];
+    Eigen::Vector4d& from = result_.gradient_m2[v];
     const int to = graph_.ImageOf(v);
     if (to == v) from[0] = 0.0;
     if (to >= v) continue;
     from[0] = -from[0];
-    result_.gradient_m2[U(to)] += from;
-    result_.area_m2[U(to)] += result_.area_m2[U(v)];
+    result_.gradient_m2[to] += from;
+    result_.area_m2[to] += result_.area_m2[v];
     from.setZero();
-    result_.area_m2[U(v)] = 0.0;
+    result_.area_m2[v] = 0.0;
   }
 }
 

@@ -14,10 +14,10 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // Cosines and sines of angles in equal steps from 0.
 struct Turns {
-  Turns(int count, double step) : cosine(U(count)), sine(U(count)) {
+  Turns(int count, double step) : cosine(count), sine(count) {
     for (int i = 0; i < count; ++i) {
-      cosine[U(i)] = static_cast<float>(std::cos(step * i));
-      sine[U(i)] = static_cast<float>(std::sin(step * i));
+      cosine[i] = static_cast<float>(std::cos(step * i));
+      sine[i] = static_cast<float>(std::sin(step * i));
     }
   }
   std::vector<float> cosine, sine;
@@ -32,7 +32,7 @@ const Turns& CircleOf(int count) {
     }
     return all;
   }();
-  return circles[U(count / BoundarySamples::kLane - 1)];
+  return circles[count / BoundarySamples::kLane - 1];
 }
 
 const Turns& GoldenTurns() {
@@ -54,7 +54,7 @@ void BoundarySamples::PlaceRing(int count, const Eigen::Vector3f& center_m, floa
   const float* cosine = circle.cosine.data();
   const float* sine = circle.sine.data();
   const float across = slope[1];
-  for (std::size_t i = 0; i < U(count); ++i) {
+  for (int i = 0; i < count; ++i) {
     u_[i] = slope[0];
     v_[i] = across * cosine[i];
     w_[i] = across * sine[i];
@@ -74,9 +74,9 @@ void BoundarySamples::PlaceSpiral(int count, const geometry::Sphere& sphere, flo
     const float u = first + step * static_cast<float>(i);
     const float rest = 1.0f - u * u;
     const float across = std::sqrt(rest > 0.0f ? rest : 0.0f);
-    u_[U(i)] = u;
-    v_[U(i)] = across * cosine[i];
-    w_[U(i)] = across * sine[i];
+    u_[i] = u;
+    v_[i] = across * cosine[i];
+    w_[i] = across * sine[i];
   }
   PlacePoints(sphere.center_m.cast<float>(), static_cast<float>(sphere.radius_m));
 }
@@ -86,7 +86,7 @@ void BoundarySamples::PlacePoints(const Eigen::Vector3f& center_m, float radius_
                         q = radius_m * frame_.second;
   const float ax = a.x(), ay = a.y(), az = a.z(), px = p.x(), py = p.y(), pz = p.z(), qx = q.x(),
               qy = q.y(), qz = q.z(), cx = center_m.x(), cy = center_m.y(), cz = center_m.z();
-  for (std::size_t i = 0; i < U(count_); ++i) {
+  for (int i = 0; i < count_; ++i) {
     const float u = u_[i], v = v_[i], w = w_[i];
     x_[i] = cx + u * ax + v * px + w * qx;
     y_[i] = cy + u * ay + v * py + w * qy;
@@ -97,7 +97,7 @@ void BoundarySamples::PlacePoints(const Eigen::Vector3f& center_m, float radius_
 
 void BoundarySamples::HideBehind(const Cone& other) {
   const Cone cone = other;
-  for (std::size_t i = 0; i < U(count_); ++i) {
+  for (int i = 0; i < count_; ++i) {
     const float distance = cone.SignedDistance(x_[i], y_[i], z_[i]);
     clear_[i] = distance < clear_[i] ? distance : clear_[i];
   }
@@ -105,7 +105,7 @@ void BoundarySamples::HideBehind(const Cone& other) {
 
 void BoundarySamples::HideBeyond(const Eigen::Vector3f& axis, float height) {
   const float u = axis.dot(frame_.axis), v = axis.dot(frame_.first), w = axis.dot(frame_.second);
-  for (std::size_t i = 0; i < U(count_); ++i) {
+  for (int i = 0; i < count_; ++i) {
     const float below = height - (u_[i] * u + v_[i] * v + w_[i] * w);
     clear_[i] = below < clear_[i] ? below : clear_[i];
   }
@@ -114,8 +114,8 @@ void BoundarySamples::HideBeyond(const Eigen::Vector3f& axis, float height) {
 bool BoundarySamples::IsAnySeen() const {
   std::array<float, kLane> most;
   most.fill(-1.0f);
-  for (std::size_t first = 0; first < U(count_); first += kLane) {
-    for (std::size_t k = 0; k < kLane; ++k) {
+  for (int first = 0; first < count_; first += kLane) {
+    for (int k = 0; k < kLane; ++k) {
       most[k] = clear_[first + k] > most[k] ? clear_[first + k] : most[k];
     }
   }
@@ -132,9 +132,9 @@ BoundarySamples::Sums BoundarySamples::Collect(const OccupancyGrid* body) {
   // A sum for each place in a register: the order of additions is the same whatever the compiler
   // makes of it.
   alignas(32) std::array<float, kLane> seen{}, sum{}, su{}, sv{}, sw{};
-  for (std::size_t first = 0; first < U(count_); first += kLane) {
-    for (std::size_t k = 0; k < kLane; ++k) {
-      const std::size_t i = first + k;
+  for (int first = 0; first < count_; first += kLane) {
+    for (int k = 0; k < kLane; ++k) {
+      const int i = first + k;
       const float shown = clear_[i] >= 0.0f ? 1.0f : 0.0f;
       const float weight = shown * weight_[i];
       seen[k] += shown;
@@ -145,8 +145,8 @@ BoundarySamples::Sums BoundarySamples::Collect(const OccupancyGrid* body) {
     }
   }
   const auto total = [](std::array<float, kLane>& lane) {
-    for (std::size_t half = kLane / 2; half > 0; half /= 2) {
-      for (std::size_t k = 0; k < half; ++k) lane[k] += lane[k + half];
+    for (int half = kLane / 2; half > 0; half /= 2) {
+      for (int k = 0; k < half; ++k) lane[k] += lane[k + half];
     }
     return lane[0];
   };

@@ -27,10 +27,10 @@ CellRange RangeOf(const OccupancyGrid& grid, const Box& box) {
   const std::array<int, 3> count = {grid.nx, grid.ny, grid.nz};
   for (int k = 0; k < 3; ++k) {
     const double origin = grid.origin_m[k];
-    range.low[U(k)] = std::clamp(static_cast<int>(std::floor((box[0][k] - origin) / grid.cell_m)),
-                                 0, count[U(k)]);
-    range.high[U(k)] = std::clamp(static_cast<int>(std::ceil((box[1][k] - origin) / grid.cell_m)),
-                                  range.low[U(k)], count[U(k)]);
+    range.low[k] =
+        std::clamp(static_cast<int>(std::floor((box[0][k] - origin) / grid.cell_m)), 0, count[k]);
+    range.high[k] = std::clamp(static_cast<int>(std::ceil((box[1][k] - origin) / grid.cell_m)),
+                               range.low[k], count[k]);
   }
   range.low[0] = std::max(range.low[0], grid.first_x);
   range.high[0] = std::max(range.high[0], range.low[0]);
@@ -53,14 +53,14 @@ double CellVolume(const OccupancyGrid& grid) {
 class ErrorRows {
  public:
   ErrorRows(const OccupancyGrid& grid, const std::vector<Cone>& cones, const CellRange& range)
-      : grid_(grid), cones_(cones), range_(range), row_(U(range.high[2] - range.low[2])) {}
+      : grid_(grid), cones_(cones), range_(range), row_(range.high[2] - range.low[2]) {}
 
   // Calls take(index of the first cell, errors of the cells) for each row in the layer `y`.
   template <class Take>
   void Layer(int y, const Take& take) {
     FindSlices(y);
     for (int x = range_.low[0]; x < range_.high[0]; ++x) {
-      const std::size_t first = grid_.ColumnOf(x, y) + U(range_.low[2]);
+      const std::size_t first = grid_.ColumnOf(x, y) + range_.low[2];
       FillRow(x, y);
       FindErrors(first);
       take(first, row_);
@@ -106,8 +106,8 @@ class ErrorRows {
       const float a = start + from * along, b = start + to * along;
       const float low = (std::min(a, b) - reach - grid_.origin_m[axis]) / grid_.cell_m - 0.5f;
       const float high = (std::max(a, b) + reach - grid_.origin_m[axis]) / grid_.cell_m - 0.5f;
-      return std::array{std::max(static_cast<int>(std::floor(low)), range_.low[U(axis)]),
-                        std::min(static_cast<int>(std::ceil(high)) + 1, range_.high[U(axis)])};
+      return std::array{std::max(static_cast<int>(std::floor(low)), range_.low[axis]),
+                        std::min(static_cast<int>(std::ceil(high)) + 1, range_.high[axis])};
     };
     const auto [low_x, high_x] = cells(cone.ax, cone.ux, 0);
     const auto [low_z, high_z] = cells(cone.az, cone.uz, 2);
@@ -199,7 +199,7 @@ double FillError(const OccupancyGrid& grid, const std::vector<Cone>& cones, cons
 FillErrorMap::FillErrorMap(const OccupancyGrid& grid, const std::vector<Cone>& cones,
                            const ThreadPool& pool)
     : grid_(grid), errors_(grid.inside.size(), 0.0f) {
-  pool.ForChunks(U(grid.ny), kLayersAtOnce, [&](std::size_t begin, std::size_t end) {
+  pool.ForChunks(grid.ny, kLayersAtOnce, [&](std::size_t begin, std::size_t end) {
     ErrorRows rows(grid, cones, WholeRange(grid));
     for (std::size_t y = begin; y < end; ++y) {
       rows.Layer(static_cast<int>(y), [&](std::size_t first, const std::vector<float>& errors) {
@@ -215,8 +215,8 @@ double FillErrorMap::Over(const Box& box, int every) const {
   double cells = 0.0;
   for (int y = range.low[1]; y < range.high[1]; y += every) {
     for (int x = range.low[0]; x < range.high[0]; ++x) {
-      cells += SumOf(errors_.data() + grid_.ColumnOf(x, y) + U(range.low[2]),
-                     U(range.high[2] - range.low[2]));
+      cells +=
+          SumOf(errors_.data() + grid_.ColumnOf(x, y) + range.low[2], range.high[2] - range.low[2]);
     }
   }
   return cells * CellVolume(grid_) * every;
@@ -225,8 +225,8 @@ double FillErrorMap::Over(const Box& box, int every) const {
 double GridError(const OccupancyGrid& grid, const capsule::MirroredSet& graph,
                  const ThreadPool& pool) {
   const std::vector<Cone> cones = ConesOf(graph);
-  std::vector<double> cells((U(grid.ny) + kLayersAtOnce - 1) / kLayersAtOnce, 0.0);
-  pool.ForChunks(U(grid.ny), kLayersAtOnce, [&](std::size_t begin, std::size_t end) {
+  std::vector<double> cells((grid.ny + kLayersAtOnce - 1) / kLayersAtOnce, 0.0);
+  pool.ForChunks(grid.ny, kLayersAtOnce, [&](std::size_t begin, std::size_t end) {
     cells[begin / kLayersAtOnce] = ErrorOfLayers(grid, cones, WholeRange(grid),
                                                  {static_cast<int>(begin), static_cast<int>(end)});
   });

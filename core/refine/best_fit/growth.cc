@@ -270,9 +270,9 @@ std::optional<EditedGraph> RemoveToo(const capsule::MirroredSet& base, const Edi
   Edit edit = removal;
   if (edit.kind == EditKind::kUnlink) {
     const auto [a, b] = base.ends(edit.first);
-    edit.first = spared.IndexOfCapsule(index[U(a)], index[U(b)]);
+    edit.first = spared.IndexOfCapsule(index[a], index[b]);
   } else {
-    edit.first = index[U(edit.first)];
+    edit.first = index[edit.first];
   }
   if (edit.first < 0) return std::nullopt;
   EditedGraph result = Apply(spared, edit);
@@ -296,7 +296,7 @@ capsule::MirroredSet TakeAway(const std::vector<Candidate>& candidates, std::siz
     const std::optional<EditedGraph> less = RemoveToo(graph, c.edit, index, spared);
     if (!less || SavingOf(options, spared, less->graph) <= 0.0) continue;
     spared = less->graph;
-    for (int& v : index) v = v < 0 ? -1 : less->new_index[U(v)];
+    for (int& v : index) v = v < 0 ? -1 : less->new_index[v];
   }
   return spared;
 }

@@ -66,13 +66,13 @@ mesh::ColumnGrid ColumnsOf(const OccupancyGrid& grid, double side) {
 class LayerFiller {
  public:
   LayerFiller(const OccupancyGrid& grid, int y)
-      : grid_(grid), y_(y), steps_(U(grid.nx) * U(grid.nz), 0.0f), partial_(steps_) {}
+      : grid_(grid), y_(y), steps_(grid.nx * grid.nz, 0.0f), partial_(steps_) {}
 
   // What lies between where columns enter the body and leave it gains `weight`.
   void Add(const mesh::ColumnCaster& caster, double side, float weight) {
     const int last = grid_.nx * kColumnsPerCell - 1;
     for (int row = y_ * kColumnsPerCell; row < (y_ + 1) * kColumnsPerCell; ++row) {
-      caster.ForEachInRow(U(row), [&](const mesh::ColumnCrossing& crossing) {
+      caster.ForEachInRow(row, [&](const mesh::ColumnCrossing& crossing) {
         const int i = static_cast<int>(crossing.column);
         Cross((side > 0.0 ? i : last - i) / kColumnsPerCell, crossing.along,
               static_cast<float>(-crossing.turn) * weight);
@@ -81,9 +81,9 @@ class LayerFiller {
   }
 
   void Finish(std::uint8_t* inside) const {
-    for (std::size_t from = 0; from < steps_.size(); from += U(grid_.nz)) {
+    for (std::size_t from = 0; from < steps_.size(); from += grid_.nz) {
       float above = 0.0f;
-      for (std::size_t cell = from + U(grid_.nz); cell-- > from;) {
+      for (std::size_t cell = from + grid_.nz; cell-- > from;) {
         const float share = std::clamp(above + partial_[cell], 0.0f, 1.0f);
         inside[cell] = static_cast<std::uint8_t>(kFull * share + 0.5f);
         above += steps_[cell];
@@ -96,7 +96,7 @@ class LayerFiller {
     const double height = (z - grid_.origin_m.z()) / grid_.cell_m;
     const int k = static_cast<int>(height);
     if (height < 0.0 || k >= grid_.nz) return;
-    const std::size_t cell = U(x) * U(grid_.nz) + U(k);
+    const std::size_t cell = x * grid_.nz + k;
     const float share = sign / (kColumnsPerCell * kColumnsPerCell);
     partial_[cell] += share * static_cast<float>(height - k);
     steps_[cell] += share;
@@ -116,8 +116,8 @@ void FillInside(const mesh::BodyMesh& mesh, const ThreadPool& pool, OccupancyGri
   const mesh::ColumnCaster caster = cast(1.0);
   const std::optional<mesh::ColumnCaster> mirrored =
       grid.folded ? std::optional(cast(-1.0)) : std::nullopt;
-  grid.inside.resize(U(grid.nx) * U(grid.ny) * U(grid.nz));
-  pool.ForEach(U(grid.ny), [&](std::size_t y) {
+  grid.inside.resize(std::size_t{1} * grid.nx * grid.ny * grid.nz);
+  pool.ForEach(grid.ny, [&](std::size_t y) {
     LayerFiller filler(grid, static_cast<int>(y));
     filler.Add(caster, 1.0, mirrored ? 0.5f : 1.0f);
     if (mirrored) filler.Add(*mirrored, -1.0, 0.5f);
@@ -137,7 +137,7 @@ std::vector<char> SelectedCells(const body::Body& body, const body::PartSelectio
     if (grid.folded) p.x() = std::abs(p.x());
     const Eigen::Vector3f at = (p.cast<float>() - grid.origin_m) / grid.cell_m;
     const std::size_t cell = grid.ColumnOf(static_cast<int>(at.x()), static_cast<int>(at.y())) +
-                             U(static_cast<int>(at.z()));
+                             static_cast<int>(at.z());
     if (label[cell] != kUnknown) continue;
     label[cell] = parts.Includes(body::PartOf(body.vertex_segments[v])) ? kIn : kOut;
     front.push_back(cell);
@@ -149,10 +149,9 @@ std::vector<char> SelectedCells(const body::Body& body, const body::PartSelectio
       for (const std::ptrdiff_t step : {-stride, stride}) {
         const auto cell = static_cast<std::ptrdiff_t>(front[next]) + step;
         if (cell < 0 || cell >= static_cast<std::ptrdiff_t>(label.size())) continue;
-        const auto at = static_cast<std::size_t>(cell);
-        if (label[at] != kUnknown || grid.inside[at] == 0) continue;
-        label[at] = label[front[next]];
-        front.push_back(at);
+        if (label[cell] != kUnknown || grid.inside[cell] == 0) continue;
+        label[cell] = label[front[next]];
+        front.push_back(cell);
       }
     }
   }
@@ -161,7 +160,7 @@ std::vector<char> SelectedCells(const body::Body& body, const body::PartSelectio
 }
 
 void FillCost(const ThreadPool& pool, OccupancyGrid& grid) {
-  const auto row = U(grid.nz), layer = row * U(grid.nx);
+  const std::size_t row = grid.nz, layer = row * grid.nx;
   const std::uint8_t* fitted = grid.fitted_shares().data();
   const std::uint8_t* inside = grid.inside.data();
   const auto cost_of = [fitted, inside](std::size_t cell) {
@@ -169,7 +168,7 @@ void FillCost(const ThreadPool& pool, OccupancyGrid& grid) {
   };
   grid.cost.resize(grid.inside.size());
   // The last of a row, and the last layer, have nothing beyond: no point is sought there.
-  pool.ForEach(U(grid.ny) - 1, [&](std::size_t y) {
+  pool.ForEach(grid.ny - 1, [&](std::size_t y) {
     std::vector<std::uint32_t> along_y(layer + 1, 0);
     const std::size_t first = y * layer;
     for (std::size_t i = 0; i < layer; ++i) {
@@ -227,7 +226,7 @@ void SampleSome(const OccupancyGrid& grid, const std::array<const float*, 3>& po
     return g < last ? g : last;
   };
   const float *xs = points[0], *ys = points[1], *zs = points[2];
-  for (std::size_t n = 0; n < U(count); ++n) {
+  for (int n = 0; n < count; ++n) {
     const float x = xs[n] > lowest ? xs[n] : -xs[n];
     const float gx = clamped((x - low_x) * inverse - 0.5f, last_x);
     const float gy = clamped((ys[n] - low_y) * inverse - 0.5f, last_y);
@@ -238,11 +237,11 @@ void SampleSome(const OccupancyGrid& grid, const std::array<const float*, 3>& po
     fy[n] = gy - static_cast<float>(j);
     fz[n] = gz - static_cast<float>(k);
   }
-  for (std::size_t n = 0; n < U(count); ++n) {
-    here[n] = grid.cost[U(cell[n])];
-    beyond[n] = grid.cost[U(cell[n] + row)];
+  for (int n = 0; n < count; ++n) {
+    here[n] = grid.cost[cell[n]];
+    beyond[n] = grid.cost[cell[n] + row];
   }
-  for (std::size_t n = 0; n < U(count); ++n) {
+  for (int n = 0; n < count; ++n) {
     const float near = Between(here[n], fy[n], fz[n]), far = Between(beyond[n], fy[n], fz[n]);
     cost[n] = (near + fx[n] * (far - near) - 0.5f * kFull) * (2.0f / kFull);
   }
@@ -252,7 +251,7 @@ void SampleSome(const OccupancyGrid& grid, const std::array<const float*, 3>& po
 std::vector<std::uint8_t> MeansOf(const OccupancyGrid& grid,
                                   const std::vector<std::uint8_t>& shares,
                                   const OccupancyGrid& coarse) {
-  std::vector<int> sums(U(coarse.nx) * U(coarse.ny) * U(coarse.nz), 0);
+  std::vector<int> sums(std::size_t{1} * coarse.nx * coarse.ny * coarse.nz, 0);
   for (int j = 0; j < grid.ny; ++j) {
     for (int i = 0; i < grid.nx; ++i) {
       const std::uint8_t* from = shares.data() + grid.ColumnOf(i, j);

@@ -39,9 +39,7 @@ struct OccupancyGrid {
     return fitted.empty() ? inside : fitted;
   }
   [[nodiscard]] std::size_t ColumnOf(int ix, int iy) const {
-    return (static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
-            static_cast<std::size_t>(ix)) *
-           static_cast<std::size_t>(nz);
+    return (std::size_t{1} * nx * iy + ix) * nz;
   }
 };
 

@@ -16,7 +16,7 @@ std::vector<Eigen::Vector3f> ThinOut(std::span<const Eigen::Vector3f> points, do
   for (int i = 0; i < 27; ++i) {
     const Eigen::Vector3f d(static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1),
                             static_cast<float>(i / 9 - 1));
-    if (d.squaredNorm() > 0.0f) directions[U(count++)] = d.normalized();
+    if (d.squaredNorm() > 0.0f) directions[count++] = d.normalized();
   }
   std::vector<std::pair<std::uint64_t, int>> cells(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -35,13 +35,13 @@ std::vector<Eigen::Vector3f> ThinOut(std::span<const Eigen::Vector3f> points, do
       int best = cells[begin].second;
       for (std::size_t k = begin; k < end; ++k) {
         const int i = cells[k].second;
-        if (points[U(i)].dot(d) > points[U(best)].dot(d)) best = i;
+        if (points[i].dot(d) > points[best].dot(d)) best = i;
       }
       chosen.push_back(best);
     }
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    for (const int i : chosen) kept.push_back(points[U(i)]);
+    for (const int i : chosen) kept.push_back(points[i]);
     begin = end;
   }
   return kept;

@@ -35,14 +35,14 @@ std::vector<Removal> RemovalsOf(const capsule::MirroredSet& graph, const GraphWo
   for (int e = 0; e < graph.capsule_count(); ++e) {
     if (!graph.IsCapsuleRepresentative(e)) continue;
     const int freed = graph.ImageOfCapsule(e) != e ? 2 : 1;
-    removals.push_back({worth.edge_loss[U(e)] / freed, EditOf(EditKind::kUnlink, e)});
+    removals.push_back({worth.edge_loss[e] / freed, EditOf(EditKind::kUnlink, e)});
   }
   std::vector<int> degree(graph.spheres().size(), 0);
-  for (const capsule::CapsuleEnds& e : graph.capsules()) ++degree[U(e[0])], ++degree[U(e[1])];
+  for (const capsule::CapsuleEnds& e : graph.capsules()) ++degree[e[0]], ++degree[e[1]];
   for (int v = 0; v < graph.sphere_count(); ++v) {
-    if (!graph.IsRepresentative(v) || degree[U(v)] > 2) continue;
-    const int freed = (graph.ImageOf(v) != v ? 2 : 1) * (degree[U(v)] > 0 ? 2 : 1);
-    removals.push_back({worth.node_loss[U(v)] / freed, EditOf(EditKind::kDissolve, v)});
+    if (!graph.IsRepresentative(v) || degree[v] > 2) continue;
+    const int freed = (graph.ImageOf(v) != v ? 2 : 1) * (degree[v] > 0 ? 2 : 1);
+    removals.push_back({worth.node_loss[v] / freed, EditOf(EditKind::kDissolve, v)});
   }
   std::stable_sort(removals.begin(), removals.end(), [](const Removal& a, const Removal& b) {
     return a.loss_per_primitive < b.loss_per_primitive;
@@ -64,18 +64,18 @@ void SparedGraph::Remove(const Edit& edit) {
       is_capsule ? std::vector<int>{before_.ends(edit.first)[0], before_.ends(edit.first)[1]}
                  : before_.NeighboursOf(edit.first);
   if (!is_capsule) touched.push_back(edit.first);
-  if (std::any_of(touched.begin(), touched.end(), [&](int v) { return is_touched_[U(v)] != 0; })) {
+  if (std::any_of(touched.begin(), touched.end(), [&](int v) { return is_touched_[v] != 0; })) {
     return;
   }
-  const int now = is_capsule ? graph_.IndexOfCapsule(index_[U(touched[0])], index_[U(touched[1])])
-                             : index_[U(edit.first)];
+  const int now = is_capsule ? graph_.IndexOfCapsule(index_[touched[0]], index_[touched[1]])
+                             : index_[edit.first];
   EditedGraph edited = Apply(graph_, EditOf(edit.kind, now));
   if (!edited.possible) return;
   graph_ = std::move(edited.graph);
   for (int& index : index_) {
-    if (index >= 0) index = edited.new_index[U(index)];
+    if (index >= 0) index = edited.new_index[index];
   }
-  for (const int v : touched) is_touched_[U(v)] = is_touched_[U(before_.ImageOf(v))] = 1;
+  for (const int v : touched) is_touched_[v] = is_touched_[before_.ImageOf(v)] = 1;
 }
 
 void CutLoosest(const capsule::Budget& budget, int target, const std::vector<double>& gaps,

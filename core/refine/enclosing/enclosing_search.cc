@@ -129,7 +129,7 @@ class Search {
   void KeepBest(std::vector<Attempt>& attempts) const {
     Sort(attempts);
     std::size_t kept = 1;
-    for (std::size_t i = 1; i < attempts.size() && kept < U(plan_.kept); ++i) {
+    for (std::size_t i = 1; i < attempts.size() && std::cmp_less(kept, plan_.kept); ++i) {
       if (budget_.Excess(attempts[i].graph.count()) > 0) break;
       const double least = (1.0 + kLeastImprovement) * attempts[kept - 1].value;
       if (attempts[i].value > least) std::swap(attempts[kept++], attempts[i]);
@@ -236,7 +236,7 @@ class Search {
     std::vector<char> is_tied(graph.spheres().size(), 0);
     for (const Edit& tie : RankedAdditions(task_, graph, pool_)) {
       const bool is_leaf = tie.kind == EditKind::kLeaf;
-      if (is_tied[U(tie.first)] || (!is_leaf && is_tied[U(tie.second)])) continue;
+      if (is_tied[tie.first] || (!is_leaf && is_tied[tie.second])) continue;
       EditedGraph edited = Apply(graph, tie);
       if (!edited.possible || edited.graph.primitive_count() > target ||
           !budget_.Allows(edited.graph.count())) {
@@ -244,8 +244,8 @@ class Search {
       }
       graph = std::move(edited.graph);
       for (const int v : {tie.first, is_leaf ? tie.first : tie.second}) {
-        is_tied[U(v)] = 1;
-        if (graph.is_mirrored()) is_tied[U(graph.ImageOf(v))] = 1;
+        is_tied[v] = 1;
+        if (graph.is_mirrored()) is_tied[graph.ImageOf(v)] = 1;
       }
     }
   }
@@ -273,7 +273,7 @@ class Search {
                   WorkOf(kStepsOfGrowth * attempts.size(), kept.front().graph));
     pool_.ForEach(attempts.size(), [&](std::size_t i) {
       const std::size_t from = i / ways;
-      const std::size_t way = i % ways * apart + (from + U(round)) % apart;
+      const std::size_t way = i % ways * apart + (from + round) % apart;
       attempts[i] = Renewed(kept[from].graph, kRenewals[way], seed_ + i);
     });
     seed_ += attempts.size();

@@ -22,7 +22,7 @@ std::vector<std::optional<TaperedCapsule>> BridgesOf(const capsule::MirroredSet&
   for (int v = 0; v < graph.sphere_count(); ++v) {
     const std::vector<int> neighbours = graph.NeighboursOf(v);
     if (neighbours.size() != 2) continue;
-    bridges[U(v)].emplace(graph.sphere(neighbours[0]), graph.sphere(neighbours[1]));
+    bridges[v].emplace(graph.sphere(neighbours[0]), graph.sphere(neighbours[1]));
   }
   return bridges;
 }
@@ -113,11 +113,11 @@ class Weigher {
 
   void AddDissolved(int node, std::size_t i, const Vec3& point, double area_m2) {
     double missing = Missing(DistanceWithout(node, i));
-    const std::optional<TaperedCapsule>& bridge = bridges_[U(node)];
+    const std::optional<TaperedCapsule>& bridge = bridges_[node];
     if (missing > 0.0 && bridge) {
       missing = std::clamp(bridge->SignedDistance(point), 0.0, missing);
     }
-    worth_.node_loss[U(node)] += area_m2 * missing;
+    worth_.node_loss[node] += area_m2 * missing;
   }
 
   struct Nearest {
@@ -141,7 +141,7 @@ class Weigher {
 // Both of a pair get what the two have together.
 void AddUpPairs(const capsule::MirroredSet& graph, GraphWorth& worth) {
   const auto add_up = [](std::vector<double>& values, int index, int image) {
-    if (image > index) values[U(index)] = values[U(image)] = values[U(index)] + values[U(image)];
+    if (image > index) values[index] = values[image] = values[index] + values[image];
   };
   for (int e = 0; e < graph.capsule_count(); ++e) {
     add_up(worth.edge_gap, e, graph.ImageOfCapsule(e));

@@ -56,10 +56,10 @@ void FindCones(const capsule::MirroredSet& graph, std::vector<Cone>& cones) {
   std::vector<char> used(graph.spheres().size(), 0);
   for (const capsule::CapsuleEnds& e : graph.capsules()) {
     cones.push_back(MakeCone(graph, e[0], e[1]));
-    used[static_cast<std::size_t>(e[0])] = used[static_cast<std::size_t>(e[1])] = 1;
+    used[e[0]] = used[e[1]] = 1;
   }
   for (int v = 0; v < graph.sphere_count(); ++v) {
-    if (!used[static_cast<std::size_t>(v)]) cones.push_back(MakeCone(graph, v, v));
+    if (!used[v]) cones.push_back(MakeCone(graph, v, v));
   }
 }
 

@@ -80,9 +80,9 @@ void Dissolve(const Edit& edit, EditedGraph& result) {
   if (std::find(neighbours.begin(), neighbours.end(), image) != neighbours.end()) return;
   if (neighbours.size() == 2) graph.AddCapsule(neighbours[0], neighbours[1]);
   std::vector<char> removed(graph.spheres().size(), 0);
-  removed[U(edit.first)] = 1;
+  removed[edit.first] = 1;
   result.new_index = graph.RemoveSpheres(removed);
-  for (const int n : neighbours) result.touched.push_back(result.new_index[U(n)]);
+  for (const int n : neighbours) result.touched.push_back(result.new_index[n]);
   result.touched_before = neighbours;
   result.touched_before.push_back(edit.first);
   result.possible = true;
@@ -146,13 +146,13 @@ std::vector<char> Neighbourhood(const capsule::MirroredSet& graph, const std::ve
                                 int radius) {
   std::vector<char> in(graph.spheres().size(), 0);
   for (const int v : nodes) {
-    in[U(v)] = 1;
-    if (graph.is_mirrored()) in[U(graph.ImageOf(v))] = 1;
+    in[v] = 1;
+    if (graph.is_mirrored()) in[graph.ImageOf(v)] = 1;
   }
   for (int k = 0; k < radius; ++k) {
     std::vector<char> wider = in;
     for (const capsule::CapsuleEnds& e : graph.capsules()) {
-      if (in[U(e[0])] || in[U(e[1])]) wider[U(e[0])] = wider[U(e[1])] = 1;
+      if (in[e[0]] || in[e[1]]) wider[e[0]] = wider[e[1]] = 1;
     }
     in = wider;
   }
@@ -171,13 +171,12 @@ Eigen::AlignedBox3d ReachOf(const capsule::MirroredSet& graph, const std::vector
     box.extend(center + reach);
   };
   for (const capsule::CapsuleEnds& e : graph.capsules()) {
-    if (!active[static_cast<std::size_t>(e[0])] && !active[static_cast<std::size_t>(e[1])])
-      continue;
+    if (!active[e[0]] && !active[e[1]]) continue;
     add(e[0]);
     add(e[1]);
   }
   for (int v = 0; v < graph.sphere_count(); ++v) {
-    if (active[static_cast<std::size_t>(v)]) add(v);
+    if (active[v]) add(v);
   }
   return box;
 }
@@ -190,11 +189,11 @@ LocalGraph LocalGraphIn(const capsule::MirroredSet& graph, const Eigen::AlignedB
   };
   std::vector<char> keep_sphere(graph.spheres().size(), 0);
   std::vector<char> keep_capsule(graph.capsules().size(), 0);
-  const auto keep = [&](int v) { keep_sphere[U(v)] = keep_sphere[U(graph.ImageOf(v))] = 1; };
+  const auto keep = [&](int v) { keep_sphere[v] = keep_sphere[graph.ImageOf(v)] = 1; };
   for (int e = 0; e < graph.capsule_count(); ++e) {
     const auto [a, b] = graph.ends(e);
     if (!box.intersects(ball(a).merged(ball(b)))) continue;
-    keep_capsule[U(e)] = keep_capsule[U(graph.ImageOfCapsule(e))] = 1;
+    keep_capsule[e] = keep_capsule[graph.ImageOfCapsule(e)] = 1;
     keep(a);
     keep(b);
   }
@@ -204,7 +203,7 @@ LocalGraph LocalGraphIn(const capsule::MirroredSet& graph, const Eigen::AlignedB
   LocalGraph local{graph, {}};
   local.graph.KeepOnly(keep_sphere, keep_capsule);
   for (int v = 0; v < graph.sphere_count(); ++v) {
-    if (keep_sphere[U(v)]) local.nodes.push_back(v);
+    if (keep_sphere[v]) local.nodes.push_back(v);
   }
   return local;
 }
@@ -237,14 +236,14 @@ int ComponentCount(const capsule::MirroredSet& graph) {
   std::vector<int> root(graph.spheres().size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&root](int v) {
-    while (root[U(v)] != v) v = root[U(v)] = root[U(root[U(v)])];
+    while (root[v] != v) v = root[v] = root[root[v]];
     return v;
   };
   int count = graph.sphere_count();
   for (const capsule::CapsuleEnds& e : graph.capsules()) {
     const int a = find(e[0]), b = find(e[1]);
     if (a == b) continue;
-    root[U(a)] = b;
+    root[a] = b;
     --count;
   }
   return count;
@@ -264,7 +263,7 @@ void MergeSwallowed(capsule::MirroredSet& graph) {
       graph.AddCapsule(large, is_image ? graph.ImageOf(large) : n);
     }
     std::vector<char> removed(graph.spheres().size(), 0);
-    removed[U(small)] = 1;
+    removed[small] = 1;
     graph.RemoveSpheres(removed);
     e = 0;
   }
@@ -293,10 +292,10 @@ std::vector<int> RemoveSwallowed(capsule::MirroredSet& graph) {
     for (std::size_t k = 0; k < cones.size(); ++k) {
       // Of two equal balls the first one stays.
       const float margin = k < graph.capsules().size() || k < j ? 0.0f : -1e-6f;
-      if (k == j || removed[U(cones[k].node_a)]) continue;
+      if (k == j || removed[cones[k].node_a]) continue;
       if (cones[k].SignedDistance(ball.ax, ball.ay, ball.az) <= -ball.radius + margin) {
-        removed[U(ball.node_a)] = 1;
-        if (graph.is_mirrored()) removed[U(graph.ImageOf(ball.node_a))] = 1;
+        removed[ball.node_a] = 1;
+        if (graph.is_mirrored()) removed[graph.ImageOf(ball.node_a)] = 1;
         break;
       }
     }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/enum_index.h"
+
 namespace capfit::refine {
 namespace {
 
@@ -178,13 +180,13 @@ Skeleton::Skeleton(const body::Body& body) {
         bone.radius_m += SkinDistance(skin, *from + t * (*to - *from)) / 3.0;
       }
       bone.radius_m = std::max(bone.radius_m, kLeastRadiusShare * (*to - *from).norm());
-      bones_[static_cast<std::size_t>(side)][static_cast<std::size_t>(i)] = bone;
+      bones_[Index(side)][i] = bone;
     }
   }
 }
 
 const std::optional<Bone>& Skeleton::bone(BoneId id, Side side) const {
-  return bones_[static_cast<std::size_t>(side)][static_cast<std::size_t>(id)];
+  return bones_[Index(side)][Index(id)];
 }
 
 std::optional<Vec3> Skeleton::Position(BoneId id, Side side, const BonePlace& place) const {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 #include "core/refine/internal.h"
 
@@ -77,10 +79,10 @@ absl::Status CheckMirror(const KeptLayout& layout, std::size_t index) {
   const int mirror = layout.spheres[index].mirror;
   if (mirror == -1) return absl::OkStatus();
   const std::string field = FieldOfSphere(index, "mirror");
-  if (mirror < 0 || U(mirror) >= layout.spheres.size()) {
+  if (mirror < 0 || std::cmp_greater_equal(mirror, layout.spheres.size())) {
     return IndexOutOfRange(field, mirror, layout.spheres.size());
   }
-  const int back = layout.spheres[U(mirror)].mirror;
+  const int back = layout.spheres[mirror].mirror;
   if (back == static_cast<int>(index)) return absl::OkStatus();
   return InvalidField(ErrorReason::kConflict, field,
                       absl::StrCat("is ", mirror, ", whose own mirror is ", back));
@@ -109,7 +111,7 @@ absl::Status CheckCapsules(const KeptLayout& layout) {
     const std::string field = absl::StrCat("layout.capsules[", i, "]");
     const capsule::CapsuleEnds& ends = layout.capsules[i];
     for (const int end : ends) {
-      if (end < 0 || U(end) >= layout.spheres.size()) {
+      if (end < 0 || std::cmp_greater_equal(end, layout.spheres.size())) {
         return IndexOutOfRange(field, end, layout.spheres.size());
       }
     }
@@ -171,7 +173,7 @@ body::PartSelection KeptLayout::parts() const {
   return parts;
 }
 
-std::string_view BoneName(BoneId bone) { return kBoneNames[static_cast<std::size_t>(bone)]; }
+std::string_view BoneName(BoneId bone) { return kBoneNames[Index(bone)]; }
 
 std::optional<BoneId> BoneByName(std::string_view name) {
   const auto found = std::find(kBoneNames.begin(), kBoneNames.end(), name);

@@ -41,8 +41,8 @@ class Hanger {
     const body::Part part = PartOf(node.bone, side);
     const std::optional<Vec3> center = skeleton_.Position(node.bone, side, node.place);
     if (!center || !parts_.Includes(part)) return -1;
-    if (U(static_cast<int>(part)) < chain_has_sphere_.size()) {
-      chain_has_sphere_[U(static_cast<int>(part))] = true;
+    if (const auto chain = static_cast<std::size_t>(part); chain < chain_has_sphere_.size()) {
+      chain_has_sphere_[chain] = true;
     }
     const double radius = node.radius * skeleton_.bone(node.bone, side)->radius_m;
     return graph_.AddSphere({*center, std::max(kLeastHungRadiusM, radius)}, !node.paired);
@@ -62,7 +62,7 @@ class Hanger {
   void AddMissingChain(body::Part part) {
     const auto& chain = body_.chain(part);
     const bool right = part == body::Part::kRightArm || part == body::Part::kRightLeg;
-    if (!chain || !parts_.Includes(part) || chain_has_sphere_[U(static_cast<int>(part))]) return;
+    if (!chain || !parts_.Includes(part) || chain_has_sphere_[static_cast<int>(part)]) return;
     if (graph_.is_mirrored() && right) return;
     int last = -1;
     for (const double share : {0.05, 0.5, 0.95}) {

@@ -11,11 +11,11 @@ namespace capfit::refine {
 namespace {
 
 bool HasEnds(const body::Body& body, const body::PartSelection& parts) {
-  return std::any_of(
-      body.vertex_segments.begin(), body.vertex_segments.end(), [&](body::Segment s) {
-        const body::Part part = body::PartOf(s);
-        return U(static_cast<int>(part)) >= U(body::kChainCount) && parts.Includes(part);
-      });
+  return std::any_of(body.vertex_segments.begin(), body.vertex_segments.end(),
+                     [&](body::Segment s) {
+                       const body::Part part = body::PartOf(s);
+                       return static_cast<int>(part) >= body::kChainCount && parts.Includes(part);
+                     });
 }
 
 // Layouts of one kind, hung on the body some at a time, as the first ones may be enough.

@@ -62,9 +62,9 @@ class Complex {
   [[nodiscard]] SphereMesh Snapshot();
 
  private:
-  Node& At(int i) { return nodes_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] const Node& At(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
-  std::array<int, 3>& Corners(int t) { return corners_[static_cast<std::size_t>(t)]; }
+  Node& At(int i) { return nodes_[i]; }
+  [[nodiscard]] const Node& At(int i) const { return nodes_[i]; }
+  std::array<int, 3>& Corners(int t) { return corners_[t]; }
 
   void AddTriangle(const mesh::BodyMesh& mesh, std::size_t index);
   void Offer(int a, int b);

@@ -85,11 +85,11 @@ void ExpectSound(const SphereMesh& mesh) {
   }
   for (const Sphere& sphere : mesh.spheres) EXPECT_GE(sphere.radius_m, 0.0);
   std::vector<int> root(mesh.spheres.size());
-  for (int i = 0; i < count; ++i) root[static_cast<std::size_t>(i)] = i;
+  for (int i = 0; i < count; ++i) root[i] = i;
   for (int pass = 0; pass < count; ++pass) {
     for (const auto& [a, b] : edges) {
-      int& first = root[static_cast<std::size_t>(a)];
-      int& second = root[static_cast<std::size_t>(b)];
+      int& first = root[a];
+      int& second = root[b];
       first = second = std::min(first, second);
     }
   }
@@ -130,8 +130,7 @@ TEST(WithoutTriangles, IsTheSameSolid) {
     const Vector3d above = foot + Vector3d(0, 0, 0.1);
     double nearest = 1.0;
     for (const auto& [a, b] : plain.edges) {
-      const geometry::TaperedCapsule capsule(plain.spheres[static_cast<std::size_t>(a)],
-                                             plain.spheres[static_cast<std::size_t>(b)]);
+      const geometry::TaperedCapsule capsule(plain.spheres[a], plain.spheres[b]);
       nearest = std::min(nearest, capsule.SignedDistance(above));
     }
     depth = std::min(depth, sag - nearest);

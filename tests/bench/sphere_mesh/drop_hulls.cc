@@ -77,7 +77,7 @@ void Dropper::Find(std::size_t point) {
 bool Dropper::IsBridge(std::size_t edge) const {
   // Whether the edge's one end is reached from the other without it.
   std::vector<bool> is_reached(mesh_.spheres.size(), false);
-  is_reached[static_cast<std::size_t>(mesh_.edges[edge][0])] = true;
+  is_reached[mesh_.edges[edge][0]] = true;
   for (bool is_growing = true; is_growing;) {
     is_growing = false;
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
@@ -88,7 +88,7 @@ bool Dropper::IsBridge(std::size_t edge) const {
       is_reached[a] = is_reached[b] = is_growing = true;
     }
   }
-  return !is_reached[static_cast<std::size_t>(mesh_.edges[edge][1])];
+  return !is_reached[mesh_.edges[edge][1]];
 }
 
 void Dropper::Drop(std::size_t hull) {
@@ -104,7 +104,7 @@ void Dropper::Drop(std::size_t hull) {
 
 bool Dropper::DropOne() {
   std::vector<double> losses(is_dropped_.size(), 0.0);
-  for (const Pull& pull : pulls_) losses[static_cast<std::size_t>(pull.nearest)] += pull.loss;
+  for (const Pull& pull : pulls_) losses[pull.nearest] += pull.loss;
   while (true) {
     std::size_t best = losses.size();
     double least = std::numeric_limits<double>::infinity();

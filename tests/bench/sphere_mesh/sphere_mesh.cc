@@ -46,8 +46,8 @@ std::string ToJson(const SphereMesh& mesh, double seconds) {
 SphereMesh WithoutTriangles(const SphereMesh& mesh, double sag) {
   SphereMesh plain{mesh.spheres, mesh.edges, {}};
   for (const std::array<int, 3>& corners : mesh.triangles) {
-    const Sphere a = mesh.spheres[static_cast<std::size_t>(corners[0])];
-    const Sphere b = mesh.spheres[static_cast<std::size_t>(corners[1])];
+    const Sphere a = mesh.spheres[corners[0]];
+    const Sphere b = mesh.spheres[corners[1]];
     const int fan = FanSize(a, b, sag);
     for (int i = 1; i < fan; ++i) {
       plain.edges.push_back({corners[2], static_cast<int>(plain.spheres.size())});

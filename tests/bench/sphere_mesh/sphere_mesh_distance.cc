@@ -61,7 +61,7 @@ bool TrianglePlates::Locate(const Vector3d& point, Foot& foot) const {
 
 SphereMeshDistance::SphereMeshDistance(const SphereMesh& mesh)
     : edges_(mesh.edges), triangles_(mesh.triangles) {
-  const auto sphere = [&](int i) { return mesh.spheres[static_cast<std::size_t>(i)]; };
+  const auto sphere = [&](int i) { return mesh.spheres[i]; };
   if (edges_.empty()) {
     for (int i = 0; i < static_cast<int>(mesh.spheres.size()); ++i) edges_.push_back({i, i});
   }
@@ -107,9 +107,9 @@ bool SphereMeshDistance::IsNearer(const Hull& hull, const Vector3d& point, Foot&
 Foot SphereMeshDistance::Locate(const Vector3d& point, int& hint, int without) const {
   Foot best;
   best.distance = std::numeric_limits<double>::infinity();
-  if (hint != without) (void)IsNearer(hulls_[static_cast<std::size_t>(hint)], point, best);
+  if (hint != without) (void)IsNearer(hulls_[hint], point, best);
   for (int i = 0; i < hulls(); ++i) {
-    if (i != without && IsNearer(hulls_[static_cast<std::size_t>(i)], point, best)) hint = i;
+    if (i != without && IsNearer(hulls_[i], point, best)) hint = i;
   }
   return best;
 }

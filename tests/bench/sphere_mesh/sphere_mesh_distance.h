@@ -48,7 +48,7 @@ class SphereMeshDistance {
   explicit SphereMeshDistance(const SphereMesh& mesh);
 
   // Locate then knows nothing of this hull.
-  void Drop(int hull) { hulls_[static_cast<std::size_t>(hull)].is_dropped = true; }
+  void Drop(int hull) { hulls_[hull].is_dropped = true; }
 
   // The edges come first, then the triangles. A mesh without edges: one for each sphere.
   [[nodiscard]] int hulls() const { return static_cast<int>(hulls_.size()); }

@@ -49,7 +49,7 @@ TEST(SphereMeshDistance, IsTheLeastOverAllInterpolatedSpheres) {
     const Vector3d point(in(rng), 0.6 * in(rng), 0.4 * in(rng));
     double least = 1e9;
     const auto take = [&](int a, int b, int c, double u, double v) {
-      const auto at = [&](int i) { return mesh.spheres[static_cast<std::size_t>(i)]; };
+      const auto at = [&](int i) { return mesh.spheres[i]; };
       const Vector3d center =
           (1 - u - v) * at(a).center_m + u * at(b).center_m + v * at(c).center_m;
       least = std::min(least, (point - center).norm() - (1 - u - v) * at(a).radius_m -

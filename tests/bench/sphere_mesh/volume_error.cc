@@ -11,8 +11,7 @@ constexpr double kRelativeSag = 5e-4;
 std::vector<geometry::TaperedCapsule> Solids(const SphereMesh& mesh) {
   std::vector<geometry::TaperedCapsule> solids;
   for (const auto& [a, b] : mesh.edges) {
-    solids.emplace_back(mesh.spheres[static_cast<std::size_t>(a)],
-                        mesh.spheres[static_cast<std::size_t>(b)]);
+    solids.emplace_back(mesh.spheres[a], mesh.spheres[b]);
   }
   if (solids.empty()) {
     for (const geometry::Sphere& sphere : mesh.spheres) solids.emplace_back(sphere, sphere);

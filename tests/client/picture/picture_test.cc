@@ -71,7 +71,7 @@ TEST(PanelTest, SphereSilhouetteMatchesItsProjection) {
     for (int y = 0; y < 240; ++y) {
       for (int x = 0; x < 300; ++x) {
         const double distance = std::hypot(x + 0.5 - center.x(), y + 0.5 - center.y());
-        const bool is_paper = pixels.argb[static_cast<std::size_t>(300 * y + x)] == 0xffffffffu;
+        const bool is_paper = pixels.argb[300 * y + x] == 0xffffffffu;
         // Pixels at the rim are partly covered.
         if (std::abs(distance - 50.0) < 0.8) continue;
         ASSERT_EQ(is_paper, distance > 50.0) << x << ", " << y;

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 
 namespace capfit::client {
@@ -47,7 +48,7 @@ TEST(ResultWordsTest, MissingPartsAreNamedInPairs) {
   PartFlags on_body = AllParts();
   for (const body::Part part :
        {body::Part::kLeftHand, body::Part::kRightFoot, body::Part::kHead, body::Part::kRightLeg}) {
-    on_body[static_cast<std::size_t>(part)] = false;
+    on_body[Index(part)] = false;
   }
   EXPECT_EQ(MissingParts(result, on_body),
             "not fitted: left leg, right hand, left foot     not on the body: right foot");

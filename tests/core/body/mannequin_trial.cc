@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/enum_index.h"
 #include "core/base/random.h"
 #include "tests/support/random_mannequin.h"
 
@@ -62,7 +63,7 @@ void DropFaces(Random& random, double share, formats::PolygonSoup& soup) {
 double ArmAngle(const mannequin::MannequinOptions& options) {
   if (options.arm_angle_rad) return *options.arm_angle_rad;
   constexpr std::array<double, 3> kParts = {2.0, 4.0, 12.0};  // of a half turn: T, A, sides
-  return std::numbers::pi / kParts[static_cast<std::size_t>(options.pose)];
+  return std::numbers::pi / kParts[Index(options.pose)];
 }
 
 // The mannequin's surface as triangles; its quads are flat enough to be split anyhow.

@@ -73,7 +73,7 @@ TEST(AllocationTest, UsesEveryBudgetAndNeverMore) {
       EXPECT_LE(total, budget);
       EXPECT_GE(total, budget - 3) << "mirrored " << mirrored << " budget " << budget;
       for (std::size_t i = 0; i < counts.size() && mirrored; ++i) {
-        EXPECT_EQ(counts[i], counts[static_cast<std::size_t>(polygons[i].mirror)]);
+        EXPECT_EQ(counts[i], counts[polygons[i].mirror]);
       }
     }
   }

@@ -46,8 +46,7 @@ struct Scene {
 int CountCapsulesBetween(const PrimitiveSet& set, int polygon_a, int polygon_b) {
   int count = 0;
   for (const CapsuleEnds& ends : set.capsules) {
-    const std::pair<int, int> polygons(set.origins[static_cast<std::size_t>(ends[0])].polygon,
-                                       set.origins[static_cast<std::size_t>(ends[1])].polygon);
+    const std::pair<int, int> polygons(set.origins[ends[0]].polygon, set.origins[ends[1]].polygon);
     count +=
         polygons == std::pair(polygon_a, polygon_b) || polygons == std::pair(polygon_b, polygon_a);
   }

@@ -46,9 +46,7 @@ TEST(CapsuleProfile, GrownForTheLerpedRadiusItHoldsTheHullThatItWas) {
         if (before.Capsule(k).SignedDistance(point) > 0.0) continue;
         ++inside;
         const CapsuleEnds& ends = grown.capsules[k];
-        EXPECT_LE(LerpedDistance(grown.spheres[static_cast<std::size_t>(ends[0])],
-                                 grown.spheres[static_cast<std::size_t>(ends[1])], point),
-                  1e-12);
+        EXPECT_LE(LerpedDistance(grown.spheres[ends[0]], grown.spheres[ends[1]], point), 1e-12);
       }
     }
     EXPECT_GT(inside, 100);
@@ -80,7 +78,7 @@ TEST(CapsuleProfile, UniformCapsulesShareNothing) {
     EXPECT_EQ(capsule.a().radius_m, capsule.b().radius_m);
     EXPECT_DOUBLE_EQ(capsule.a().radius_m,
                      0.5 * (set.Capsule(k).a().radius_m + set.Capsule(k).b().radius_m));
-    for (const int end : uniform.capsules[k]) ++uses[static_cast<std::size_t>(end)];
+    for (const int end : uniform.capsules[k]) ++uses[end];
   }
   EXPECT_EQ(*std::max_element(uses.begin(), uses.end()), 1);
 }
@@ -92,15 +90,15 @@ TEST(CapsuleProfile, ImagesStayImages) {
                  {{-0.3, 0.4, 0}, 0.06}, {{0.5, 0, 0}, 0.05}, {{-0.5, 0, 0}, 0.05}};
   set.origins.resize(6);
   for (const auto& [sphere, image] : {std::pair{0, 0}, {1, 1}, {2, 3}, {3, 2}, {4, 5}, {5, 4}}) {
-    set.origins[static_cast<std::size_t>(sphere)].mirror = image;
+    set.origins[sphere].mirror = image;
   }
   set.capsules = {{0, 1}, {1, 2}, {1, 3}, {2, 3}};
   const PrimitiveSet uniform = WithUniformRadii(set);
   for (std::size_t i = 0; i < uniform.spheres.size(); ++i) {
     const int image = uniform.origins[i].mirror;
     ASSERT_GE(image, 0);
-    EXPECT_EQ(uniform.origins[static_cast<std::size_t>(image)].mirror, static_cast<int>(i));
-    const Sphere& there = uniform.spheres[static_cast<std::size_t>(image)];
+    EXPECT_EQ(uniform.origins[image].mirror, static_cast<int>(i));
+    const Sphere& there = uniform.spheres[image];
     EXPECT_EQ(there.center_m.x(), -uniform.spheres[i].center_m.x());
     EXPECT_EQ(there.center_m.y(), uniform.spheres[i].center_m.y());
     EXPECT_EQ(there.radius_m, uniform.spheres[i].radius_m);

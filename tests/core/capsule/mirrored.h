@@ -9,7 +9,7 @@ namespace capfit::capsule {
 // A mirrored set that is its own image, bit for bit, in geometry and in its bookkeeping.
 inline bool IsExactlyMirrored(const MirroredSet& set) {
   for (int v = 0; v < set.sphere_count(); ++v) {
-    const int image = set.set().origins[static_cast<std::size_t>(v)].mirror;
+    const int image = set.set().origins[v].mirror;
     if (image < 0 || image >= set.sphere_count() || set.ImageOf(v) != image) return false;
     const geometry::Sphere mirrored = MirrorImage(set.sphere(v));
     if (set.ImageOf(image) != v || set.sphere(image).radius_m != mirrored.radius_m ||

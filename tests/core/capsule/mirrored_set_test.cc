@@ -24,8 +24,6 @@ MirroredSet Legs(bool is_mirrored) {
   return set;
 }
 
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
-
 bool AreDistinct(const std::vector<CapsuleEnds>& capsules) {
   for (std::size_t i = 0; i < capsules.size(); ++i) {
     if (std::count(capsules.begin(), capsules.end(), capsules[i]) != 1) return false;
@@ -122,10 +120,10 @@ TEST(MirroredSetTest, RandomEditsKeepItSound) {
   Random random(5);
   MirroredSet set = Legs(true);
   for (int step = 0; step < 400; ++step) {
-    const int v = static_cast<int>(random.NextBelow(At(set.sphere_count())));
-    const int w = static_cast<int>(random.NextBelow(At(set.sphere_count())));
+    const int v = static_cast<int>(random.NextBelow(set.sphere_count()));
+    const int w = static_cast<int>(random.NextBelow(set.sphere_count()));
     const int capsules = set.capsule_count();
-    const int e = capsules == 0 ? -1 : static_cast<int>(random.NextBelow(At(capsules)));
+    const int e = capsules == 0 ? -1 : static_cast<int>(random.NextBelow(capsules));
     switch (random.NextBelow(8)) {
       case 0:
         set.AddSphere({{random.NextIn(0.1, 0.5), random.NextIn(0.0, 1.0), 0.0}, 0.1}, v % 2 == 0);
@@ -145,7 +143,7 @@ TEST(MirroredSetTest, RandomEditsKeepItSound) {
       case 4:
         if (set.sphere_count() > 12) {
           std::vector<char> removed(set.spheres().size(), 0);
-          removed[At(v)] = 1;
+          removed[v] = 1;
           set.RemoveSpheres(removed);
         }
         break;

@@ -37,7 +37,7 @@ TEST(ImagesOfTest, AgreesWithTryingAll) {
   Random random(7);
   for (int round = 0; round < 50; ++round) {
     std::vector<int> mirrors(12);
-    for (int i = 0; i < 12; ++i) mirrors[static_cast<std::size_t>(i)] = i < 4 ? i : i ^ 1;
+    for (int i = 0; i < 12; ++i) mirrors[i] = i < 4 ? i : i ^ 1;
     std::vector<CapsuleEnds> capsules;
     for (int a = 0; a < 12; ++a) {
       for (int b = a + 1; b < 12; ++b) {
@@ -47,8 +47,7 @@ TEST(ImagesOfTest, AgreesWithTryingAll) {
     const PrimitiveSet set = WithMirrors(mirrors, capsules);
     const Images images = ImagesOf(set);
     for (std::size_t k = 0; k < capsules.size(); ++k) {
-      CapsuleEnds wanted{mirrors[static_cast<std::size_t>(capsules[k][0])],
-                         mirrors[static_cast<std::size_t>(capsules[k][1])]};
+      CapsuleEnds wanted{mirrors[capsules[k][0]], mirrors[capsules[k][1]]};
       std::sort(wanted.begin(), wanted.end());
       const auto found = std::find(capsules.begin(), capsules.end(), wanted);
       const int expected =

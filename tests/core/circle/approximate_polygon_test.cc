@@ -203,8 +203,8 @@ section::Polygon ThreeDiscs(int count) {
     }
     const bool on_axis = i == 0 || i == count / 2;
     const Eigen::Vector2d p(on_axis ? 0.0 : reach * ray.x(), reach * ray.y());
-    vertices[static_cast<std::size_t>(i)] = p;
-    if (!on_axis) vertices[static_cast<std::size_t>(count - i)] = {-p.x(), p.y()};
+    vertices[i] = p;
+    if (!on_axis) vertices[count - i] = {-p.x(), p.y()};
   }
   return MakePolygon(std::move(vertices));
 }
@@ -239,7 +239,7 @@ TEST(ApproximatePolygonTest, SplitOutlinesGiveEachPieceItsCircles) {
         const bool covered =
             std::any_of(result.circles.begin(), result.circles.end(), [&](const Circle& c) {
               return std::all_of(piece.begin(), piece.end(), [&](int v) {
-                return OutOf({c}, polygon.outline.vertices()[static_cast<std::size_t>(v)]) < 2e-9;
+                return OutOf({c}, polygon.outline.vertices()[v]) < 2e-9;
               });
             });
         EXPECT_TRUE(covered) << "symmetric " << symmetric;

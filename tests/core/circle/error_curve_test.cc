@@ -81,8 +81,8 @@ TEST(ErrorCurvesTest, PreparedCountsAreWhatIsAskedForLater) {
   const std::vector<int> counts = {4, 2, 2};
   prepared.Prepare(counts);
   for (int p = 0; p < 3; ++p) {
-    EXPECT_EQ(prepared.Approximation(p, counts[static_cast<std::size_t>(p)]).outside_area_m2,
-              alone.Approximation(p, counts[static_cast<std::size_t>(p)]).outside_area_m2);
+    EXPECT_EQ(prepared.Approximation(p, counts[p]).outside_area_m2,
+              alone.Approximation(p, counts[p]).outside_area_m2);
   }
 }
 

@@ -62,7 +62,7 @@ inline section::Polygon MirroredTrunk(Random& random, int count, double lumps) {
   }
   std::vector<Eigen::Vector2d> vertices(right);
   for (int i = half - 1; i > 0; --i) {
-    const Eigen::Vector2d& p = right[static_cast<std::size_t>(i)];
+    const Eigen::Vector2d& p = right[i];
     vertices.emplace_back(-p.x(), p.y());
   }
   return MakePolygon(std::move(vertices));

@@ -33,7 +33,7 @@ TEST(QuadraticProgramTest, RandomProgrammesMeetTheOptimalityConditions) {
     Eigen::Vector3d residual = gradient + b * s.x;
     for (int k = 0; k < s.active_count; ++k) {
       const auto index = static_cast<std::size_t>(k);
-      const HalfSpace& h = half_spaces[static_cast<std::size_t>(s.active[index])];
+      const HalfSpace& h = half_spaces[s.active[index]];
       EXPECT_GE(s.multipliers[index], 0.0);
       EXPECT_NEAR(h.normal.dot(s.x), h.bound, 1e-9);
       residual -= s.multipliers[index] * h.normal;

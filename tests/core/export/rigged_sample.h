@@ -72,7 +72,7 @@ inline ColliderSet SetOn(const std::string& glb, const std::vector<std::int32_t>
     formats::NamedJoint& named = set.joints.emplace_back();
     named.name = "joint_" + std::to_string(joint);
     named.node = node;
-    named.to_mesh = tree->to_world[static_cast<std::size_t>(node)].topRows<3>();
+    named.to_mesh = tree->to_world[node].topRows<3>();
     named.position = named.to_mesh.col(3);
     const Eigen::Vector3d at(0.3 * joint, 0.2, -0.1 * joint);
     const auto first = static_cast<int>(set.sphere_count());

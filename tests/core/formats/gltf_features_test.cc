@@ -210,7 +210,7 @@ TEST(PackedTubeTest, ThePlainTubeStandsAsItsJointsDo) {
       const Vector3d bound(0.1 * std::cos(angle), upper, 0.1 * std::sin(angle));
       const Vector3d bent(-(bound.y() - 0.5), 0.5 + bound.x(), bound.z());
       const Vector3d want = (1.0 - upper) * bound + upper * bent;
-      EXPECT_LE((soup->positions[static_cast<std::size_t>(10 * ring + k)] - want).norm(), 1e-6);
+      EXPECT_LE((soup->positions[10 * ring + k] - want).norm(), 1e-6);
     }
   }
 }

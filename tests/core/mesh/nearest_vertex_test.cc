@@ -51,7 +51,7 @@ TEST(NearestVertexTest, IsTheOneThatLookingAtAllFinds) {
 TEST(NearestVertexTest, OfEqualsTheFirst) {
   std::vector<Vec3> lattice, points;
   for (int i = 0; i < 1000; ++i) lattice.emplace_back(i % 10, i / 10 % 10, i / 100);
-  for (const int i : {0, 111, 555, 999}) lattice.push_back(lattice[static_cast<std::size_t>(i)]);
+  for (const int i : {0, 111, 555, 999}) lattice.push_back(lattice[i]);
   for (const Vec3& p : lattice) {
     points.push_back(p);
     points.push_back(p + Vec3(0.5, 0, 0));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/enum_index.h"
 #include "core/base/random.h"
 #include "core/metrics/measure.h"
 #include "core/metrics/volumes.h"
@@ -58,9 +59,7 @@ Metrics MeasureSlab(const body::Body& body, const capsule::PrimitiveSet& set,
   return Measure(body, set, options, Alone(), NullObserver());
 }
 
-const PartMetrics& Of(Part part, const Metrics& metrics) {
-  return *metrics.parts[static_cast<std::size_t>(part)];
-}
+const PartMetrics& Of(Part part, const Metrics& metrics) { return *metrics.parts[Index(part)]; }
 
 double Ball(double radius) { return 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3); }
 
@@ -77,13 +76,11 @@ TEST(PartMetricsTest, OnlyPartsThatAreFittedAndThereAreReported) {
   const Metrics m = MeasureSlab(Slab(), Mixed());
   for (int p = 0; p < body::kPartCount; ++p) {
     const auto part = static_cast<Part>(p);
-    EXPECT_EQ(m.parts[static_cast<std::size_t>(p)].has_value(),
+    EXPECT_EQ(m.parts[p].has_value(),
               part == Part::kTorso || part == Part::kLeftArm || part == Part::kRightArm)
         << body::PartName(part);
   }
-  EXPECT_TRUE(MeasureSlab(Slab(), Mixed(), {.head = true})
-                  .parts[static_cast<std::size_t>(Part::kHead)]
-                  .has_value());
+  EXPECT_TRUE(MeasureSlab(Slab(), Mixed(), {.head = true}).parts[Index(Part::kHead)].has_value());
 }
 
 TEST(PartMetricsTest, PartsAddUpToTheWhole) {
@@ -201,9 +198,8 @@ TEST(PartMetricsTest, MirroredBodySwapsLeftAndRight) {
   const Metrics m = MeasureSlab(body, set);
   const Metrics mirrored = MeasureSlab(image, set_image);
   for (int p = 0; p < body::kPartCount; ++p) {
-    const auto& one = m.parts[static_cast<std::size_t>(p)];
-    const auto& other =
-        mirrored.parts[static_cast<std::size_t>(body::MirrorPart(static_cast<Part>(p)))];
+    const auto& one = m.parts[p];
+    const auto& other = mirrored.parts[Index(body::MirrorPart(static_cast<Part>(p)))];
     ASSERT_EQ(one.has_value(), other.has_value());
     if (!one) continue;
     EXPECT_NEAR(one->volume_m3, other->volume_m3, 1e-9);

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/mannequin/mannequin.h"
 #include "core/pipeline/fit.h"
 
@@ -88,7 +89,7 @@ TEST_P(CancelTest, EndsSoonAtEachMomentAndSaysThatItWasCancelled) {
     EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled) << result.status();
     const double wait = std::chrono::duration<double>(end - observer.when()).count();
     waits.push_back(wait);
-    double& stage_worst = worst[static_cast<std::size_t>(stage)];
+    double& stage_worst = worst[Index(stage)];
     stage_worst = std::max(stage_worst, wait);
   }
   ASSERT_GT(waits.size(), kMoments / 3U);
@@ -98,7 +99,7 @@ TEST_P(CancelTest, EndsSoonAtEachMomentAndSaysThatItWasCancelled) {
               GetParam().name.c_str(), whole_seconds, 1e3 * waits[waits.size() / 2],
               1e3 * waits.back());
   for (int i = 0; i < kStageCount; ++i) {
-    const double seconds = worst[static_cast<std::size_t>(i)];
+    const double seconds = worst[i];
     if (seconds > 0.0) {
       std::printf(" %s %.0f", std::string(StageName(static_cast<Stage>(i))).c_str(), 1e3 * seconds);
     }

@@ -308,7 +308,7 @@ class Rig {
       Eigen::Affine3d now = Eigen::Affine3d::Identity();
       now.matrix().topRows<3>() = soup_.joints[j].to_mesh;
       for (auto above = static_cast<std::int32_t>(j); above >= 0;
-           above = soup_.joints[static_cast<std::size_t>(above)].parent) {
+           above = soup_.joints[above].parent) {
         const auto turn = turns.find(static_cast<std::size_t>(above));
         if (turn != turns.end()) now = turn->second * now;
       }

@@ -52,8 +52,7 @@ TEST_P(PartsAlone, AreFitted) {
   }
   for (int i = 0; i < body::kPartCount; ++i) {
     const auto part = static_cast<body::Part>(i);
-    EXPECT_EQ(result->metrics.parts[static_cast<std::size_t>(i)].has_value(),
-              options.parts.Includes(part))
+    EXPECT_EQ(result->metrics.parts[i].has_value(), options.parts.Includes(part))
         << std::string(body::PartName(part));
   }
 }

@@ -125,7 +125,7 @@ TEST(PaperQuality, BestFitSettlesThePapersPrimitives) {
   for (std::size_t i = 0; i < set.spheres.size(); ++i) {
     const int image = set.origins[i].mirror;
     ASSERT_GE(image, 0) << i;
-    EXPECT_EQ(set.spheres[static_cast<std::size_t>(image)].radius_m, set.spheres[i].radius_m);
+    EXPECT_EQ(set.spheres[image].radius_m, set.spheres[i].radius_m);
   }
 }
 
@@ -199,10 +199,10 @@ TEST_P(SearchedQuality, ASymmetricBodyGetsAnExactlySymmetricSet) {
   const FitResult result = MustFit(Person(), Of(quality, fit, 64));
   const auto& set = result.primitives;
   const auto to_body = [&](int i) {
-    return result.body_from_caller.Apply(set.spheres[static_cast<std::size_t>(i)].center_m);
+    return result.body_from_caller.Apply(set.spheres[i].center_m);
   };
   for (int i = 0; i < static_cast<int>(set.spheres.size()); ++i) {
-    const int image = set.origins[static_cast<std::size_t>(i)].mirror;
+    const int image = set.origins[i].mirror;
     ASSERT_GE(image, 0) << i;
     EXPECT_LE((to_body(i).cwiseProduct(Eigen::Vector3d(-1, 1, 1)) - to_body(image)).norm(), 1e-9);
   }
@@ -259,7 +259,7 @@ TEST(Engines, LimitsHoldAndTheBodyIsCoveredInTheEnginesOwnProfile) {
     std::vector<int> uses(set.spheres.size(), 0);
     for (std::size_t k = 0; k < set.capsules.size(); ++k) {
       EXPECT_EQ(set.Capsule(k).a().radius_m, set.Capsule(k).b().radius_m);
-      for (const int end : set.capsules[k]) ++uses[static_cast<std::size_t>(end)];
+      for (const int end : set.capsules[k]) ++uses[end];
     }
     EXPECT_LE(*std::max_element(uses.begin(), uses.end()), 1);
   }

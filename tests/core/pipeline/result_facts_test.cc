@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/base/status.h"
 #include "core/mannequin/mannequin.h"
 #include "core/pipeline/fit.h"
@@ -46,7 +47,7 @@ FitResult MustFit(const formats::PolygonSoup& soup, const FitOptions& options) {
 }
 
 double SecondsOf(const FitResult& result, Stage stage) {
-  return result.stage_seconds[static_cast<std::size_t>(stage)];
+  return result.stage_seconds[Index(stage)];
 }
 
 struct ProgressCase {
@@ -72,7 +73,7 @@ TEST_P(ProgressTest, NeverFallsAndTimesBelongToTheirStages) {
   EXPECT_LE(notes.fractions.back(), 1.0);
   std::set<Stage> timed;
   for (int i = 0; i < kStageCount; ++i) {
-    if (result->stage_seconds[static_cast<std::size_t>(i)] > 0.0) {
+    if (result->stage_seconds[i] > 0.0) {
       timed.insert(static_cast<Stage>(i));
     }
   }

@@ -114,9 +114,8 @@ std::vector<Placing> Posed(const std::vector<formats::NamedJoint>& joints, std::
   std::vector<Placing> posed;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     Eigen::Affine3d now = turns[j];
-    for (std::int32_t above = joints[j].parent; above >= 0;
-         above = joints[static_cast<std::size_t>(above)].parent) {
-      now = turns[static_cast<std::size_t>(above)] * now;
+    for (std::int32_t above = joints[j].parent; above >= 0; above = joints[above].parent) {
+      now = turns[above] * now;
     }
     posed.emplace_back((now * Full(joints[j].to_mesh)).matrix().topRows<3>());
   }

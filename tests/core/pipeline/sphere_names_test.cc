@@ -74,7 +74,7 @@ void ExpectUniqueAndPaired(const std::vector<std::string>& names,
   for (std::size_t i = 0; i < names.size(); ++i) {
     const int mirror = set.origins[i].mirror;
     if (mirror < 0) continue;
-    EXPECT_EQ(names[static_cast<std::size_t>(mirror)], Mirrored(names[i]));
+    EXPECT_EQ(names[mirror], Mirrored(names[i]));
     const bool is_sided = Mirrored(names[i]) != names[i];
     EXPECT_EQ(is_sided, mirror != static_cast<int>(i)) << names[i];
   }

@@ -153,7 +153,7 @@ void ExpectExactlyMirrored(const capsule::PrimitiveSet& set) {
   for (std::size_t i = 0; i < set.spheres.size(); ++i) {
     const int mirror = set.origins[i].mirror;
     ASSERT_GE(mirror, 0);
-    const geometry::Sphere& image = set.spheres[static_cast<std::size_t>(mirror)];
+    const geometry::Sphere& image = set.spheres[mirror];
     EXPECT_EQ(image.center_m.x(), -set.spheres[i].center_m.x());
     EXPECT_EQ(image.center_m.y(), set.spheres[i].center_m.y());
     EXPECT_EQ(image.center_m.z(), set.spheres[i].center_m.z());

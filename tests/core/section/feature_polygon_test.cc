@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "core/base/enum_index.h"
 #include "core/body/find_body.h"
 #include "core/formats/read_mesh.h"
 #include "core/mesh/prepare_mesh.h"
@@ -58,7 +59,7 @@ void ExpectMirrored(const FeaturePolygons& result) {
   for (std::size_t i = 0; i < result.polygons.size(); ++i) {
     const FeaturePolygon& p = result.polygons[i];
     ASSERT_GE(p.mirror, 0) << p.name;
-    const FeaturePolygon& q = result.polygons[static_cast<std::size_t>(p.mirror)];
+    const FeaturePolygon& q = result.polygons[p.mirror];
     EXPECT_EQ(q.mirror, static_cast<int>(i));
     EXPECT_EQ(q.chain, body::MirrorPart(p.chain));
     const auto v = p.outline.vertices();
@@ -147,7 +148,7 @@ TEST(FeaturePolygonTest, WithoutSymmetryNothingIsLinked) {
 
 TEST(FeaturePolygonTest, AMissingChainIsNoProblem) {
   body::Body body = StickFigure();
-  body.chains[static_cast<std::size_t>(Part::kRightArm)].reset();
+  body.chains[Index(Part::kRightArm)].reset();
   body.is_symmetric = false;
   EXPECT_EQ(Extract(body).polygons.size(), 17u);
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/body/body.h"
 #include "core/mesh/body_mesh.h"
 
@@ -129,10 +130,10 @@ inline body::Body StickFigure() {
       const double t = (mesh.vertices[v] - from).dot(to - from) / (to - from).squaredNorm();
       segments.push_back(t < 0.5 ? near : far);
     }
-    body.chains[static_cast<std::size_t>(part)] = StraightCurve(from, to);
+    body.chains[Index(part)] = StraightCurve(from, to);
   };
   const auto set = [&](LandmarkId id, const Eigen::Vector3d& at) {
-    body.landmarks[static_cast<std::size_t>(id)] = body::Landmark{at};
+    body.landmarks[Index(id)] = body::Landmark{at};
   };
   add(Part::kTorso, {0, 0.7, 0}, {0, 1.4, 0}, {1, 0, 0}, {0.15, 0.1}, Segment::kTorso,
       Segment::kTorso);

@@ -20,8 +20,8 @@ std::vector<Eigen::Vector2d> Chest(double bulge, int count) {
     const double x = 0.15 * std::sin(a) * (1 + bulge * lobe);
     const double y = -0.11 * std::cos(a) * (1 + 2 * bulge * lobe);
     const bool on_axis = i == 0 || i == count / 2;
-    points[static_cast<std::size_t>(i)] = {on_axis ? 0.0 : x, y};
-    if (!on_axis) points[static_cast<std::size_t>(count - i)] = {-x, y};
+    points[i] = {on_axis ? 0.0 : x, y};
+    if (!on_axis) points[count - i] = {-x, y};
   }
   return points;
 }

@@ -17,8 +17,8 @@ using formats::Placing;
 std::vector<formats::NamedJoint> Chain() {
   std::vector<formats::NamedJoint> joints(5);
   for (int j = 0; j < 4; ++j) {
-    joints[static_cast<std::size_t>(j)].to_mesh.col(3) = Vector3d(j, 0, 0);
-    joints[static_cast<std::size_t>(j)].parent = j - 1;
+    joints[j].to_mesh.col(3) = Vector3d(j, 0, 0);
+    joints[j].parent = j - 1;
   }
   joints[4].to_mesh.col(3) = Vector3d(1, 1, 0);
   joints[4].parent = 1;
@@ -33,7 +33,7 @@ BoneWeights Held(const std::vector<std::pair<int, float>>& by, const Vector3d& a
   for (const auto& [joint, weight] : by) {
     weights.joints.push_back(static_cast<std::uint16_t>(joint));
     weights.weights.push_back(weight);
-    weights.offsets.push_back(at - joints[static_cast<std::size_t>(joint)].to_mesh.col(3));
+    weights.offsets.push_back(at - joints[joint].to_mesh.col(3));
   }
   weights.row_ends.push_back(static_cast<std::uint32_t>(by.size()));
   return weights;
@@ -43,7 +43,7 @@ BoneWeights Held(const std::vector<std::pair<int, float>>& by, const Vector3d& a
 double DriftByTrying(int on, const BoneWeights& weights) {
   const std::vector<formats::NamedJoint> joints = Chain();
   const auto hangs = [&](int joint, int above) {
-    for (; joint >= 0; joint = joints[static_cast<std::size_t>(joint)].parent) {
+    for (; joint >= 0; joint = joints[joint].parent) {
       if (joint == above) return true;
     }
     return false;
@@ -55,7 +55,7 @@ double DriftByTrying(int on, const BoneWeights& weights) {
   Random random(3);
   double worst = 0.0;
   for (int turned = 0; turned < 5; ++turned) {
-    const Vector3d about = joints[static_cast<std::size_t>(turned)].to_mesh.col(3);
+    const Vector3d about = joints[turned].to_mesh.col(3);
     for (int trial = 0; trial < 3000; ++trial) {
       const Vector3d axis(random.NextIn(-1, 1), random.NextIn(-1, 1), random.NextIn(-1, 1));
       Eigen::Affine3d turn = Eigen::Affine3d::Identity();
@@ -65,9 +65,8 @@ double DriftByTrying(int on, const BoneWeights& weights) {
       std::vector<Placing> now = rest;
       for (int j = 0; j < 5; ++j) {
         Eigen::Affine3d frame = Eigen::Affine3d::Identity();
-        frame.matrix().topRows<3>() = rest[static_cast<std::size_t>(j)];
-        if (hangs(j, turned))
-          now[static_cast<std::size_t>(j)] = (turn * frame).matrix().topRows<3>();
+        frame.matrix().topRows<3>() = rest[j];
+        if (hangs(j, turned)) now[j] = (turn * frame).matrix().topRows<3>();
       }
       const Vector3d carried = hangs(on, turned) ? Vector3d(turn * center) : center;
       worst = std::max(worst, (Apply(weights, now)[0] - carried).norm());

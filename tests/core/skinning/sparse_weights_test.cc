@@ -171,7 +171,7 @@ TEST(SparseMeanValueWeightsTest, CarriersStandInForTheMesh) {
     if (v % 2 == 0) sources.push_back(static_cast<std::int32_t>(v));
   }
   std::vector<Vector3d> callers;
-  for (const std::int32_t s : sources) callers.push_back(shell[static_cast<std::size_t>(s)]);
+  for (const std::int32_t s : sources) callers.push_back(shell[s]);
   const std::vector<Vector3d> centers = {{0.3, 0.2, -0.1}, {0.0, -0.8, 0.2}};
   const SparseWeights weights = SparseMeanValueWeights(solid, centers, One(), NullObserver(), {},
                                                        Carriers{shell, nearest, sources});

@@ -26,8 +26,8 @@ double Objective(const PenaltyProgram& program, const Eigen::VectorXd& d) {
   for (const PenaltyRow& row : program.rows) {
     double excess = row.value;
     for (int k = 0; k < 8; ++k) {
-      const int first = row.first[static_cast<std::size_t>(k / 4)];
-      if (first >= 0) excess += row.coefficients[static_cast<std::size_t>(k)] * d[first + k % 4];
+      const int first = row.first[k / 4];
+      if (first >= 0) excess += row.coefficients[k] * d[first + k % 4];
     }
     value += row.penalty * std::max(0.0, excess);
   }

@@ -46,7 +46,7 @@ TEST(SparsePointsTest, AreFewerAndLieJustInsideOfABall) {
 TEST(SparsePointsTest, FollowTheirPointsSmoothly) {
   std::vector<Vec3> points = PointsOnBall(0.1, 20000);
   for (int i = 0; i < 200; ++i) {  // on the border of cells
-    points[static_cast<std::size_t>(i)].x() = 0.02 * (i % 5 - 2);
+    points[i].x() = 0.02 * (i % 5 - 2);
   }
   const std::vector<double> weights(points.size(), 1.0);
   const SparsePoints before = MakeSparse(points, weights, 0.02);

@@ -77,8 +77,7 @@ TEST(TightenTest, FixedCentresStayAndUniformRadiiAre) {
   phase.steps = 24;
   TightenAll(phase, Alone(), body);
   const capsule::CapsuleEnds& bar = body.set.capsules.back();  // between two images
-  EXPECT_EQ(body.set.spheres[static_cast<std::size_t>(bar[0])].radius_m,
-            body.set.spheres[static_cast<std::size_t>(bar[1])].radius_m);
+  EXPECT_EQ(body.set.spheres[bar[0]].radius_m, body.set.spheres[bar[1]].radius_m);
   double least = 1.0, most = 0.0;  // all hang together
   for (const geometry::Sphere& sphere : body.set.spheres) {
     least = std::min(least, sphere.radius_m);

@@ -117,7 +117,7 @@ inline TubeBody MakeTubeBody(std::uint64_t seed, double asymmetry_m, int around 
 inline bool IsExactlyMirrored(const capsule::PrimitiveSet& set) {
   for (std::size_t i = 0; i < set.spheres.size(); ++i) {
     if (set.origins[i].mirror < 0) continue;
-    const geometry::Sphere& image = set.spheres[static_cast<std::size_t>(set.origins[i].mirror)];
+    const geometry::Sphere& image = set.spheres[set.origins[i].mirror];
     if (Mirrored(set.spheres[i].center_m) != image.center_m) return false;
     if (set.spheres[i].radius_m != image.radius_m) return false;
   }

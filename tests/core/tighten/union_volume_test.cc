@@ -142,7 +142,7 @@ capsule::PrimitiveSet BristlingChain() {
     for (int k = 0; k < 3; ++k) {
       const double angle = 2.1 * k + 0.4 * i;
       const Eigen::Vector3d off(0.05 * std::cos(angle), 0.0, 0.05 * std::sin(angle));
-      set.spheres.push_back({set.spheres[static_cast<std::size_t>(hub)].center_m + off, 0.04});
+      set.spheres.push_back({set.spheres[hub].center_m + off, 0.04});
       set.capsules.push_back({hub, hub + k + 1});
     }
   }

@@ -228,7 +228,7 @@ class BestFitLayoutSearch {
     }
     if (lot < 0.93) {
       if (worst.empty()) return std::nullopt;
-      const auto at = static_cast<std::size_t>(Below(static_cast<int>(worst.size())));
+      const int at = Below(static_cast<int>(worst.size()));
       std::vector<Edit> leaves = LeavesAt(graph, worst[at]);
       if (leaves.empty()) return std::nullopt;
       return leaves[random_.NextBelow(leaves.size())];

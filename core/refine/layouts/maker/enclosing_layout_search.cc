@@ -225,7 +225,7 @@ class EnclosingLayoutSearch {
     std::vector<int> order(weights.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-      return largest_first ? weights[U(a)] > weights[U(b)] : weights[U(a)] < weights[U(b)];
+      return largest_first ? weights[a] > weights[b] : weights[a] < weights[b];
     });
     const double share = std::pow(random_.NextUnit(), exponent);
     return order[static_cast<std::size_t>(share * static_cast<double>(order.size()))];
@@ -284,7 +284,7 @@ class EnclosingLayoutSearch {
       if (j != v && apart_m < kTieReach * (a.radius_m + b.radius_m)) near.push_back(j);
     }
     if (near.empty()) return std::nullopt;
-    return near[U(Below(static_cast<int>(near.size())))];
+    return near[Below(static_cast<int>(near.size()))];
   }
 
   void Add(bool used_up, Graphs& graphs) {

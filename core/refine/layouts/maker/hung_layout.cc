@@ -60,19 +60,18 @@ HungLayout LayoutOf(std::span<const Subject> subjects, const Graphs& graphs) {
   std::vector<char> is_right(first.spheres().size(), 0);
   for (int v = 0; v < first.sphere_count(); ++v) {
     if (!first.IsRepresentative(v)) continue;
-    const auto image = U(first.ImageOf(v));
+    const int image = first.ImageOf(v);
     // The left one stands for a pair.
     const bool is_left = first.IsOnPlane(v) || first.sphere(v).center_m.x() >= 0.0;
-    row[U(v)] = row[image] = static_cast<std::uint8_t>(layout.nodes.size());
-    if (!first.IsOnPlane(v)) is_right[is_left ? image : U(v)] = 1;
+    row[v] = row[image] = static_cast<std::uint8_t>(layout.nodes.size());
+    if (!first.IsOnPlane(v)) is_right[is_left ? image : v] = 1;
     layout.nodes.push_back(NodeOf(subjects, graphs, is_left ? v : static_cast<int>(image)));
   }
   for (int e = 0; e < first.capsule_count(); ++e) {
     if (!first.IsCapsuleRepresentative(e)) continue;
     const auto [a, b] = first.ends(e);
-    const bool crossed =
-        !first.IsOnPlane(a) && !first.IsOnPlane(b) && is_right[U(a)] != is_right[U(b)];
-    const auto [low, high] = std::minmax(row[U(a)], row[U(b)]);
+    const bool crossed = !first.IsOnPlane(a) && !first.IsOnPlane(b) && is_right[a] != is_right[b];
+    const auto [low, high] = std::minmax(row[a], row[b]);
     layout.edges.push_back({low, high, crossed});
   }
   return layout;

@@ -15,6 +15,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/mannequin/mannequin.h"
 #include "core/pipeline/fit.h"
 
@@ -56,32 +57,29 @@ std::tuple<int, std::string, int> RankOf(const refine::KeptSphere& sphere) {
     const std::size_t at = name.find(word);
     if (at == std::string::npos) continue;
     name.erase(at, std::string(word).size());
-    return {kOrder[static_cast<std::size_t>(sphere.part)], name, side};
+    return {kOrder[Index(sphere.part)], name, side};
   }
-  return {kOrder[static_cast<std::size_t>(sphere.part)], name, 0};
+  return {kOrder[Index(sphere.part)], name, 0};
 }
 
 refine::KeptLayout InOrder(const refine::KeptLayout& layout) {
   std::vector<int> order(layout.spheres.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto at = [&](int i) -> const refine::KeptSphere& {
-    return layout.spheres[static_cast<std::size_t>(i)];
-  };
+  const auto at = [&](int i) -> const refine::KeptSphere& { return layout.spheres[i]; };
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return RankOf(at(a)) < RankOf(at(b)); });
   std::vector<int> index(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
-    index[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+    index[order[i]] = static_cast<int>(i);
   }
   refine::KeptLayout sorted;
   for (const int i : order) {
     sorted.spheres.push_back(at(i));
     int& mirror = sorted.spheres.back().mirror;
-    if (mirror >= 0) mirror = index[static_cast<std::size_t>(mirror)];
+    if (mirror >= 0) mirror = index[mirror];
   }
   for (const capsule::CapsuleEnds& ends : layout.capsules) {
-    const auto [a, b] = std::minmax(index[static_cast<std::size_t>(ends[0])],
-                                    index[static_cast<std::size_t>(ends[1])]);
+    const auto [a, b] = std::minmax(index[ends[0]], index[ends[1]]);
     sorted.capsules.push_back({a, b});
   }
   std::sort(sorted.capsules.begin(), sorted.capsules.end());

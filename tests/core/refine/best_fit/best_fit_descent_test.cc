@@ -55,7 +55,7 @@ TEST(BestFitDescentTest, OnlyActiveSpheresMove) {
   capsule::MirroredSet graph = Pair();
   const int still = graph.AddSphere({{0.0, 0.15, 0.05}, 0.05}, true);
   std::vector<char> active(graph.spheres().size(), 1);
-  active[static_cast<std::size_t>(still)] = 0;
+  active[still] = 0;
   const capsule::MirroredSet before = graph;
   BestFitOptions options;
   options.active = &active;

@@ -74,8 +74,7 @@ TEST(BoundaryIntegralTest, GradientMatchesFiniteDifferencesOfVolume) {
           return VolumeOf(moved);
         };
         const double difference = (volume(2e-3) - volume(-2e-3)) / 4e-3;
-        EXPECT_NEAR(mean[static_cast<std::size_t>(v)][k], difference,
-                    2e-3 + 0.03 * std::abs(difference))
+        EXPECT_NEAR(mean[v][k], difference, 2e-3 + 0.03 * std::abs(difference))
             << "node " << v << " variable " << k << " symmetric " << symmetric;
       }
     }

@@ -126,7 +126,7 @@ TEST(StandardLayouts, AreSoundSymmetricAndWithinTheLimitsOfEngines) {
       std::string image = sphere.name;
       if (const auto at = image.find("left_"); at != std::string::npos) {
         image.replace(at, 5, "right_");
-        EXPECT_EQ(layout.spheres[static_cast<std::size_t>(sphere.mirror)].name, image);
+        EXPECT_EQ(layout.spheres[sphere.mirror].name, image);
       }
     }
   }
