@@ -9,7 +9,7 @@ namespace capfit {
 
 // Where an enumerator's entry is, in tables in the order in which the enumerators are declared.
 template <typename Enum>
-  requires std::is_enum_v<Enum>
+requires std::is_enum_v<Enum>
 [[nodiscard]] constexpr std::size_t Index(Enum enumerator) {
   return static_cast<std::size_t>(enumerator);
 }

@@ -210,32 +210,38 @@ class Tightener {
   void AddDemanding(const PointsToHold& points, const std::vector<TaperedCapsule>& shapes,
                     const UnionDistances& distances, std::size_t b, double depth_m,
                     double spacing_m, Rows& rows) const {
-    struct Cell {
-      Eigen::Array3i place;
-      std::size_t solid;
-      std::uint32_t point;
-    };
-    std::array<Cell, PointGrid::kMaxBlock> cells;
+    std::array<std::uint64_t, PointGrid::kMaxBlock> cells;   // keys
+    std::array<std::uint32_t, PointGrid::kMaxBlock> chosen;  // point of each
     std::size_t count = 0;
     const PointGrid::Block& block = points.points.blocks()[b];
+    const double per_m = 1.0 / spacing_m;
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
       if (distances.distance_m[i] - points.allowed_m <= -depth_m) continue;
-      const Eigen::Array3i place =
-          (points.points.point(i).array() / spacing_m + kCellOffset).floor().cast<int>();
-      const std::size_t own = distances.solid[i];
-      const std::size_t solid = std::min(own, variables_.image_of_solid(own));
+      const std::uint64_t key = CellKey(points.points.point(i), per_m, distances.solid[i]);
       std::size_t c = 0;
-      while (c < count && !(cells[c].solid == solid && (cells[c].place == place).all())) ++c;
+      while (c < count && cells[c] != key) ++c;
       if (c == count) {
-        cells[count++] = {place, solid, i};
-      } else if (distances.distance_m[i] > distances.distance_m[cells[c].point] + kEqualM) {
-        cells[c].point = i;
+        cells[count] = key;
+        chosen[count++] = i;
+      } else if (distances.distance_m[i] > distances.distance_m[chosen[c]] + kEqualM) {
+        chosen[c] = i;
       }
     }
     for (std::size_t c = 0; c < count; ++c) {
-      const std::uint32_t i = cells[c].point;
-      rows.rows.push_back(PointRow(points, shapes, i, distances.solid[i], 1.0));
+      rows.rows.push_back(PointRow(points, shapes, chosen[c], distances.solid[chosen[c]], 1.0));
     }
+  }
+
+  // The same for points of a block that share a cell and a solid, or its image. 16 bits for each
+  // number: cells further apart than that are not in one block.
+  std::uint64_t CellKey(const Eigen::Vector3d& point, double per_m, std::int32_t solid) const {
+    const auto place = [&](int axis) {
+      const double at = std::floor(point[axis] * per_m + kCellOffset);
+      return std::uint64_t{static_cast<std::uint16_t>(static_cast<std::int64_t>(at))};
+    };
+    const std::size_t own = solid;
+    const std::uint64_t pair = std::min(own, variables_.image_of_solid(own));
+    return pair << 48 | place(0) << 32 | place(1) << 16 | place(2);
   }
 
   // Together the rows weigh `penalty` times as much as the volume does when the whole surface
