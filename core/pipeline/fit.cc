@@ -59,6 +59,7 @@ class BodyFit {
                             "mesh's file, or ask for sparse weights");
       }
     }
+    will_move_ = options_.motion != nullptr || HasRig(soup);
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
     CAPFIT_RETURN_IF_ERROR(Build());
     LayMeasureGround();
@@ -161,6 +162,7 @@ class BodyFit {
     refine_options.tolerance_m = options_.tolerance_m;
     refine_options.parts = options_.parts;
     refine_options.thorough = options_.quality == Quality::kTight;
+    refine_options.will_move = will_move_;
     refine_options.seed = options_.seed;
     return refine_options;
   }
@@ -362,6 +364,7 @@ class BodyFit {
   std::optional<body::Body> body_;  // set by Understand
   geometry::Similarity caller_from_body_;
   tighten::CoverTarget target_;
+  bool will_move_ = false;
   bool has_cover_ground_ = false;
   std::optional<coverage::CoverGround> cover_ground_;
   std::optional<metrics::MeasureGround> measure_ground_;
