@@ -62,6 +62,8 @@ constexpr int kFineTakeInSteps = 2;
 // looser, for coverage to take in as it is. Of E_r .4 to .7 % less on average at 64, 95, 128 and
 // 250 primitives, for 5 % of the time; of few primitives each goes too far. A graph that is alone
 // needs fewer steps before.
+// Beyond 250 the points are too far apart for it: of a cut body E_r rose by 10 % at 346.
+constexpr int kMostLoosenedLast = 250;
 constexpr int kLastSteps = 8;
 constexpr double kLastLooseness = 1.0;
 constexpr int kFineStepsAlone = 4;
@@ -299,8 +301,8 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
   const RenewalPlan plan = RenewalsFor(options.thorough, primitives);
   std::vector<capsule::MirroredSet> graphs = FindEnclosingGraphs(
       rough ? *rough : *usual, *usual, options.budget, plan, starts, kSearched, pool, meter);
-  const bool is_loosened_last =
-      options.thorough && !options.will_move && primitives > kFewOfEnclosing;
+  const bool is_loosened_last = options.thorough && !options.will_move &&
+                                primitives > kFewOfEnclosing && primitives <= kMostLoosenedLast;
   const int steps = is_loosened_last && graphs.size() == 1 ? kFineStepsAlone : kFineSteps;
   const int graph_steps = (steps + kFineTakeInSteps) * static_cast<int>(graphs.size()) +
                           (is_loosened_last ? kLastSteps : 0);
