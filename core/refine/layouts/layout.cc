@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/refine/internal.h"
 
 namespace capfit::refine {
@@ -41,7 +42,7 @@ class Hanger {
     const body::Part part = PartOf(node.bone, side);
     const std::optional<Vec3> center = skeleton_.Position(node.bone, side, node.place);
     if (!center || !parts_.Includes(part)) return -1;
-    if (const auto chain = static_cast<std::size_t>(part); chain < chain_has_sphere_.size()) {
+    if (const std::size_t chain = Index(part); chain < chain_has_sphere_.size()) {
       chain_has_sphere_[chain] = true;
     }
     const double radius = node.radius * skeleton_.bone(node.bone, side)->radius_m;
@@ -62,7 +63,7 @@ class Hanger {
   void AddMissingChain(body::Part part) {
     const auto& chain = body_.chain(part);
     const bool right = part == body::Part::kRightArm || part == body::Part::kRightLeg;
-    if (!chain || !parts_.Includes(part) || chain_has_sphere_[static_cast<int>(part)]) return;
+    if (!chain || !parts_.Includes(part) || chain_has_sphere_[Index(part)]) return;
     if (graph_.is_mirrored() && right) return;
     int last = -1;
     for (const double share : {0.05, 0.5, 0.95}) {
