@@ -59,7 +59,7 @@ constexpr int kFineSteps = 8;
 constexpr double kFineLooseness = 0.5;  // the shape is found, it need not be found anew
 constexpr int kFineTakeInSteps = 2;
 // Of the best graph of a thorough search for many primitives that need not move: once more from
-// looser, for coverage to take in as it is. Of E_r .4 to .7 % less on average at 64, 95, 128 and
+// looser, for coverage to take in as it is. Of E_r .3 to .7 % less on average at 64, 95, 128 and
 // 250 primitives, for 5 % of the time; of few primitives each goes too far. A graph that is alone
 // needs fewer steps before. Beyond 250 the points are too far apart for it: of a cut body E_r rose
 // by 10 % at 346.

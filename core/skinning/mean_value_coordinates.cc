@@ -16,7 +16,7 @@ class SourceMap {
  public:
   explicit SourceMap(const mesh::BodyMesh& mesh)
       : SourceMap(mesh.vertex_of_source(), mesh.vertices().size()) {
-    FindHeirs(mesh);
+    FindPassedOn(mesh);
   }
 
   SourceMap(std::span<const std::int32_t> vertex_of_source, std::size_t vertices)
@@ -33,42 +33,42 @@ class SourceMap {
 
   // Moves the weight of vertices that the caller does not have to their neighbours.
   void PassOn(std::vector<Lanes>& weights) const {
-    for (const Heirs& heirs : heirs_) {
-      if (heirs.neighbours.empty()) continue;
-      const Lanes part = weights[heirs.vertex] / static_cast<double>(heirs.neighbours.size());
-      for (const std::uint32_t neighbour : heirs.neighbours) weights[neighbour] += part;
-      weights[heirs.vertex] = Lanes::Zero();
+    for (const PassedOn& passed : passed_on_) {
+      if (passed.neighbours.empty()) continue;
+      const Lanes part = weights[passed.vertex] / static_cast<double>(passed.neighbours.size());
+      for (const std::uint32_t neighbour : passed.neighbours) weights[neighbour] += part;
+      weights[passed.vertex] = Lanes::Zero();
     }
   }
 
  private:
-  struct Heirs {
+  struct PassedOn {
     std::uint32_t vertex = 0;
     std::vector<std::uint32_t> neighbours;
   };
 
-  void FindHeirs(const mesh::BodyMesh& mesh) {
+  void FindPassedOn(const mesh::BodyMesh& mesh) {
     std::vector<std::int32_t> slot(share_.size(), -1);
     for (std::size_t vertex = 0; vertex < share_.size(); ++vertex) {
       if (share_[vertex] > 0.0) continue;
-      slot[vertex] = static_cast<std::int32_t>(heirs_.size());
-      heirs_.push_back({static_cast<std::uint32_t>(vertex), {}});
+      slot[vertex] = static_cast<std::int32_t>(passed_on_.size());
+      passed_on_.push_back({static_cast<std::uint32_t>(vertex), {}});
     }
-    if (heirs_.empty()) return;
+    if (passed_on_.empty()) return;
     for (const mesh::Triangle& triangle : mesh.triangles()) {
       for (std::size_t k = 0; k < 3; ++k) {
         // The mesh is closed: the next corner over all triangles runs through all neighbours.
         const std::uint32_t next = triangle[(k + 1) % 3];
         const std::int32_t at = slot[triangle[k]];
         if (at < 0 || share_[next] == 0.0) continue;
-        heirs_[at].neighbours.push_back(next);
+        passed_on_[at].neighbours.push_back(next);
       }
     }
   }
 
   std::span<const std::int32_t> vertex_of_source_;
   std::vector<double> share_;
-  std::vector<Heirs> heirs_;
+  std::vector<PassedOn> passed_on_;
 };
 
 std::span<float> MutableRow(DenseWeights& weights, std::size_t sphere) {

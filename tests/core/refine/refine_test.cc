@@ -123,6 +123,20 @@ TEST(RefineSetTest, EnclosingSetsAreNearlyThatBeforeCoverage) {
   }
 }
 
+// A set for the pose at hand is loosened once more, for coverage to take in; one that will move
+// not.
+TEST(RefineSetTest, OnlyASetThatStaysIsLoosenedLast) {
+  RefineOptions options = WithPrimitives(100, true);
+  const auto outside_m = [&](bool will_move) {
+    options.will_move = will_move;
+    NullObserver observer;
+    return FurthestVertex(
+        CutMannequin(), RefineSet(CutMannequin(), tighten::TargetOf(CutMannequin(), options.parts),
+                                  options, ThreadPool(2), observer));
+  };
+  EXPECT_LT(outside_m(true), outside_m(false));
+}
+
 TEST(RefineSetTest, MoreIsNotWorse) {
   double last = 10.0;
   for (const int count : {22, 32, 48, 64, 96}) {
