@@ -12,6 +12,7 @@
 #include "core/pipeline/cover_poses.h"
 #include "core/pipeline/effective_options.h"
 #include "core/pipeline/engines.h"
+#include "core/pipeline/fit_steps.h"
 #include "core/pipeline/overlap_warning.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/primitive_stage.h"
@@ -106,17 +107,14 @@ class BodyFit {
 
   void LayCoverGround(int primitives) {
     if (options_.fit != FitMode::kEnclose || target_.points_m.empty()) return;
-    cover_ground_ = coverage::MakeCoverGround(target_, body_->is_symmetric,
-                                              CoverOptionsFor(HasShape()), primitives, pool_);
+    cover_ground_ =
+        coverage::MakeCoverGround(target_, body_->is_symmetric,
+                                  CoverOptionsFor(options_, HasShape(options_)), primitives, pool_);
   }
 
   // Left to whoever has time while the set is covered.
-  void LayMeasureGround() { measure_ground_.emplace(*body_, ToMeasure(), CoversLast(), backlog_); }
-
-  // The set is not changed after covering, which tells how far all vertices are from it.
-  bool CoversLast() const {
-    return options_.fit == FitMode::kEnclose && options_.motion == nullptr && !body_->shells &&
-           Profile() != capsule::CapsuleProfile::kLerpedRadius;
+  void LayMeasureGround() {
+    measure_ground_.emplace(*body_, ToMeasure(), CoversLast(options_, *body_), backlog_);
   }
 
   // Capsules that share no spheres cost more than the budget of capsules tells, where there are
@@ -128,10 +126,10 @@ class BodyFit {
       result_.warnings.resize(warnings);
       papers_.reset();
       CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, asked_, options_));
-      if (NeedsPolygons()) CAPFIT_RETURN_IF_ERROR(Approximate());
-      if (IsSearched()) CAPFIT_RETURN_IF_ERROR(Refine());
+      if (NeedsPolygons(options_)) CAPFIT_RETURN_IF_ERROR(Approximate());
+      if (IsSearched(options_)) CAPFIT_RETURN_IF_ERROR(Refine());
       CAPFIT_RETURN_IF_ERROR(CheckFound());
-      if (Profile() == capsule::CapsuleProfile::kUniformRadius) {
+      if (ProfileOf(options_) == capsule::CapsuleProfile::kUniformRadius) {
         set_ = capsule::WithUniformRadii(set_);
         if (papers_) papers_ = capsule::WithUniformRadii(*papers_);
       }
@@ -148,53 +146,11 @@ class BodyFit {
     clock_.Begin(Stage::kRefine);
     absl::StatusOr<capsule::PrimitiveSet> kept;
     BesideCoverGround([&] {
-      kept = refine::FitToLayout(*body_, target_, *options_.layout, RefineOptionsFor({}), pool_,
-                                 clock_);
+      kept = refine::FitToLayout(*body_, target_, *options_.layout,
+                                 RefineOptionsFor(options_, {}, will_move_), pool_, clock_);
     });
     CAPFIT_ASSIGN_OR_RETURN(set_, std::move(kept));
     return CheckCancelled(clock_);
-  }
-
-  refine::RefineOptions RefineOptionsFor(const capsule::Budget& budget) const {
-    refine::RefineOptions refine_options;
-    refine_options.enclose = options_.fit == FitMode::kEnclose;
-    refine_options.budget = budget;
-    refine_options.tolerance_m = options_.tolerance_m;
-    refine_options.parts = options_.parts;
-    refine_options.thorough = options_.quality == Quality::kTight;
-    refine_options.will_move = will_move_;
-    refine_options.seed = options_.seed;
-    return refine_options;
-  }
-
-  capsule::CapsuleProfile Profile() const { return ProfileOf(options_); }
-
-  // Centres, radii and topology are found together, without polygons.
-  bool IsSearched() const { return options_.quality != Quality::kPaper; }
-
-  // Such a fit needs them only to be shown, or to count what an error threshold asks for.
-  bool NeedsPolygons() const {
-    return !IsSearched() || options_.want_polygons || options_.polygon_error.has_value() ||
-           ComparesWithPaper();
-  }
-
-  // With few primitives, or without a part that the layouts are made for, the published
-  // method is at times the better one, and it is quick: then the smaller of the two sets is taken.
-  bool ComparesWithPaper() const {
-    if (!IsSearched() || options_.fit != FitMode::kEnclose) return false;
-    const capsule::Budget budget = TotalBudget(options_);
-    const body::PartSelection& parts = options_.parts;
-    return !parts.torso || !parts.arms || !parts.legs ||
-           Profile() == capsule::CapsuleProfile::kUniformRadius ||
-           budget.max_primitives < kFewPrimitives || budget.max_spheres < kFewPrimitives / 2 ||
-           budget.max_capsules < kFewPrimitives / 2;
-  }
-
-  // Tightening leads on from drafts to as small a set as from the best circles. With more of them
-  // to a polygon it does not always, and what it does not move must be right.
-  bool DraftsServe() const {
-    return options_.fit == FitMode::kEnclose && !options_.grows_only && !options_.polygon_error &&
-           TotalBudget(options_).UsualPrimitives() <= kDraftsServe;
   }
 
   absl::Status Approximate() {
@@ -212,7 +168,7 @@ class BodyFit {
     const circle::ErrorCurves drafts(features.polygons, kMaxCirclesPerPolygon,
                                      circle::DraftOptions(circle_options), pool_, clock_);
     std::optional<circle::ErrorCurves> best;
-    if (!DraftsServe()) {
+    if (!DraftsServe(options_)) {
       best.emplace(features.polygons, kMaxCirclesPerPolygon, circle_options, pool_, clock_);
     }
     const circle::ErrorCurves& curves = best ? *best : drafts;
@@ -225,7 +181,7 @@ class BodyFit {
       stage = BuildUnderBudget(*body_, options_, features.polygons, drafts, curves, pool_);
     });
     set_ = std::move(stage.set);
-    if (!IsSearched() && options_.fit == FitMode::kBestFit && !options_.layout) {
+    if (!IsSearched(options_) && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);
       set_ = SettleBestFit(*body_, options_, clock_, std::move(set_));
     }
@@ -239,13 +195,14 @@ class BodyFit {
     clock_.Begin(Stage::kRefine);
     capsule::Budget budget = TotalBudget(options_);
     if (options_.polygon_error.has_value()) budget.max_primitives = set_.primitive_count();
-    if (Profile() == capsule::CapsuleProfile::kUniformRadius) {
+    if (ProfileOf(options_) == capsule::CapsuleProfile::kUniformRadius) {
       // A tree: spheres without a capsule would be shapes of their own.
       budget.max_spheres = budget.max_capsules + 1;
     }
-    if (ComparesWithPaper()) papers_ = std::move(set_);
+    if (ComparesWithPaper(options_)) papers_ = std::move(set_);
     BesideCoverGround([&] {
-      set_ = refine::RefineSet(*body_, target_, RefineOptionsFor(budget), pool_, clock_);
+      set_ = refine::RefineSet(*body_, target_, RefineOptionsFor(options_, budget, will_move_),
+                               pool_, clock_);
     });
     return CheckCancelled(clock_);
   }
@@ -264,7 +221,7 @@ class BodyFit {
       max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
       return CheckCancelled(clock_);
     }
-    coverage::CoverReport report = Enclose(HasShape(), set_);
+    coverage::CoverReport report = Enclose(HasShape(options_), set_);
     if (papers_) {
       CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
       coverage::CoverReport other = Enclose(/*has_shape=*/false, *papers_);
@@ -274,8 +231,9 @@ class BodyFit {
       }
     }
     max_gap_m_ = report.certified_gap_m;
-    if (CoversLast()) at_vertices_ = std::move(report.at_vertices);
-    if (Profile() == capsule::CapsuleProfile::kLerpedRadius) capsule::GrowForLerpedRadius(set_);
+    if (CoversLast(options_, *body_)) at_vertices_ = std::move(report.at_vertices);
+    if (ProfileOf(options_) == capsule::CapsuleProfile::kLerpedRadius)
+      capsule::GrowForLerpedRadius(set_);
     return CheckCancelled(clock_);
   }
 
@@ -284,26 +242,8 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
-  // Refined sets do, and kept layouts.
-  bool HasShape() const { return IsSearched() || options_.layout.has_value(); }
-
-  // `has_shape`: the spheres of those that do may have been made uniform since.
-  coverage::CoverOptions CoverOptionsFor(bool has_shape) const {
-    coverage::CoverOptions cover_options;
-    cover_options.tolerance_m = options_.tolerance_m;
-    cover_options.tighten = !options_.grows_only;
-    cover_options.uniform_radius = Profile() == capsule::CapsuleProfile::kUniformRadius;
-    cover_options.keeps_swallowed = options_.layout.has_value();
-    if (has_shape && !cover_options.uniform_radius) {
-      cover_options.loosening = coverage::Loosening::kNone;
-    } else if (IsSearched()) {
-      cover_options.loosening = coverage::Loosening::kThorough;
-    }
-    return cover_options;
-  }
-
   coverage::CoverReport Enclose(bool has_shape, capsule::PrimitiveSet& set) {
-    return coverage::CoverBody(target_, CoverOptionsFor(has_shape), pool_, clock_, set,
+    return coverage::CoverBody(target_, CoverOptionsFor(options_, has_shape), pool_, clock_, set,
                                cover_ground_ ? &*cover_ground_ : nullptr, &backlog_);
   }
 
@@ -336,7 +276,7 @@ class BodyFit {
     result_.primitives = ToCallerFrame(set_, caller_from_body_);
     result_.sphere_names = options_.layout ? NamesOf(*options_.layout) : SphereNames(*body_, set_);
     result_.sphere_places = refine::PlacesOf(*skeleton_, set_);
-    if (!options_.want_polygons || IsSearched()) {
+    if (!options_.want_polygons || IsSearched(options_)) {
       // An index of a polygon that is not in the result would say nothing.
       for (capsule::SphereOrigin& origin : result_.primitives.origins) origin.polygon = -1;
     }
@@ -350,9 +290,7 @@ class BodyFit {
   static constexpr int kMaxCirclesPerPolygon = 8;
   // Every polygon's share is weighed with at least so many; the rest is fitted when asked for.
   static constexpr int kCirclesFittedAhead = 2;
-  static constexpr int kUsualPrimitives = 64;  // where the budget does not tell
-  static constexpr int kFewPrimitives = 48;
-  static constexpr int kDraftsServe = 150;       // primitives
+  static constexpr int kUsualPrimitives = 64;    // where the budget does not tell
   static constexpr double kGapAccuracyM = 1e-3;  // of the best fit's certificate
 
   const FitOptions& asked_;

@@ -2,34 +2,16 @@
 #ifndef CAPFIT_CORE_REFINE_REFINE_H_
 #define CAPFIT_CORE_REFINE_REFINE_H_
 
-#include <cstdint>
-#include <vector>
-
 #include "absl/status/statusor.h"
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
 #include "core/capsule/primitive_set.h"
 #include "core/refine/layouts/kept_layout.h"
+#include "core/refine/refine_options.h"
 #include "core/tighten/cover_target.h"
 
 namespace capfit::refine {
-
-struct RefineOptions {
-  // True: the selected parts are inside but for a little that coverage takes in, without
-  // loosening the set again. False: the smallest E_r.
-  bool enclose = true;
-  capsule::Budget budget;    // at least 3 spheres' worth
-  double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, 0.1]
-  body::PartSelection parts;
-  // False: one of the eight rounds that improve what the layouts lead to, and one exchange
-  // or none in a best fit: less than half the time, and some hundredths more E_r.
-  bool thorough = true;
-  // The set is to be carried to other poses. What a thorough search wins last it wins by hugging
-  // the pose at hand: of E_r .5 % less in that pose and 1 % more in others.
-  bool will_move = false;
-  std::uint64_t seed = 0;  // of the best fit's samples
-};
 
 // Finds centres, radii and topology together: hangs layouts on the body's bones, optimises them,
 // spares or grows primitives where that pays most, up to the budget, and then gives up some and
