@@ -47,6 +47,17 @@ class NullObserver final : public FitObserver {
   [[nodiscard]] bool IsCancelled() const override { return false; }
 };
 
+// For work on several threads at once: says nothing, and cancels when another does.
+class QuietObserver final : public FitObserver {
+ public:
+  explicit QuietObserver(const FitObserver& other) : other_(other) {}
+  void OnStage(Stage, double) override {}
+  [[nodiscard]] bool IsCancelled() const override { return other_.IsCancelled(); }
+
+ private:
+  const FitObserver& other_;
+};
+
 // CANCELLED with its reason once the observer cancels. For between two steps that take some
 // milliseconds each.
 [[nodiscard]] absl::Status CheckCancelled(const FitObserver& observer);

@@ -1,7 +1,9 @@
 #include "core/pipeline/fit.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/backlog.h"
 #include "core/base/status.h"
@@ -38,6 +40,12 @@ std::vector<std::string> NamesOf(const refine::KeptLayout& layout) {
   for (const refine::KeptSphere& sphere : layout.spheres) names.push_back(sphere.name);
   return names;
 }
+
+// A set that covering may be what is smallest of.
+struct FoundSet {
+  capsule::PrimitiveSet set;
+  bool has_shape = false;  // see CoverOptionsFor
+};
 
 // The rooms behind the mesh, in their order.
 class BodyFit {
@@ -124,20 +132,23 @@ class BodyFit {
     const std::size_t warnings = result_.warnings.size();
     for (;;) {
       result_.warnings.resize(warnings);
-      papers_.reset();
+      found_.clear();
       CAPFIT_RETURN_IF_ERROR(CheckBudget(*body_, asked_, options_));
       if (NeedsPolygons(options_)) CAPFIT_RETURN_IF_ERROR(Approximate());
       if (IsSearched(options_)) CAPFIT_RETURN_IF_ERROR(Refine());
       CAPFIT_RETURN_IF_ERROR(CheckFound());
       if (ProfileOf(options_) == capsule::CapsuleProfile::kUniformRadius) {
-        set_ = capsule::WithUniformRadii(set_);
-        if (papers_) papers_ = capsule::WithUniformRadii(*papers_);
+        for (FoundSet& found : found_) found.set = capsule::WithUniformRadii(found.set);
       }
-      if (papers_ && ExcessCapsules(asked_, *papers_) > 0) papers_.reset();
-      const int excess = ExcessCapsules(asked_, set_);
-      if (excess <= 0) return absl::OkStatus();
-      options_.max_capsules = static_cast<int>(set_.capsules.size()) - excess;
+      const capsule::PrimitiveSet& first = found_.front().set;
+      const int excess = ExcessCapsules(asked_, first);
+      if (excess <= 0) break;
+      options_.max_capsules = static_cast<int>(first.capsules.size()) - excess;
     }
+    std::erase_if(found_, [this](const FoundSet& found) {
+      return found.set.spheres.empty() || ExcessCapsules(asked_, found.set) > 0;
+    });
+    return absl::OkStatus();
   }
 
   // The topology is given.
@@ -149,7 +160,8 @@ class BodyFit {
       kept = refine::FitToLayout(*body_, target_, *options_.layout,
                                  RefineOptionsFor(options_, {}, will_move_), pool_, clock_);
     });
-    CAPFIT_ASSIGN_OR_RETURN(set_, std::move(kept));
+    CAPFIT_ASSIGN_OR_RETURN(capsule::PrimitiveSet set, std::move(kept));
+    found_.assign(1, {std::move(set), /*has_shape=*/true});
     return CheckCancelled(clock_);
   }
 
@@ -180,11 +192,12 @@ class BodyFit {
     BesideCoverGround([&] {
       stage = BuildUnderBudget(*body_, options_, features.polygons, drafts, curves, pool_);
     });
-    set_ = std::move(stage.set);
+    capsule::PrimitiveSet set = std::move(stage.set);
     if (!IsSearched(options_) && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);
-      set_ = SettleBestFit(*body_, options_, clock_, std::move(set_));
+      set = SettleBestFit(*body_, options_, clock_, std::move(set));
     }
+    found_.assign(1, {std::move(set), /*has_shape=*/false});
     if (options_.want_polygons) {
       result_.polygons = PolygonResults(features.polygons, stage.approximations, caller_from_body_);
     }
@@ -194,21 +207,25 @@ class BodyFit {
   absl::Status Refine() {
     clock_.Begin(Stage::kRefine);
     capsule::Budget budget = TotalBudget(options_);
-    if (options_.polygon_error.has_value()) budget.max_primitives = set_.primitive_count();
+    if (options_.polygon_error.has_value()) {
+      budget.max_primitives = found_.front().set.primitive_count();
+    }
     if (ProfileOf(options_) == capsule::CapsuleProfile::kUniformRadius) {
       // A tree: spheres without a capsule would be shapes of their own.
       budget.max_spheres = budget.max_capsules + 1;
     }
-    if (ComparesWithPaper(options_)) papers_ = std::move(set_);
+    if (!ComparesWithPaper(options_)) found_.clear();
+    capsule::PrimitiveSet refined;
     BesideCoverGround([&] {
-      set_ = refine::RefineSet(*body_, target_, RefineOptionsFor(options_, budget, will_move_),
-                               pool_, clock_);
+      refined = refine::RefineSet(*body_, target_, RefineOptionsFor(options_, budget, will_move_),
+                                  pool_, clock_);
     });
+    found_.insert(found_.begin(), {std::move(refined), /*has_shape=*/true});
     return CheckCancelled(clock_);
   }
 
   absl::Status CheckFound() const {
-    if (!set_.spheres.empty()) return absl::OkStatus();
+    if (!found_.front().set.spheres.empty()) return absl::OkStatus();
     return Refused(ErrorReason::kNothingToFit,
                    "none of the parts asked for was found on this body; see the warnings");
   }
@@ -218,18 +235,17 @@ class BodyFit {
   absl::Status Cover() {
     clock_.Begin(Stage::kCoverage);
     if (options_.fit == FitMode::kBestFit) {
+      set_ = std::move(found_.front().set);
       max_gap_m_ = coverage::CertifiedGap(target_, set_, kGapAccuracyM, pool_);
       return CheckCancelled(clock_);
     }
-    coverage::CoverReport report = Enclose(HasShape(options_), set_);
-    if (papers_) {
-      CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
-      coverage::CoverReport other = Enclose(/*has_shape=*/false, *papers_);
-      if (other.volume_m3 < report.volume_m3) {
-        set_ = *std::move(papers_);
-        report = std::move(other);
-      }
-    }
+    std::vector<coverage::CoverReport> reports = CoverAll();
+    CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
+    const auto smallest =
+        std::min_element(reports.begin(), reports.end(),
+                         [](const auto& a, const auto& b) { return a.volume_m3 < b.volume_m3; });
+    coverage::CoverReport& report = *smallest;
+    set_ = std::move(found_[smallest - reports.begin()].set);
     max_gap_m_ = report.certified_gap_m;
     if (CoversLast(options_, *body_)) at_vertices_ = std::move(report.at_vertices);
     if (ProfileOf(options_) == capsule::CapsuleProfile::kLerpedRadius)
@@ -242,9 +258,23 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
-  coverage::CoverReport Enclose(bool has_shape, capsule::PrimitiveSet& set) {
-    return coverage::CoverBody(target_, CoverOptionsFor(options_, has_shape), pool_, clock_, set,
-                               cover_ground_ ? &*cover_ground_ : nullptr, &backlog_);
+  // Side by side where there are several.
+  std::vector<coverage::CoverReport> CoverAll() {
+    std::vector<coverage::CoverReport> reports(found_.size());
+    if (found_.size() == 1) {
+      reports[0] = CoverOne(found_[0], clock_, &backlog_);
+      return reports;
+    }
+    pool_.ForEach(found_.size(), [&](std::size_t i) {
+      QuietObserver quiet(clock_);
+      reports[i] = CoverOne(found_[i], quiet, nullptr);
+    });
+    return reports;
+  }
+
+  coverage::CoverReport CoverOne(FoundSet& found, FitObserver& observer, Backlog* backlog) const {
+    return coverage::CoverBody(target_, CoverOptionsFor(options_, found.has_shape), pool_, observer,
+                               found.set, cover_ground_ ? &*cover_ground_ : nullptr, backlog);
   }
 
   metrics::MeasureOptions ToMeasure() const {
@@ -307,9 +337,8 @@ class BodyFit {
   std::optional<coverage::CoverGround> cover_ground_;
   std::optional<metrics::MeasureGround> measure_ground_;
   std::optional<refine::Skeleton> skeleton_;
-  capsule::PrimitiveSet set_;
-  // The published method's, beside set_: the smaller one is taken, once both cover.
-  std::optional<capsule::PrimitiveSet> papers_;
+  std::vector<FoundSet> found_;          // set by Build
+  capsule::PrimitiveSet set_;            // set by Cover: the smallest of those, once they cover
   double max_gap_m_ = 0.0;               // certified
   tighten::UnionDistances at_vertices_;  // of the target's points; empty where not known
 };

@@ -176,7 +176,7 @@ capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& op
 }
 
 void SettleHungBestFit(const body::Body& body, const RefineOptions& options, const ThreadPool& pool,
-             WorkMeter& meter, capsule::MirroredSet& graph) {
+                       WorkMeter& meter, capsule::MirroredSet& graph) {
   meter.Expect(1.0, 1);
   const BestFitObjective objective = MakeBestFitObjective(body, options, graph.is_mirrored(), pool);
   objective.Settle(Effort::kRough, pool, meter.observer(), graph);

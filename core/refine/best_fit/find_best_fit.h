@@ -18,7 +18,7 @@ namespace capfit::refine {
 // Moves and sizes a graph that hangs on the body in the places that it had on another one; its
 // topology stays.
 void SettleHungBestFit(const body::Body& body, const RefineOptions& options, const ThreadPool& pool,
-             WorkMeter& meter, capsule::MirroredSet& graph);
+                       WorkMeter& meter, capsule::MirroredSet& graph);
 
 }  // namespace capfit::refine
 

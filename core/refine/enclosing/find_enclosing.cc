@@ -54,8 +54,9 @@ constexpr int kLeastRounds = 2;
 constexpr int kMostRounds = 6;
 constexpr int kQuickRounds = 1;
 constexpr double kSearched = 0.92;
-constexpr double kFillingShare = 0.75;    // of the budget, that a standard layout must use
-constexpr double kSparedAlone = 0.8;      // of the budget: up to so much spared, nothing is grown
+constexpr double kFillingShare = 0.75;  // of the budget, that a standard layout must use
+constexpr double kLeastExcess = 0.12;   // of the budget: a layout with less too much is passed over
+constexpr double kSparedAlone = 0.8;    // of the budget: up to so much spared, nothing is grown
 constexpr double kHungShapeFound = 0.45;  // of its time, as measured
 // Between the points of the enclosing search.
 struct Spacings {
@@ -113,7 +114,9 @@ std::vector<capsule::MirroredSet> StartsOf(const body::Body& body, const RefineO
   // no better than a standard layout.
   std::vector<capsule::MirroredSet> starts = StartingGraphs(
       FitKind::kEnclose, body, options.parts, options.budget,
-      {.most_spared = standard.empty() ? capsule::kNoLimit : MostSparedBeside(primitives)}, pool);
+      {.least_spared = static_cast<int>(kLeastExcess * primitives),
+       .most_spared = standard.empty() ? capsule::kNoLimit : MostSparedBeside(primitives)},
+      pool);
   if (primitives > kSomeOfEnclosing) KeepSparedAlone(options.budget, primitives, starts);
   std::move(standard.begin(), standard.end(), std::back_inserter(starts));
   return starts;
@@ -167,7 +170,7 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
 
 // A layout that hangs on the body in the places that it had on another one.
 void SettleHungEnclosing(const tighten::CoverTarget& target, const RefineOptions& options,
-             const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph) {
+                         const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph) {
   const Spacings spacings = SpacingsFor(graph.primitive_count());
   const auto work = [&](int steps) { return std::int64_t{steps} * graph.primitive_count(); };
   meter.Expect(kHungShapeFound, work(kHungSteps));

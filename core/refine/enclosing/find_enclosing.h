@@ -22,7 +22,7 @@ namespace capfit::refine {
 // Moves and sizes a graph that hangs on the body in the places that it had on another one; its
 // topology stays.
 void SettleHungEnclosing(const tighten::CoverTarget& target, const RefineOptions& options,
-             const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph);
+                         const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph);
 
 }  // namespace capfit::refine
 

@@ -562,6 +562,72 @@ constexpr auto kShellFull128Edges = std::to_array<LayoutEdge>({
     {13, 37, false}, {4, 25, true},   {17, 20, false}, {17, 22, false},
 });
 
+// FULL180
+constexpr auto kShellFull180Nodes = std::to_array<LayoutNode>({
+    {BoneId::kRibs, {1.19, 0.55, -0.10}, 1.26, true},       // 0
+    {BoneId::kChest, {0.92, 0.00, -0.26}, 0.89, false},     // 1
+    {BoneId::kUpperArm, {0.09, 0.00, -0.05}, 1.25, true},   // 2
+    {BoneId::kHeel, {0.64, 0.10, -0.43}, 1.30, true},       // 3
+    {BoneId::kFoot, {1.08, 0.41, 0.67}, 0.70, true},        // 4
+    {BoneId::kShin, {0.44, 0.01, -0.20}, 0.98, true},       // 5
+    {BoneId::kThigh, {0.28, -0.12, 0.38}, 1.29, true},      // 6
+    {BoneId::kRibs, {0.71, 0.00, 0.19}, 0.93, false},       // 7
+    {BoneId::kShin, {0.89, 0.01, 0.04}, 0.63, true},        // 8
+    {BoneId::kRibs, {0.96, 0.67, 0.44}, 0.95, true},        // 9
+    {BoneId::kClavicle, {0.32, -0.65, -0.10}, 1.55, true},  // 10
+    {BoneId::kHead, {0.59, 0.00, -0.48}, 1.02, false},      // 11
+    {BoneId::kHead, {0.38, 0.00, 1.13}, 0.95, false},       // 12
+    {BoneId::kHead, {0.28, 0.00, 0.29}, 1.01, false},       // 13
+    {BoneId::kPelvis, {0.89, 0.66, 0.23}, 1.46, true},      // 14
+    {BoneId::kHead, {0.71, 0.00, 0.56}, 1.26, false},       // 15
+    {BoneId::kHead, {0.59, 0.00, 0.11}, 1.39, false},       // 16
+    {BoneId::kBelly, {0.23, 0.24, -0.01}, 1.28, true},      // 17
+    {BoneId::kFoot, {0.72, 0.07, 0.02}, 0.90, true},        // 18
+    {BoneId::kHead, {0.51, 0.01, 2.22}, 0.17, true},        // 19
+    {BoneId::kHead, {0.70, 0.00, -0.34}, 1.24, false},      // 20
+    {BoneId::kShin, {1.84, -0.24, -0.07}, 0.46, true},      // 21
+    {BoneId::kFoot, {0.14, -0.06, -0.40}, 1.24, true},      // 22
+    {BoneId::kShin, {0.36, -0.01, -0.51}, 0.81, true},      // 23
+    {BoneId::kForearm, {0.41, -0.01, -0.06}, 1.04, true},   // 24
+    {BoneId::kThigh, {0.38, -0.08, 0.12}, 1.25, true},      // 25
+    {BoneId::kBelly, {0.88, 0.67, -0.01}, 0.84, true},      // 26
+    {BoneId::kFoot, {0.97, -0.86, 0.56}, 0.78, true},       // 27
+    {BoneId::kHead, {0.30, 0.00, 1.83}, 0.34, false},       // 28
+    {BoneId::kUpperArm, {0.14, -0.05, -0.00}, 1.31, true},  // 29
+    {BoneId::kClavicle, {0.51, 0.07, -0.19}, 1.21, true},   // 30
+    {BoneId::kFoot, {0.95, 1.28, 0.40}, 0.70, true},        // 31
+    {BoneId::kUpperArm, {0.19, -0.01, -0.19}, 1.19, true},  // 32
+    {BoneId::kRibs, {0.60, 0.28, 0.26}, 0.75, true},        // 33
+    {BoneId::kHead, {0.72, 0.00, 0.12}, 1.33, false},       // 34
+    {BoneId::kUpperArm, {1.00, 0.01, 0.18}, 0.69, true},    // 35
+    {BoneId::kShin, {1.82, 0.08, -0.18}, 0.50, true},       // 36
+    {BoneId::kPelvis, {0.65, 0.49, -0.04}, 1.65, true},     // 37
+    {BoneId::kHand, {0.04, 0.05, -0.18}, 0.72, true},       // 38
+    {BoneId::kHand, {1.01, -0.21, 0.10}, 0.71, true},       // 39
+    {BoneId::kHand, {0.50, -0.06, 1.35}, 0.58, true},       // 40
+    {BoneId::kHand, {0.63, -0.34, 2.46}, 0.53, true},       // 41
+    {BoneId::kThigh, {0.95, -0.01, 0.18}, 0.82, true},      // 42
+    {BoneId::kForearm, {0.31, 0.01, 0.29}, 0.79, true},     // 43
+    {BoneId::kThigh, {0.20, -0.14, -0.45}, 0.76, true},     // 44
+    {BoneId::kRibs, {0.29, 0.58, -0.03}, 0.97, true},       // 45
+    {BoneId::kThigh, {0.29, -0.16, 1.18}, 0.34, true},      // 46
+    {BoneId::kHand, {0.92, -0.23, -1.23}, 0.50, true},      // 47
+    {BoneId::kThigh, {0.94, -0.01, -0.04}, 0.83, true},     // 48
+    {BoneId::kHead, {0.58, 0.00, 0.86}, 0.86, false},       // 49
+    {BoneId::kUpperArm, {0.74, -0.01, -0.12}, 0.91, true},  // 50
+});
+constexpr auto kShellFull180Edges = std::to_array<LayoutEdge>(
+    {{1, 2, false},   {3, 8, false},   {0, 9, false},   {11, 13, false}, {7, 14, false},
+     {21, 27, false}, {0, 2, true},    {1, 10, false},  {12, 28, false}, {10, 30, false},
+     {0, 26, true},   {20, 34, false}, {29, 35, false}, {24, 38, false}, {21, 36, false},
+     {31, 36, false}, {4, 36, false},  {18, 22, false}, {14, 25, false}, {39, 40, false},
+     {10, 10, true},  {38, 41, false}, {5, 42, false},  {6, 42, false},  {39, 43, false},
+     {25, 44, false}, {37, 44, false}, {0, 45, false},  {5, 8, false},   {9, 30, false},
+     {43, 47, false}, {23, 48, false}, {25, 48, false}, {17, 33, false}, {1, 49, false},
+     {26, 45, false}, {17, 46, false}, {15, 19, false}, {13, 34, false}, {19, 28, false},
+     {8, 22, false},  {24, 50, false}, {32, 50, false}, {14, 26, false}, {2, 10, true},
+     {12, 15, false}, {12, 16, false}, {20, 49, false}, {11, 16, false}});
+
 // 101 + 138 for enclosing, with head, hands and feet. Made with more spheres in the hands, which on
 // real fingers met in the air: these are those of the 64.
 constexpr auto kShellFull250Nodes = std::to_array<LayoutNode>({
@@ -685,6 +751,67 @@ constexpr auto kShell128Edges = std::to_array<LayoutEdge>({
     {16, 28, false}, {13, 24, false}, {13, 23, false}, {15, 21, true},  {17, 28, false},
 });
 
+// CUT180
+constexpr auto kShell180Nodes = std::to_array<LayoutNode>({
+    {BoneId::kRibs, {1.22, 0.55, -0.14}, 1.24, true},       // 0
+    {BoneId::kForearm, {0.93, -0.08, -0.17}, 0.68, true},   // 1
+    {BoneId::kPelvis, {0.64, 0.45, 0.01}, 1.65, true},      // 2
+    {BoneId::kShin, {0.11, -0.01, 0.30}, 0.94, true},       // 3
+    {BoneId::kShin, {0.96, -0.14, 0.15}, 0.61, true},       // 4
+    {BoneId::kBelly, {0.25, 0.00, 0.01}, 1.27, false},      // 5
+    {BoneId::kThigh, {0.39, -0.05, 0.21}, 1.22, true},      // 6
+    {BoneId::kClavicle, {0.35, 0.65, -0.49}, 0.96, true},   // 7
+    {BoneId::kClavicle, {0.41, -0.45, -0.25}, 1.57, true},  // 8
+    {BoneId::kShin, {0.48, -0.07, -0.16}, 1.07, true},      // 9
+    {BoneId::kChest, {0.93, 0.00, -0.53}, 0.73, false},     // 10
+    {BoneId::kThigh, {0.28, -0.26, 1.14}, 0.35, true},      // 11
+    {BoneId::kBelly, {0.43, 1.01, -0.06}, 0.53, true},      // 12
+    {BoneId::kPelvis, {0.73, 0.34, 0.44}, 1.15, true},      // 13
+    {BoneId::kRibs, {1.20, 0.79, 0.20}, 0.94, true},        // 14
+    {BoneId::kThigh, {1.00, -0.01, 0.08}, 0.78, true},      // 15
+    {BoneId::kThigh, {0.27, -0.07, 0.04}, 1.19, true},      // 16
+    {BoneId::kShin, {0.04, -0.01, -0.09}, 1.10, true},      // 17
+    {BoneId::kShin, {0.95, -0.13, -0.14}, 0.57, true},      // 18
+    {BoneId::kPelvis, {0.87, 0.32, 0.25}, 0.62, true},      // 19
+    {BoneId::kThigh, {0.38, -0.06, 0.33}, 1.19, true},      // 20
+    {BoneId::kUpperArm, {0.16, -0.03, 0.08}, 1.23, true},   // 21
+    {BoneId::kClavicle, {0.35, -0.86, -0.18}, 1.68, true},  // 22
+    {BoneId::kChest, {0.87, 0.49, -0.22}, 0.81, true},      // 23
+    {BoneId::kClavicle, {0.71, -0.11, -0.16}, 1.20, true},  // 24
+    {BoneId::kForearm, {0.27, -0.02, -0.06}, 1.14, true},   // 25
+    {BoneId::kChest, {0.90, 0.20, 0.83}, 0.13, true},       // 26
+    {BoneId::kShin, {0.56, -0.08, -0.50}, 0.82, true},      // 27
+    {BoneId::kForearm, {0.69, -0.08, -0.46}, 0.64, true},   // 28
+    {BoneId::kShin, {0.41, -0.07, -0.53}, 0.88, true},      // 29
+    {BoneId::kForearm, {0.94, -0.06, 0.28}, 0.63, true},    // 30
+    {BoneId::kUpperArm, {0.87, -0.00, 0.19}, 0.72, true},   // 31
+    {BoneId::kUpperArm, {0.15, -0.03, -0.14}, 1.25, true},  // 32
+    {BoneId::kRibs, {0.98, 0.33, 0.23}, 0.75, true},        // 33
+    {BoneId::kThigh, {0.12, -0.24, -0.29}, 1.02, true},     // 34
+    {BoneId::kRibs, {0.02, 0.31, 0.04}, 0.98, true},        // 35
+    {BoneId::kBelly, {0.37, 0.70, 0.03}, 1.07, true},       // 36
+    {BoneId::kChest, {0.45, 0.00, -0.42}, 1.07, false},     // 37
+    {BoneId::kThigh, {-0.61, -0.21, 0.28}, 1.30, true},     // 38
+    {BoneId::kChest, {0.41, 0.00, -0.43}, 0.88, false},     // 39
+    {BoneId::kRibs, {0.94, 0.58, 0.17}, 1.09, true},        // 40
+    {BoneId::kRibs, {0.24, 0.63, -0.04}, 0.91, true},       // 41
+    {BoneId::kBelly, {0.60, 0.00, 0.25}, 0.75, false},      // 42
+    {BoneId::kUpperArm, {0.10, 0.02, -0.08}, 1.23, true},   // 43
+    {BoneId::kBelly, {0.46, 0.27, 0.05}, 1.16, true},       // 44
+    {BoneId::kRibs, {0.96, 0.78, 0.61}, 0.76, true},        // 45
+});
+constexpr auto kShell180Edges = std::to_array<LayoutEdge>(
+    {{12, 13, false}, {9, 15, false},  {6, 17, false},  {16, 17, false}, {6, 19, false},
+     {3, 20, false},  {1, 25, false},  {10, 26, false}, {23, 26, false}, {0, 24, false},
+     {18, 27, false}, {10, 22, false}, {27, 29, false}, {25, 30, false}, {25, 31, false},
+     {21, 28, false}, {4, 9, false},   {28, 32, false}, {0, 8, true},    {5, 11, false},
+     {2, 34, false},  {0, 35, false},  {14, 39, false}, {35, 36, false}, {33, 38, false},
+     {0, 41, false},  {12, 41, false}, {39, 42, false}, {7, 43, false},  {40, 43, true},
+     {25, 28, false}, {14, 22, false}, {2, 44, false},  {36, 41, true},  {13, 20, false},
+     {0, 35, true},   {23, 24, true},  {17, 29, false}, {6, 38, false},  {33, 44, true},
+     {37, 40, false}, {8, 8, true},    {15, 17, false}, {7, 39, false},  {24, 37, false},
+     {14, 45, false}, {7, 8, false}});
+
 // 108 + 141 for enclosing, without head, hands and feet.
 constexpr auto kShell250Nodes = std::to_array<LayoutNode>({
     {BoneId::kChest, {0.36, 0.0, 0.1}, 1.1, false},      // 0
@@ -762,6 +889,122 @@ constexpr auto kShell250Edges = std::to_array<LayoutEdge>({
     {46, 51, false}, {18, 45, false}, {10, 46, false}, {32, 56, false}, {50, 56, false},
     {9, 52, false},
 });
+
+// FULL350
+constexpr auto kShellFull350Nodes = std::to_array<LayoutNode>({
+    {BoneId::kClavicle, {0.34, -0.47, -0.13}, 1.50, true},  // 0
+    {BoneId::kHead, {0.07, 0.00, 0.03}, 0.91, false},       // 1
+    {BoneId::kChest, {0.82, 0.57, -0.26}, 0.84, true},      // 2
+    {BoneId::kHand, {0.38, -0.09, -0.25}, 0.43, true},      // 3
+    {BoneId::kPelvis, {0.65, 0.44, -0.05}, 1.63, true},     // 4
+    {BoneId::kShin, {0.08, 0.01, 0.00}, 0.91, true},        // 5
+    {BoneId::kHeel, {0.60, 0.14, -0.14}, 1.13, true},       // 6
+    {BoneId::kFoot, {0.98, 1.21, 0.49}, 0.55, true},        // 7
+    {BoneId::kShin, {0.41, 0.00, -0.11}, 0.95, true},       // 8
+    {BoneId::kHead, {0.71, 0.00, 0.69}, 1.19, false},       // 9
+    {BoneId::kThigh, {0.35, -0.10, 0.09}, 1.23, true},      // 10
+    {BoneId::kHead, {0.71, 0.00, 0.35}, 1.32, false},       // 11
+    {BoneId::kRibs, {0.14, 0.16, 0.07}, 0.97, true},        // 12
+    {BoneId::kRibs, {0.95, 0.74, 0.62}, 0.78, true},        // 13
+    {BoneId::kRibs, {0.27, 0.17, 0.22}, 0.73, true},        // 14
+    {BoneId::kBelly, {0.64, 0.00, 0.09}, 1.08, false},      // 15
+    {BoneId::kBelly, {0.03, 0.65, 0.63}, 0.57, true},       // 16
+    {BoneId::kFoot, {0.12, -0.02, 0.13}, 1.13, true},       // 17
+    {BoneId::kHead, {0.39, 0.00, 0.09}, 1.06, false},       // 18
+    {BoneId::kHead, {0.48, 0.00, 0.14}, 1.01, false},       // 19
+    {BoneId::kHead, {0.40, 0.00, 1.08}, 0.96, false},       // 20
+    {BoneId::kHead, {0.69, 0.00, 0.52}, 1.12, false},       // 21
+    {BoneId::kHeel, {0.14, 0.02, -0.16}, 1.44, true},       // 22
+    {BoneId::kHead, {0.52, 0.00, 2.36}, 0.10, false},       // 23
+    {BoneId::kForearm, {0.38, -0.00, -0.17}, 0.95, true},   // 24
+    {BoneId::kBelly, {0.36, 0.64, 0.02}, 1.11, true},       // 25
+    {BoneId::kThigh, {0.38, -0.08, 0.18}, 1.23, true},      // 26
+    {BoneId::kThigh, {0.36, -0.11, 0.35}, 1.25, true},      // 27
+    {BoneId::kHead, {0.35, 0.00, 0.95}, 0.92, false},       // 28
+    {BoneId::kHead, {0.28, 0.00, 1.81}, 0.36, false},       // 29
+    {BoneId::kThigh, {0.97, 0.01, 0.29}, 0.70, true},       // 30
+    {BoneId::kShin, {0.30, 0.00, -0.20}, 0.92, true},       // 31
+    {BoneId::kFoot, {0.73, -0.87, -0.04}, 0.81, true},      // 32
+    {BoneId::kThigh, {0.73, -0.06, -0.00}, 0.78, true},     // 33
+    {BoneId::kBelly, {0.24, 0.00, 0.24}, 0.92, false},      // 34
+    {BoneId::kFoot, {0.84, -0.86, 0.26}, 0.75, true},       // 35
+    {BoneId::kClavicle, {0.67, 0.38, -0.25}, 0.90, true},   // 36
+    {BoneId::kFoot, {1.00, -0.67, 0.53}, 0.61, true},       // 37
+    {BoneId::kFoot, {0.86, 1.14, 0.27}, 0.80, true},        // 38
+    {BoneId::kFoot, {1.05, 0.08, 0.59}, 0.56, true},        // 39
+    {BoneId::kRibs, {0.96, 0.43, -0.05}, 1.22, true},       // 40
+    {BoneId::kFoot, {0.63, 0.08, -0.17}, 1.07, true},       // 41
+    {BoneId::kShin, {0.39, 0.00, -0.11}, 0.94, true},       // 42
+    {BoneId::kShin, {0.29, -0.01, -0.50}, 0.80, true},      // 43
+    {BoneId::kUpperArm, {0.15, -0.04, 0.08}, 1.24, true},   // 44
+    {BoneId::kForearm, {0.43, 0.00, 0.06}, 0.96, true},     // 45
+    {BoneId::kShin, {0.88, 0.01, 0.19}, 0.49, true},        // 46
+    {BoneId::kShin, {0.41, -0.02, 0.06}, 0.63, true},       // 47
+    {BoneId::kClavicle, {0.25, 0.08, -0.25}, 1.26, true},   // 48
+    {BoneId::kFoot, {0.74, 1.17, -0.10}, 0.73, true},       // 49
+    {BoneId::kShin, {0.81, 0.01, -0.21}, 0.46, true},       // 50
+    {BoneId::kShin, {0.37, 0.01, -0.52}, 0.77, true},       // 51
+    {BoneId::kUpperArm, {0.13, -0.02, -0.13}, 1.29, true},  // 52
+    {BoneId::kThigh, {0.82, -0.04, 0.06}, 0.76, true},      // 53
+    {BoneId::kRibs, {1.34, 0.74, -0.03}, 1.10, true},       // 54
+    {BoneId::kChest, {0.24, 0.48, -0.16}, 1.50, true},      // 55
+    {BoneId::kHead, {0.71, 0.00, -0.38}, 1.20, false},      // 56
+    {BoneId::kHand, {0.13, -0.02, 0.36}, 0.55, true},       // 57
+    {BoneId::kThigh, {0.27, -0.12, -0.01}, 1.15, true},     // 58
+    {BoneId::kUpperArm, {0.06, 0.18, -0.11}, 1.08, true},   // 59
+    {BoneId::kHeel, {0.62, 0.07, -0.63}, 1.39, true},       // 60
+    {BoneId::kShin, {0.75, 0.00, -0.11}, 0.58, true},       // 61
+    {BoneId::kHead, {0.60, 0.00, 0.12}, 1.41, false},       // 62
+    {BoneId::kPelvis, {0.71, 0.36, 0.77}, 0.65, true},      // 63
+    {BoneId::kRibs, {0.61, 0.44, -0.16}, 0.71, true},       // 64
+    {BoneId::kThigh, {0.94, -0.02, 0.08}, 0.83, true},      // 65
+    {BoneId::kThigh, {0.14, -0.28, -0.33}, 0.98, true},     // 66
+    {BoneId::kShin, {0.96, 0.00, -0.11}, 0.53, true},       // 67
+    {BoneId::kChest, {0.41, 0.00, -0.14}, 1.01, false},     // 68
+    {BoneId::kForearm, {0.72, -0.01, 0.04}, 0.46, true},    // 69
+    {BoneId::kHand, {1.71, -0.24, 0.47}, 0.17, true},       // 70
+    {BoneId::kHand, {0.50, -0.08, 1.40}, 0.52, true},       // 71
+    {BoneId::kHand, {0.62, -0.41, 2.53}, 0.46, true},       // 72
+    {BoneId::kHand, {0.59, -0.15, -1.01}, 0.57, true},      // 73
+    {BoneId::kHand, {0.49, -0.13, -0.86}, 0.72, true},      // 74
+    {BoneId::kRibs, {0.19, 0.61, -0.03}, 0.93, true},       // 75
+    {BoneId::kBelly, {0.83, 0.64, 0.01}, 0.89, true},       // 76
+    {BoneId::kHand, {0.66, -0.13, 0.35}, 0.85, true},       // 77
+    {BoneId::kRibs, {1.29, 0.65, -0.17}, 1.15, true},       // 78
+    {BoneId::kPelvis, {0.97, 0.70, 0.23}, 1.36, true},      // 79
+    {BoneId::kHead, {0.59, 0.00, -0.53}, 0.97, false},      // 80
+    {BoneId::kHand, {0.26, 0.00, 0.77}, 0.59, true},        // 81
+    {BoneId::kHand, {0.86, -0.21, -0.61}, 0.68, true},      // 82
+    {BoneId::kRibs, {0.30, 0.32, 0.00}, 1.04, true},        // 83
+    {BoneId::kHead, {0.59, 0.00, 0.69}, 1.18, false},       // 84
+    {BoneId::kUpperArm, {0.94, -0.00, 0.07}, 0.82, true},   // 85
+    {BoneId::kUpperArm, {0.78, -0.01, -0.15}, 0.86, true},  // 86
+    {BoneId::kHead, {0.71, 0.00, -0.04}, 1.32, false},      // 87
+    {BoneId::kBelly, {0.58, 0.00, 0.25}, 0.61, false},      // 88
+});
+constexpr auto kShellFull350Edges = std::to_array<LayoutEdge>(
+    {{1, 2, false},   {0, 14, false},  {4, 15, false},  {12, 15, false}, {11, 19, false},
+     {20, 23, false}, {3, 24, false},  {12, 25, false}, {16, 26, false}, {18, 28, false},
+     {11, 23, false}, {20, 29, false}, {15, 16, false}, {30, 31, false}, {5, 10, false},
+     {16, 34, false}, {7, 35, false},  {2, 36, false},  {11, 20, false}, {35, 37, false},
+     {32, 38, false}, {7, 39, false},  {22, 41, false}, {3, 45, false},  {43, 47, false},
+     {14, 48, false}, {5, 27, false},  {41, 49, false}, {42, 50, false}, {13, 54, false},
+     {14, 55, false}, {31, 33, false}, {13, 40, false}, {27, 30, false}, {50, 51, false},
+     {45, 57, false}, {36, 59, false}, {17, 61, false}, {43, 53, false}, {32, 60, false},
+     {36, 48, false}, {26, 63, false}, {8, 43, false},  {49, 60, false}, {8, 65, false},
+     {4, 66, false},  {6, 67, false},  {14, 68, false}, {70, 71, false}, {25, 58, false},
+     {50, 67, false}, {42, 46, false}, {12, 40, false}, {69, 74, false}, {14, 64, false},
+     {58, 63, false}, {4, 25, false},  {2, 2, true},    {9, 20, false},  {70, 77, false},
+     {75, 78, false}, {76, 79, false}, {69, 81, false}, {72, 81, false}, {70, 82, false},
+     {73, 82, false}, {69, 77, false}, {28, 62, false}, {0, 83, false},  {1, 84, false},
+     {25, 76, false}, {4, 79, false},  {15, 34, false}, {76, 83, false}, {0, 36, false},
+     {26, 79, false}, {48, 55, true},  {27, 79, false}, {14, 14, true},  {54, 64, false},
+     {44, 85, false}, {45, 85, false}, {24, 86, false}, {52, 86, false}, {62, 87, false},
+     {80, 87, false}, {40, 55, true},  {29, 62, false}, {6, 60, false},  {56, 80, false},
+     {18, 80, false}, {48, 48, true},  {9, 80, false},  {9, 87, false},  {36, 64, false},
+     {9, 56, false},  {75, 76, false}, {12, 34, false}, {55, 59, false}, {48, 59, false},
+     {30, 53, false}, {46, 50, false}, {14, 78, false}, {21, 56, false}, {73, 77, false},
+     {44, 48, false}, {20, 56, false}});
 
 // 196 + 286 for enclosing, with head, hands and feet; hands as above.
 constexpr auto kShellFull500Nodes = std::to_array<LayoutNode>({
@@ -906,6 +1149,113 @@ constexpr auto kShellFull500Edges = std::to_array<LayoutEdge>(
      {69, 101, false}, {9, 102, false},  {49, 102, false}, {5, 103, false},  {89, 103, false},
      {7, 104, false},  {15, 104, false}, {14, 105, false}, {64, 105, false}, {17, 106, false},
      {27, 28, false},  {107, 108, false}});
+
+// CUT350
+constexpr auto kShell350Nodes = std::to_array<LayoutNode>({
+    {BoneId::kRibs, {0.72, 0.00, 0.38}, 0.63, false},       // 0
+    {BoneId::kRibs, {0.95, 0.65, 0.22}, 0.99, true},        // 1
+    {BoneId::kForearm, {0.95, -0.08, -0.16}, 0.65, true},   // 2
+    {BoneId::kBelly, {0.39, 0.75, 0.00}, 1.04, true},       // 3
+    {BoneId::kShin, {0.05, -0.01, -0.13}, 1.07, true},      // 4
+    {BoneId::kClavicle, {0.42, -0.36, -0.23}, 1.52, true},  // 5
+    {BoneId::kBelly, {0.14, 0.00, 0.57}, 0.69, false},      // 6
+    {BoneId::kThigh, {0.17, -0.13, 0.24}, 1.25, true},      // 7
+    {BoneId::kClavicle, {0.83, 0.24, -0.21}, 0.97, true},   // 8
+    {BoneId::kClavicle, {0.26, 0.60, -0.52}, 1.00, true},   // 9
+    {BoneId::kShin, {0.50, -0.07, -0.13}, 1.05, true},      // 10
+    {BoneId::kChest, {0.87, 0.00, -0.52}, 0.66, false},     // 11
+    {BoneId::kThigh, {0.17, -0.40, 0.74}, 0.85, true},      // 12
+    {BoneId::kBelly, {0.50, 1.02, -0.09}, 0.51, true},      // 13
+    {BoneId::kChest, {0.34, 0.00, -0.35}, 1.59, false},     // 14
+    {BoneId::kUpperArm, {0.21, -0.02, 0.12}, 1.16, true},   // 15
+    {BoneId::kChest, {0.89, 0.50, -0.27}, 0.68, true},      // 16
+    {BoneId::kShin, {0.40, -0.07, -0.50}, 0.90, true},      // 17
+    {BoneId::kShin, {0.53, -0.08, -0.51}, 0.84, true},      // 18
+    {BoneId::kThigh, {0.38, -0.06, 0.36}, 1.17, true},      // 19
+    {BoneId::kThigh, {0.35, -0.02, 0.53}, 0.81, true},      // 20
+    {BoneId::kShin, {0.09, -0.01, 0.09}, 1.04, true},       // 21
+    {BoneId::kThigh, {0.36, -0.05, 0.02}, 1.15, true},      // 22
+    {BoneId::kClavicle, {1.01, -0.12, -0.03}, 0.98, true},  // 23
+    {BoneId::kPelvis, {0.88, -0.04, 0.03}, 0.62, true},     // 24
+    {BoneId::kClavicle, {0.67, -0.78, 0.75}, 0.15, true},   // 25
+    {BoneId::kThigh, {0.44, -0.05, 0.17}, 1.18, true},      // 26
+    {BoneId::kThigh, {-0.62, -0.17, 0.27}, 1.20, true},     // 27
+    {BoneId::kShin, {0.96, -0.13, -0.18}, 0.53, true},      // 28
+    {BoneId::kForearm, {0.97, -0.07, 0.18}, 0.60, true},    // 29
+    {BoneId::kClavicle, {0.35, -0.81, -0.17}, 1.69, true},  // 30
+    {BoneId::kForearm, {0.45, -0.04, -0.17}, 1.01, true},   // 31
+    {BoneId::kRibs, {1.16, 0.28, -0.12}, 1.23, true},       // 32
+    {BoneId::kBelly, {0.97, 0.61, 0.01}, 0.85, true},       // 33
+    {BoneId::kUpperArm, {0.13, -0.02, -0.07}, 1.30, true},  // 34
+    {BoneId::kShin, {0.30, -0.05, -0.05}, 1.06, true},      // 35
+    {BoneId::kChest, {1.01, 0.83, 0.25}, 0.12, true},       // 36
+    {BoneId::kChest, {0.89, 0.36, 0.48}, 0.32, true},       // 37
+    {BoneId::kBelly, {0.24, 0.00, 0.01}, 1.26, false},      // 38
+    {BoneId::kChest, {1.44, 0.00, -0.77}, 0.10, false},     // 39
+    {BoneId::kThigh, {0.25, 0.04, 0.28}, 0.93, true},       // 40
+    {BoneId::kShin, {0.94, -0.13, 0.15}, 0.67, true},       // 41
+    {BoneId::kRibs, {1.25, 0.66, -0.15}, 1.15, true},       // 42
+    {BoneId::kForearm, {0.49, -0.04, 0.06}, 0.99, true},    // 43
+    {BoneId::kBelly, {0.86, 0.11, 0.34}, 0.41, true},       // 44
+    {BoneId::kShin, {0.11, 0.01, 0.39}, 0.84, true},        // 45
+    {BoneId::kThigh, {0.24, -0.23, 0.66}, 0.52, true},      // 46
+    {BoneId::kUpperArm, {0.18, -0.03, -0.20}, 1.18, true},  // 47
+    {BoneId::kClavicle, {0.72, -0.43, 0.30}, 0.72, true},   // 48
+    {BoneId::kBelly, {0.23, 0.00, 0.82}, 0.16, false},      // 49
+    {BoneId::kThigh, {0.90, 0.00, 0.64}, 0.24, true},       // 50
+    {BoneId::kRibs, {0.33, 0.32, -0.02}, 1.00, true},       // 51
+    {BoneId::kBelly, {0.21, 0.41, 0.08}, 1.09, true},       // 52
+    {BoneId::kRibs, {0.57, 0.21, 0.19}, 0.84, true},        // 53
+    {BoneId::kBelly, {0.95, 0.66, 0.01}, 0.77, true},       // 54
+    {BoneId::kPelvis, {0.86, 0.47, 0.08}, 1.29, true},      // 55
+    {BoneId::kClavicle, {0.65, -0.20, -0.64}, 0.37, true},  // 56
+    {BoneId::kRibs, {0.10, 0.11, 0.10}, 0.92, true},        // 57
+    {BoneId::kRibs, {0.94, 0.69, 0.46}, 0.93, true},        // 58
+    {BoneId::kChest, {0.39, 0.00, -0.14}, 1.03, false},     // 59
+    {BoneId::kUpperArm, {0.19, -0.07, 0.38}, 0.57, true},   // 60
+    {BoneId::kClavicle, {0.81, 0.10, -0.30}, 0.78, true},   // 61
+    {BoneId::kRibs, {0.61, 0.52, -0.01}, 1.02, true},       // 62
+    {BoneId::kUpperArm, {1.39, -0.03, -0.53}, 0.19, true},  // 63
+    {BoneId::kUpperArm, {0.96, -0.00, -0.10}, 0.82, true},  // 64
+    {BoneId::kUpperArm, {0.77, -0.01, 0.07}, 0.89, true},   // 65
+    {BoneId::kForearm, {0.12, -0.01, 0.04}, 1.04, true},    // 66
+    {BoneId::kBelly, {0.22, 0.50, 0.14}, 0.74, true},       // 67
+    {BoneId::kThigh, {0.11, -0.03, 0.20}, 1.10, true},      // 68
+    {BoneId::kBelly, {0.19, 0.40, -0.02}, 0.98, true},      // 69
+    {BoneId::kBelly, {0.15, 0.07, -0.03}, 0.75, true},      // 70
+    {BoneId::kBelly, {0.54, 0.79, -0.07}, 0.65, true},      // 71
+    {BoneId::kShin, {0.91, -0.13, 0.11}, 0.64, true},       // 72
+    {BoneId::kChest, {0.32, 0.00, -0.31}, 1.59, false},     // 73
+    {BoneId::kShin, {0.73, -0.08, -0.21}, 0.23, true},      // 74
+    {BoneId::kRibs, {0.74, 0.03, -0.22}, 0.78, true},       // 75
+    {BoneId::kChest, {0.05, 0.00, -0.08}, 1.75, false},     // 76
+    {BoneId::kThigh, {0.14, -0.24, -0.42}, 0.89, true},     // 77
+    {BoneId::kPelvis, {0.64, 0.45, 0.01}, 1.65, true},      // 78
+    {BoneId::kBelly, {0.44, 0.44, 0.03}, 1.14, true},       // 79
+    {BoneId::kBelly, {0.59, 0.50, 0.04}, 0.92, true},       // 80
+    {BoneId::kThigh, {0.21, -0.20, 0.24}, 0.85, true},      // 81
+});
+constexpr auto kShell350Edges = std::to_array<LayoutEdge>(
+    {{8, 9, false},   {5, 9, true},    {3, 12, false},  {4, 17, false},  {5, 9, false},
+     {7, 19, false},  {4, 22, false},  {19, 21, false}, {4, 26, false},  {7, 26, false},
+     {18, 28, false}, {1, 30, false},  {2, 31, false},  {5, 8, false},   {8, 34, false},
+     {4, 35, false},  {10, 35, false}, {17, 18, false}, {11, 37, false}, {21, 35, false},
+     {24, 33, false}, {16, 39, false}, {22, 24, false}, {29, 43, false}, {5, 44, false},
+     {21, 26, false}, {19, 45, false}, {2, 43, false},  {0, 38, false},  {14, 16, false},
+     {27, 33, false}, {37, 37, true},  {23, 30, false}, {16, 36, false}, {32, 33, false},
+     {9, 11, false},  {18, 41, false}, {4, 50, false},  {30, 51, false}, {12, 19, false},
+     {6, 52, false},  {6, 12, false},  {40, 49, false}, {3, 53, false},  {24, 26, false},
+     {9, 36, false},  {8, 11, false},  {25, 47, false}, {42, 54, false}, {22, 55, false},
+     {15, 56, false}, {32, 57, true},  {1, 8, false},   {23, 32, false}, {36, 37, false},
+     {30, 58, false}, {5, 54, false},  {4, 10, false},  {15, 48, false}, {28, 41, false},
+     {26, 55, false}, {9, 59, false},  {15, 61, false}, {11, 59, false}, {1, 62, false},
+     {13, 62, false}, {43, 63, false}, {60, 63, false}, {31, 64, false}, {47, 64, false},
+     {15, 65, false}, {43, 66, false}, {52, 67, true},  {7, 68, false},  {27, 68, false},
+     {3, 69, false},  {3, 70, true},   {24, 70, true},  {54, 71, false}, {10, 72, false},
+     {5, 73, false},  {41, 74, false}, {1, 75, true},   {30, 76, false}, {38, 54, false},
+     {46, 78, false}, {77, 78, false}, {34, 65, false}, {73, 76, false}, {8, 15, false},
+     {17, 72, false}, {65, 66, false}, {52, 79, false}, {57, 79, false}, {17, 50, false},
+     {27, 80, false}, {51, 80, false}, {20, 81, false}, {77, 81, false}, {72, 74, false}});
 
 // 200 + 300 for enclosing, without head, hands and feet.
 constexpr auto kShell500Nodes = std::to_array<LayoutNode>({
@@ -1054,7 +1404,7 @@ constexpr auto kShell500Edges = std::to_array<LayoutEdge>({
 }  // namespace
 
 std::span<const NamedLayout> Layouts() {
-  static constexpr std::array<NamedLayout, 20> kLayouts = {{
+  static constexpr std::array<NamedLayout, 24> kLayouts = {{
       {"best fit, 32", FitKind::kBestFit, 32, false, {kBest32Nodes, kBest32Edges}},
       {"best fit, 64", FitKind::kBestFit, 64, false, {kBest64Nodes, kBest64Edges}},
       {"best fit, 128", FitKind::kBestFit, 128, false, {kBest128Nodes, kBest128Edges}},
@@ -1098,18 +1448,30 @@ std::span<const NamedLayout> Layouts() {
        true,
        {kShellFull64Nodes, kShellFull64Edges}},
       {"shell, 128", FitKind::kEnclose, 128, false, {kShell128Nodes, kShell128Edges}},
+      {"shell, 180", FitKind::kEnclose, 180, false, {kShell180Nodes, kShell180Edges}},
       {"shell, 250", FitKind::kEnclose, 250, false, {kShell250Nodes, kShell250Edges}},
+      {"shell, 350", FitKind::kEnclose, 350, false, {kShell350Nodes, kShell350Edges}},
       {"shell, 500", FitKind::kEnclose, 500, false, {kShell500Nodes, kShell500Edges}},
       {"shell, whole body, 128",
        FitKind::kEnclose,
        128,
        true,
        {kShellFull128Nodes, kShellFull128Edges}},
+      {"shell, whole body, 180",
+       FitKind::kEnclose,
+       180,
+       true,
+       {kShellFull180Nodes, kShellFull180Edges}},
       {"shell, whole body, 250",
        FitKind::kEnclose,
        250,
        true,
        {kShellFull250Nodes, kShellFull250Edges}},
+      {"shell, whole body, 350",
+       FitKind::kEnclose,
+       350,
+       true,
+       {kShellFull350Nodes, kShellFull350Edges}},
       {"shell, whole body, 500",
        FitKind::kEnclose,
        500,
