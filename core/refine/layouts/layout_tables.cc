@@ -562,7 +562,7 @@ constexpr auto kShellFull128Edges = std::to_array<LayoutEdge>({
     {13, 37, false}, {4, 25, true},   {17, 20, false}, {17, 22, false},
 });
 
-// FULL180
+// 91 + 88 for enclosing, with head, hands and feet.
 constexpr auto kShellFull180Nodes = std::to_array<LayoutNode>({
     {BoneId::kRibs, {1.19, 0.55, -0.10}, 1.26, true},       // 0
     {BoneId::kChest, {0.92, 0.00, -0.26}, 0.89, false},     // 1
@@ -751,7 +751,7 @@ constexpr auto kShell128Edges = std::to_array<LayoutEdge>({
     {16, 28, false}, {13, 24, false}, {13, 23, false}, {15, 21, true},  {17, 28, false},
 });
 
-// CUT180
+// 87 + 92 for enclosing, without head, hands and feet.
 constexpr auto kShell180Nodes = std::to_array<LayoutNode>({
     {BoneId::kRibs, {1.22, 0.55, -0.14}, 1.24, true},       // 0
     {BoneId::kForearm, {0.93, -0.08, -0.17}, 0.68, true},   // 1
@@ -890,7 +890,7 @@ constexpr auto kShell250Edges = std::to_array<LayoutEdge>({
     {9, 52, false},
 });
 
-// FULL350
+// 159 + 191 for enclosing, with head, hands and feet.
 constexpr auto kShellFull350Nodes = std::to_array<LayoutNode>({
     {BoneId::kClavicle, {0.34, -0.47, -0.13}, 1.50, true},  // 0
     {BoneId::kHead, {0.07, 0.00, 0.03}, 0.91, false},       // 1
@@ -1150,7 +1150,7 @@ constexpr auto kShellFull500Edges = std::to_array<LayoutEdge>(
      {7, 104, false},  {15, 104, false}, {14, 105, false}, {64, 105, false}, {17, 106, false},
      {27, 28, false},  {107, 108, false}});
 
-// CUT350
+// 154 + 196 for enclosing, without head, hands and feet.
 constexpr auto kShell350Nodes = std::to_array<LayoutNode>({
     {BoneId::kRibs, {0.72, 0.00, 0.38}, 0.63, false},       // 0
     {BoneId::kRibs, {0.95, 0.65, 0.22}, 0.99, true},        // 1
