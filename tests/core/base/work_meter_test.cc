@@ -69,5 +69,24 @@ TEST(WorkMeterTest, WorkOfAllThreadsCountsAndOneThreadTells) {
   EXPECT_EQ(listener.fractions.back(), 0.5);
 }
 
+TEST(QuietObserverTest, SaysNothingAndCancelsWithTheOther) {
+  struct Other final : FitObserver {
+    void OnStage(Stage, double) override { ++calls; }
+    void OnFraction(double) override { ++calls; }
+    [[nodiscard]] bool IsCancelled() const override { return is_cancelled; }
+    int calls = 0;
+    bool is_cancelled = false;
+  } other;
+  QuietObserver quiet(other);
+  WorkMeter meter(quiet);
+  meter.Expect(1.0, 2);
+  meter.Add(2);
+  quiet.OnStage(Stage::kCoverage, 0.5);
+  EXPECT_EQ(other.calls, 0);
+  EXPECT_FALSE(meter.IsCancelled());
+  other.is_cancelled = true;
+  EXPECT_TRUE(meter.IsCancelled());
+}
+
 }  // namespace
 }  // namespace capfit

@@ -1,0 +1,87 @@
+#include "core/refine/layouts/starting_graphs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/body/find_body.h"
+#include "core/mannequin/mannequin.h"
+#include "core/mesh/prepare_mesh.h"
+#include "tests/core/capsule/mirrored.h"
+
+namespace capfit::refine {
+namespace {
+
+const body::Body& Mannequin() {
+  static const body::Body body = [] {
+    mannequin::MannequinOptions options;
+    options.faces = 5000;
+    const auto prepared = mesh::PrepareMesh(*mannequin::MakeMannequin(options));
+    return *body::FindBody(prepared->mesh, {}, ThreadPool(1), NullObserver());
+  }();
+  return body;
+}
+
+capsule::Budget Primitives(int count) { return {count, capsule::kNoLimit, capsule::kNoLimit}; }
+
+// How many primitives each has.
+std::vector<int> SizesOf(const std::vector<capsule::MirroredSet>& graphs) {
+  std::vector<int> sizes;
+  for (const capsule::MirroredSet& graph : graphs) sizes.push_back(graph.primitive_count());
+  return sizes;
+}
+
+std::vector<int> Enclosing(int budget, const StartSizes& sizes) {
+  const body::PartSelection all{.head = true, .hands = true, .feet = true};
+  const std::vector<capsule::MirroredSet> graphs = StartingGraphs(
+      FitKind::kEnclose, Mannequin(), all, Primitives(budget), sizes, ThreadPool(2));
+  for (const capsule::MirroredSet& graph : graphs) {
+    EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
+  }
+  return SizesOf(graphs);
+}
+
+// Whatever sizes the tables have: between one layout and the next larger one, both are there.
+TEST(StartingGraphs, TheNextLargerOnesComeFirstThenTheLargestThatFit) {
+  for (const int budget : {20, 40, 70, 128, 150, 200, 300, 400}) {
+    SCOPED_TRACE(budget);
+    const std::vector<int> sizes = Enclosing(budget, {});
+    ASSERT_GE(sizes.size(), 2U);
+    EXPECT_GT(sizes.front(), budget);
+    EXPECT_LE(sizes.back(), budget);
+    EXPECT_TRUE(std::is_partitioned(sizes.begin(), sizes.end(),
+                                    [budget](int size) { return size > budget; }));
+  }
+}
+
+TEST(StartingGraphs, BeyondAllTheLargestServes) {
+  const std::vector<int> sizes = Enclosing(1000, {});
+  ASSERT_EQ(sizes.size(), 1U);
+  EXPECT_GT(sizes[0], 400);
+}
+
+TEST(StartingGraphs, ALayoutWithTooLittleToSpareIsPassedOver) {
+  const int next = Enclosing(160, {}).front();
+  const int spared = next - 160;
+  EXPECT_EQ(Enclosing(160, {.least_spared = spared}).front(), next);
+  EXPECT_GT(Enclosing(160, {.least_spared = spared + 1}).front(), next);
+}
+
+// Not where it is the only one: something must be started from.
+TEST(StartingGraphs, TooLittleToSpareServesWhereThereIsNoOther) {
+  const int largest = Enclosing(1000, {}).front();
+  EXPECT_EQ(Enclosing(largest - 10, {.least_spared = 100}).front(), largest);
+}
+
+TEST(StartingGraphs, OneWithTooMuchToSpareIsLeftOut) {
+  const std::vector<int> all = Enclosing(160, {});
+  const std::vector<int> few = Enclosing(160, {.most_spared = 1});
+  EXPECT_GT(all.front(), 160);
+  ASSERT_FALSE(few.empty());
+  EXPECT_LE(few.front(), 160);
+  EXPECT_EQ(few.back(), all.back());
+}
+
+}  // namespace
+}  // namespace capfit::refine
