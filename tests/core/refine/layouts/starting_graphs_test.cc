@@ -34,8 +34,8 @@ std::vector<int> SizesOf(const std::vector<capsule::MirroredSet>& graphs) {
 
 std::vector<int> Enclosing(int budget, const StartSizes& sizes) {
   const body::PartSelection all{.head = true, .hands = true, .feet = true};
-  const std::vector<capsule::MirroredSet> graphs = StartingGraphs(
-      FitKind::kEnclose, Mannequin(), all, Primitives(budget), sizes, ThreadPool(2));
+  const std::vector<capsule::MirroredSet> graphs =
+      StartingGraphs(FitKind::kEnclose, Mannequin(), all, Primitives(budget), sizes, ThreadPool(2));
   for (const capsule::MirroredSet& graph : graphs) {
     EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
   }
