@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "proto/wire/chunk_conversion.h"
 #include "proto/wire/export_conversion.h"
 #include "proto/wire/result_conversion.h"
 #include "proto/wire/skinning_conversion.h"

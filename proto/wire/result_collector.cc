@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
+#include "proto/wire/chunk_conversion.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/export_conversion.h"
 #include "proto/wire/result_conversion.h"

@@ -1,5 +1,5 @@
 // Joints, sparse weights and bone weights over the wire, both ways. (Dense weights, which come in
-// blocks: result_conversion.h.)
+// blocks: chunk_conversion.h.)
 #ifndef CAPFIT_PROTO_WIRE_SKINNING_CONVERSION_H_
 #define CAPFIT_PROTO_WIRE_SKINNING_CONVERSION_H_
 

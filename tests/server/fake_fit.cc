@@ -79,7 +79,7 @@ pipeline::FitResult HandMadeResult(std::size_t vertex_count) {
   result.effective_options.tolerance_m = 0.002;
   result.effective_options.want_polygons = true;
   result.effective_options.want_vertex_gaps = vertex_count > 0;
-  result.body = {1234, 2345, {-50, -20, 0}, {50, 20, 170}, 1.7, true};
+  result.body = {1234, 2345, {-50, -20, 0}, {50, 20, 170}, 1.7, true, {}};
   result.version = "1.2.3";
   result.body_from_caller.scale = 0.01;
   result.body_from_caller.translation = {1, 2, 3};

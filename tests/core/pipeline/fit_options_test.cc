@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                    0, std::numeric_limits<double>::infinity(), 0};
              },
              kInvalid, "landmarks.left_wrist must be finite"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(FitOptions, RefusalsNameTheirField) {
   FitOptions options;

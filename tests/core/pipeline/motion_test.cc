@@ -171,8 +171,8 @@ struct Walk {
         test_support::ReadFile(folder / "female_average_walk_then_raise_arms.bin");
     const std::size_t frame_bytes = soup.positions.size() * sizeof(Eigen::Vector3f);
     for (std::size_t at = 0; at + frame_bytes <= frames.size(); at += frame_bytes) {
-      std::memcpy(motion->frames.emplace_back(soup.positions.size()).data(), frames.data() + at,
-                  frame_bytes);
+      auto& frame = motion->frames.emplace_back(soup.positions.size());
+      std::memcpy(frame.data()->data(), frames.data() + at, frame_bytes);
     }
   }
 };
