@@ -30,7 +30,7 @@ void AddAnimationOptions(CLI::App& command, RenderArguments& arguments) {
 void AddRenderOptions(CLI::App& command, RenderArguments& arguments) {
   command.add_option("body", arguments.body, "Mesh file")->required();
   command.add_option("result", arguments.result,
-                      "RESULT.json of this body; without it the body is drawn alone");
+                     "RESULT.json of this body; without it the body is drawn alone");
   command.add_option("-o,--output", arguments.output, "Picture to write, .png or .svg; - is PNG")
       ->required();
   AddWordOption(command, "--up", arguments.up, {"auto", "x", "y", "z"},
@@ -42,19 +42,19 @@ void AddRenderOptions(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--title", arguments.title, "Title; the body's file name without it");
   command.add_option("--width", arguments.width, "Pixels")->capture_default_str();
   command.add_option("--height", arguments.height,
-                      "Pixels [1100; with --polygons as many as they take]");
+                     "Pixels [1100; with --polygons as many as they take]");
   command.add_flag("--heat,--heat-map", arguments.heat,
-                    "Colour the body by its gap to the primitives");
+                   "Colour the body by its gap to the primitives");
   command.add_option("--gaps", arguments.gaps,
-                      "RESULT.gaps.json whose gaps are shown, instead of measuring them");
+                     "RESULT.gaps.json whose gaps are shown, instead of measuring them");
   command.add_flag("--polygons", arguments.polygons,
-                    "Draw the feature polygons with their circles: on the body, which is pale as "
-                    "glass, and below it flat, side by side, with their outside areas. The result "
-                    "must have them (`approximate --polygons`)");
+                   "Draw the feature polygons with their circles: on the body, which is pale as "
+                   "glass, and below it flat, side by side, with their outside areas. The result "
+                   "must have them (`approximate --polygons`)");
   command.add_option("--heat-limit-mm", arguments.heat_limit_mm, "Gap of the strongest colour")
       ->capture_default_str();
   command.add_option("--mm-per-unit", arguments.mm_per_unit,
-                      "Length of the mesh's unit in mm [what RESULT or the body tells]");
+                     "Length of the mesh's unit in mm [what RESULT or the body tells]");
   AddAnimationOptions(command, arguments);
 }
 
