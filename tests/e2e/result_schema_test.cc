@@ -45,7 +45,7 @@ std::vector<std::string> Fit(const Scratch& scratch, const std::string& name,
 void Check(std::vector<std::string> results) {
   results.insert(results.begin(), CAPFIT_RESULT_SCHEMA);
   const Outcome outcome = RunProgram(CAPFIT_CHECK_RESULTS, results);
-  if (outcome.exit_code == 77) GTEST_SKIP() << outcome.out;
+  if (outcome.exit_code == 77) GTEST_SKIP() << "SKIPPED: no schema validator: " << outcome.out;
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
 }
 

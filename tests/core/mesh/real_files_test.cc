@@ -147,7 +147,10 @@ class BrokenInputTest : public testing::TestWithParam<Input> {};
 TEST_P(BrokenInputTest, DoesWhatItsDescriptionSaysWithinTwoSeconds) {
   CAPFIT_REQUIRE_BODIES();
   const std::filesystem::path folder = test_support::BodiesFolder() / "broken";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "SKIPPED: no folder " << folder;
+  if (!std::filesystem::exists(folder)) {
+    GTEST_SKIP() << "SKIPPED: the bodies are there, but not the broken inputs beside them: "
+                 << folder;
+  }
   const std::filesystem::path path = folder / GetParam().file;
   ASSERT_TRUE(std::filesystem::exists(path)) << path;
   const std::clock_t start = std::clock();  // the processor's time: machines may be busy
