@@ -1006,150 +1006,6 @@ constexpr auto kShellFull350Edges = std::to_array<LayoutEdge>(
      {30, 53, false}, {46, 50, false}, {14, 78, false}, {21, 56, false}, {73, 77, false},
      {44, 48, false}, {20, 56, false}});
 
-// 196 + 286 for enclosing, with head, hands and feet; hands as above.
-constexpr auto kShellFull500Nodes = std::to_array<LayoutNode>({
-    {BoneId::kRibs, {0.91, 0.0, -0.1}, 0.9, false},      // 0
-    {BoneId::kRibs, {1.09, 0.4, -0.1}, 1.2, true},       // 1
-    {BoneId::kChest, {1.00, 0.0, -0.1}, 0.8, false},     // 2
-    {BoneId::kClavicle, {0.51, 0.5, -0.4}, 0.9, true},   // 3
-    {BoneId::kForearm, {0.95, -0.0, -0.2}, 0.5, true},   // 4
-    {BoneId::kPelvis, {0.66, 0.2, -0.3}, 1.3, true},     // 5
-    {BoneId::kShin, {-0.03, -0.0, -0.0}, 1.0, true},     // 6
-    {BoneId::kHeel, {0.60, 0.1, -0.3}, 1.3, true},       // 7
-    {BoneId::kFoot, {0.93, 1.3, 0.3}, 0.8, true},        // 8
-    {BoneId::kShin, {0.37, 0.0, -0.1}, 0.9, true},       // 9
-    {BoneId::kHead, {0.73, 0.1, 0.9}, 0.9, true},        // 10
-    {BoneId::kThigh, {0.46, -0.1, 0.1}, 1.1, true},      // 11
-    {BoneId::kHead, {0.71, 0.0, 0.5}, 1.3, false},       // 12
-    {BoneId::kBelly, {0.98, 0.4, 0.1}, 0.9, true},       // 13
-    {BoneId::kUpperArm, {0.94, -0.0, -0.1}, 0.8, true},  // 14
-    {BoneId::kShin, {0.79, 0.0, -0.2}, 0.5, true},       // 15
-    {BoneId::kRibs, {0.97, 0.7, 0.7}, 0.8, true},        // 16
-    {BoneId::kClavicle, {0.35, -0.5, -0.1}, 1.5, true},  // 17
-    {BoneId::kBelly, {0.37, 0.0, 0.0}, 1.2, false},      // 18
-    {BoneId::kPelvis, {0.51, -0.5, 0.8}, 0.8, true},     // 19
-    {BoneId::kShin, {1.54, 0.0, 0.3}, 0.6, true},        // 20
-    {BoneId::kHead, {0.70, 0.0, -0.4}, 1.2, false},      // 21
-    {BoneId::kHead, {0.56, 0.0, 0.4}, 1.3, false},       // 22
-    {BoneId::kThigh, {0.59, -0.1, -0.1}, 0.6, true},     // 23
-    {BoneId::kBelly, {0.17, 0.6, 0.2}, 0.7, true},       // 24
-    {BoneId::kHead, {0.38, 0.0, 0.1}, 1.1, false},       // 25
-    {BoneId::kHead, {0.49, 0.0, -0.2}, 1.0, false},      // 26
-    {BoneId::kHead, {0.40, 0.0, 1.1}, 1.0, false},       // 27
-    {BoneId::kHead, {0.71, 0.0, -0.1}, 1.3, false},      // 28
-    {BoneId::kFoot, {0.11, -0.0, -0.2}, 1.2, true},      // 29
-    {BoneId::kHead, {0.51, 0.0, 2.3}, 0.1, false},       // 30
-    {BoneId::kForearm, {0.38, -0.0, -0.2}, 1.0, true},   // 31
-    {BoneId::kBelly, {0.30, 0.6, -0.0}, 1.2, true},      // 32
-    {BoneId::kThigh, {0.31, -0.1, 0.3}, 1.2, true},      // 33
-    {BoneId::kHead, {0.48, 0.0, -0.1}, 1.1, false},      // 34
-    {BoneId::kThigh, {0.26, 0.1, -0.1}, 0.8, true},      // 35
-    {BoneId::kThigh, {0.37, -0.1, 0.3}, 1.2, true},      // 36
-    {BoneId::kHead, {0.34, 0.0, 0.8}, 1.0, false},       // 37
-    {BoneId::kChest, {1.64, 0.0, 1.7}, 0.3, false},      // 38
-    {BoneId::kThigh, {0.98, 0.0, 0.3}, 0.7, true},       // 39
-    {BoneId::kShin, {0.18, -0.0, -0.1}, 0.9, true},      // 40
-    {BoneId::kFoot, {0.65, -0.8, -0.2}, 0.9, true},      // 41
-    {BoneId::kThigh, {0.75, -0.0, -0.1}, 0.8, true},     // 42
-    {BoneId::kUpperArm, {0.42, -0.0, -0.2}, 1.0, true},  // 43
-    {BoneId::kRibs, {0.98, 0.0, -0.7}, 0.5, false},      // 44
-    {BoneId::kBelly, {0.15, 0.0, 0.6}, 0.7, false},      // 45
-    {BoneId::kClavicle, {0.43, -0.2, -0.1}, 0.7, true},  // 46
-    {BoneId::kThigh, {0.27, 0.1, 0.1}, 1.0, true},       // 47
-    {BoneId::kShin, {0.59, -0.1, -0.1}, 0.3, true},      // 48
-    {BoneId::kThigh, {0.53, 0.1, 0.4}, 0.6, true},       // 49
-    {BoneId::kFoot, {0.78, -0.9, 0.2}, 0.8, true},       // 50
-    {BoneId::kClavicle, {0.93, 0.2, -0.1}, 0.8, true},   // 51
-    {BoneId::kChest, {0.28, 0.0, -0.1}, 1.3, false},     // 52
-    {BoneId::kFoot, {0.99, -0.8, 0.5}, 0.6, true},       // 53
-    {BoneId::kBelly, {0.98, 0.6, -0.0}, 0.8, true},      // 54
-    {BoneId::kFoot, {0.71, 1.0, -0.1}, 1.1, true},       // 55
-    {BoneId::kFoot, {1.03, -0.1, 0.6}, 0.7, true},       // 56
-    {BoneId::kUpperArm, {0.62, -0.0, 0.1}, 0.9, true},   // 57
-    {BoneId::kRibs, {0.92, 0.5, -0.0}, 1.0, true},       // 58
-    {BoneId::kFoot, {0.51, 0.1, -0.4}, 1.2, true},       // 59
-    {BoneId::kShin, {0.37, 0.0, -0.1}, 0.9, true},       // 60
-    {BoneId::kShin, {0.20, -0.0, -0.4}, 0.8, true},      // 61
-    {BoneId::kBelly, {0.43, 0.4, 0.1}, 1.1, true},       // 62
-    {BoneId::kHead, {0.57, 0.9, -0.0}, 0.5, true},       // 63
-    {BoneId::kUpperArm, {0.19, -0.0, 0.1}, 1.2, true},   // 64
-    {BoneId::kForearm, {0.43, 0.0, 0.1}, 1.0, true},     // 65
-    {BoneId::kShin, {0.83, 0.0, 0.1}, 0.5, true},        // 66
-    {BoneId::kShin, {0.31, -0.0, -0.5}, 0.7, true},      // 67
-    {BoneId::kClavicle, {0.64, 0.1, -0.2}, 1.0, true},   // 68
-    {BoneId::kPelvis, {0.91, 0.6, 0.3}, 1.2, true},      // 69
-    {BoneId::kFoot, {0.56, 0.9, -0.7}, 0.8, true},       // 70
-    {BoneId::kFoot, {0.44, 0.9, -1.1}, 0.6, true},       // 71
-    {BoneId::kShin, {0.54, 0.0, -0.4}, 0.7, true},       // 72
-    {BoneId::kShin, {0.38, 0.0, -0.5}, 0.7, true},       // 73
-    {BoneId::kUpperArm, {0.23, -0.0, -0.2}, 1.2, true},  // 74
-    {BoneId::kThigh, {0.84, -0.0, 0.0}, 0.8, true},      // 75
-    {BoneId::kClavicle, {0.35, -0.8, 0.0}, 1.5, true},   // 76
-    {BoneId::kRibs, {1.15, 0.7, 0.3}, 1.0, true},        // 77
-    {BoneId::kChest, {0.66, 0.3, -0.3}, 1.1, true},      // 78
-    {BoneId::kHead, {0.60, 0.0, -0.4}, 1.1, false},      // 79
-    {BoneId::kChest, {1.05, 0.5, -0.0}, 0.5, true},      // 80
-    {BoneId::kBelly, {0.11, 0.0, -0.4}, 0.7, false},     // 81
-    {BoneId::kShin, {0.62, 0.0, -0.0}, 0.7, true},       // 82
-    {BoneId::kRibs, {0.45, 0.3, -0.0}, 1.0, true},       // 83
-    {BoneId::kRibs, {0.37, 0.1, -0.1}, 0.9, true},       // 84
-    {BoneId::kUpperArm, {0.09, -0.3, 0.1}, 1.2, true},   // 85
-    {BoneId::kRibs, {1.09, 1.0, 0.3}, 0.5, true},        // 86
-    {BoneId::kForearm, {1.21, 0.0, 0.2}, 0.5, true},     // 87
-    {BoneId::kForearm, {-0.01, 0.0, 0.1}, 1.0, true},    // 88
-    {BoneId::kThigh, {0.23, -0.1, -0.0}, 1.2, true},     // 89
-    {BoneId::kUpperArm, {0.12, -0.1, -0.1}, 1.3, true},  // 90
-    {BoneId::kHeel, {0.62, 0.1, -0.7}, 1.4, true},       // 91
-    {BoneId::kShin, {0.87, 0.0, 0.2}, 0.5, true},        // 92
-    {BoneId::kHead, {0.71, 0.0, 0.2}, 1.3, false},       // 93
-    {BoneId::kPelvis, {0.69, -0.3, 0.4}, 1.0, true},     // 94
-    {BoneId::kRibs, {0.72, 0.1, -0.2}, 0.9, true},       // 95
-    {BoneId::kClavicle, {0.47, 0.1, -0.3}, 1.1, true},   // 96
-    {BoneId::kThigh, {-0.02, -0.1, 0.2}, 1.2, true},     // 97
-    {BoneId::kBelly, {0.95, 0.0, 0.3}, 0.6, false},      // 98
-    {BoneId::kRibs, {0.40, 0.6, -0.1}, 1.0, true},       // 99
-    {BoneId::kClavicle, {0.43, -0.6, 0.1}, 1.1, true},   // 100
-    {BoneId::kThigh, {0.14, -0.2, 0.3}, 0.9, true},      // 101
-    {BoneId::kThigh, {1.04, -0.0, 0.0}, 0.8, true},      // 102
-    {BoneId::kThigh, {0.13, -0.3, 0.0}, 1.1, true},      // 103
-    {BoneId::kShin, {0.95, 0.0, -0.1}, 0.5, true},       // 104
-    {BoneId::kUpperArm, {0.49, -0.0, -0.0}, 1.1, true},  // 105
-    {BoneId::kChest, {0.20, 0.0, -0.1}, 1.5, false},     // 106
-    {BoneId::kHand, {0.15, -0.1, -0.2}, 1.2, true},      // 107
-    {BoneId::kHand, {0.71, -0.4, 0.6}, 2.3, true},       // 108
-});
-constexpr auto kShellFull500Edges = std::to_array<LayoutEdge>(
-    {{2, 10, false},   {2, 3, false},    {1, 17, false},   {5, 18, false},   {13, 18, false},
-     {4, 107, false},  {5, 24, false},   {1, 13, true},    {12, 26, false},  {0, 2, false},
-     {10, 27, false},  {22, 28, false},  {27, 30, false},  {4, 31, false},   {5, 32, false},
-     {13, 32, false},  {11, 33, false},  {19, 33, false},  {22, 34, false},  {14, 31, false},
-     {33, 35, false},  {23, 36, false},  {22, 37, false},  {25, 37, false},  {11, 24, false},
-     {12, 30, false},  {27, 38, false},  {18, 19, false},  {23, 39, false},  {14, 43, false},
-     {39, 40, false},  {6, 11, false},   {16, 44, false},  {19, 45, false},  {2, 46, false},
-     {24, 47, false},  {36, 47, false},  {8, 50, false},   {41, 50, false},  {3, 51, false},
-     {1, 52, false},   {12, 27, false},  {50, 53, false},  {1, 54, false},   {41, 55, false},
-     {8, 56, false},   {3, 46, false},   {14, 57, false},  {29, 59, false},  {48, 60, false},
-     {5, 62, false},   {13, 62, true},   {35, 54, false},  {22, 63, false},  {57, 64, false},
-     {4, 65, false},   {14, 65, false},  {15, 66, false},  {9, 67, false},   {61, 67, false},
-     {3, 68, false},   {17, 68, false},  {24, 69, false},  {1, 68, false},   {54, 69, false},
-     {6, 36, false},   {13, 24, false},  {29, 70, false},  {59, 71, false},  {60, 72, false},
-     {9, 73, false},   {43, 74, false},  {3, 76, false},   {1, 77, false},   {16, 77, false},
-     {2, 78, false},   {17, 78, true},   {21, 79, false},  {34, 79, false},  {54, 77, true},
-     {19, 62, false},  {40, 42, false},  {2, 80, false},   {18, 81, false},  {16, 58, false},
-     {36, 39, false},  {15, 72, false},  {60, 82, false},  {66, 82, false},  {69, 84, false},
-     {51, 85, false},  {64, 85, false},  {5, 24, true},    {72, 73, false},  {77, 83, false},
-     {32, 35, false},  {47, 62, false},  {16, 86, false},  {65, 87, false},  {57, 88, false},
-     {11, 89, false},  {51, 90, false},  {74, 90, false},  {7, 91, false},   {29, 91, false},
-     {15, 92, false},  {20, 92, false},  {12, 93, false},  {28, 93, false},  {61, 75, false},
-     {45, 83, false},  {3, 17, false},   {41, 91, false},  {51, 68, false},  {36, 94, false},
-     {1, 95, false},   {13, 95, false},  {78, 96, false},  {85, 96, false},  {33, 97, false},
-     {65, 88, false},  {9, 61, false},   {71, 91, false},  {54, 97, false},  {51, 57, false},
-     {77, 96, false},  {11, 47, false},  {24, 35, false},  {3, 83, false},   {1, 98, false},
-     {13, 99, false},  {76, 99, false},  {17, 100, true},  {85, 100, false}, {23, 101, false},
-     {69, 101, false}, {9, 102, false},  {49, 102, false}, {5, 103, false},  {89, 103, false},
-     {7, 104, false},  {15, 104, false}, {14, 105, false}, {64, 105, false}, {17, 106, false},
-     {27, 28, false},  {107, 108, false}});
-
 // 154 + 196 for enclosing, without head, hands and feet.
 constexpr auto kShell350Nodes = std::to_array<LayoutNode>({
     {BoneId::kRibs, {0.72, 0.00, 0.38}, 0.63, false},       // 0
@@ -1256,6 +1112,170 @@ constexpr auto kShell350Edges = std::to_array<LayoutEdge>(
      {46, 78, false}, {77, 78, false}, {34, 65, false}, {73, 76, false}, {8, 15, false},
      {17, 72, false}, {65, 66, false}, {52, 79, false}, {57, 79, false}, {17, 50, false},
      {27, 80, false}, {51, 80, false}, {20, 81, false}, {77, 81, false}, {72, 74, false}});
+
+// 240 + 260 for enclosing, with head, hands and feet.
+constexpr auto kShellFull500Nodes = std::to_array<LayoutNode>({
+    {BoneId::kChest, {0.21, 0.54, -0.13}, 0.71, true},      // 0
+    {BoneId::kHead, {0.07, 0.00, 0.06}, 0.93, false},       // 1
+    {BoneId::kChest, {0.86, 0.57, -0.22}, 0.77, true},      // 2
+    {BoneId::kForearm, {1.09, -0.01, -0.17}, 0.50, true},   // 3
+    {BoneId::kPelvis, {0.67, 0.46, -0.03}, 1.63, true},     // 4
+    {BoneId::kThigh, {0.98, -0.01, 0.04}, 0.82, true},      // 5
+    {BoneId::kHeel, {0.61, 0.10, -0.44}, 1.38, true},       // 6
+    {BoneId::kFoot, {0.96, 1.14, 0.44}, 0.69, true},        // 7
+    {BoneId::kShin, {0.36, 0.00, -0.30}, 0.89, true},       // 8
+    {BoneId::kHead, {0.70, 0.00, 0.66}, 1.21, false},       // 9
+    {BoneId::kThigh, {0.53, -0.07, 0.03}, 1.09, true},      // 10
+    {BoneId::kHead, {0.71, 0.00, 0.45}, 1.30, false},       // 11
+    {BoneId::kRibs, {0.36, 0.17, 0.22}, 0.81, true},        // 12
+    {BoneId::kForearm, {0.08, -0.00, -0.12}, 0.99, true},   // 13
+    {BoneId::kRibs, {1.08, 0.64, -0.22}, 0.80, true},       // 14
+    {BoneId::kClavicle, {0.33, -0.46, -0.12}, 1.50, true},  // 15
+    {BoneId::kBelly, {0.27, 0.00, -0.00}, 1.27, false},     // 16
+    {BoneId::kBelly, {-0.05, 0.65, 0.55}, 0.59, true},      // 17
+    {BoneId::kFoot, {0.44, -0.00, -0.47}, 1.16, true},      // 18
+    {BoneId::kHead, {0.71, 0.00, -0.45}, 1.13, false},      // 19
+    {BoneId::kHead, {0.54, 0.00, 0.17}, 1.25, false},       // 20
+    {BoneId::kHead, {0.38, 0.00, 0.10}, 1.04, false},       // 21
+    {BoneId::kHead, {0.39, 0.00, 1.19}, 0.92, false},       // 22
+    {BoneId::kHead, {0.71, 0.00, -0.20}, 1.26, false},      // 23
+    {BoneId::kFoot, {0.29, -0.03, -0.82}, 1.26, true},      // 24
+    {BoneId::kHead, {0.51, 0.00, 2.27}, 0.14, false},       // 25
+    {BoneId::kForearm, {0.37, -0.00, -0.15}, 0.98, true},   // 26
+    {BoneId::kPelvis, {0.60, 0.50, -0.25}, 0.90, true},     // 27
+    {BoneId::kHead, {0.54, 0.00, -0.29}, 1.08, false},      // 28
+    {BoneId::kThigh, {0.26, -0.13, 0.39}, 1.24, true},      // 29
+    {BoneId::kHead, {0.34, 0.00, 0.65}, 0.97, false},       // 30
+    {BoneId::kHead, {0.30, 0.00, 1.80}, 0.38, false},       // 31
+    {BoneId::kThigh, {0.98, 0.00, 0.27}, 0.72, true},       // 32
+    {BoneId::kFoot, {0.70, -0.91, -0.18}, 0.72, true},      // 33
+    {BoneId::kUpperArm, {0.26, -0.02, -0.21}, 1.14, true},  // 34
+    {BoneId::kBelly, {0.26, 0.00, 0.34}, 0.48, false},      // 35
+    {BoneId::kThigh, {0.44, -0.09, 0.47}, 1.05, true},      // 36
+    {BoneId::kFoot, {0.96, -0.92, 0.46}, 0.54, true},       // 37
+    {BoneId::kChest, {0.28, 0.00, -0.17}, 0.69, false},     // 38
+    {BoneId::kFoot, {1.07, -0.68, 0.57}, 0.46, true},       // 39
+    {BoneId::kBelly, {1.04, 0.54, 0.01}, 0.89, true},       // 40
+    {BoneId::kFoot, {0.56, 0.23, -0.30}, 1.08, true},       // 41
+    {BoneId::kFoot, {1.15, -0.07, 0.61}, 0.53, true},       // 42
+    {BoneId::kUpperArm, {0.53, -0.02, 0.20}, 0.87, true},   // 43
+    {BoneId::kShin, {0.37, 0.00, -0.11}, 0.96, true},       // 44
+    {BoneId::kThigh, {1.02, -0.00, -0.12}, 0.79, true},     // 45
+    {BoneId::kBelly, {0.46, 0.52, 0.03}, 1.12, true},       // 46
+    {BoneId::kHead, {0.57, 0.86, 0.02}, 0.55, true},        // 47
+    {BoneId::kUpperArm, {0.19, -0.02, 0.14}, 1.17, true},   // 48
+    {BoneId::kForearm, {0.41, 0.00, 0.05}, 0.97, true},     // 49
+    {BoneId::kShin, {0.90, 0.00, 0.15}, 0.53, true},        // 50
+    {BoneId::kShin, {0.32, -0.00, -0.56}, 0.75, true},      // 51
+    {BoneId::kBelly, {0.33, 0.43, 0.09}, 0.70, true},       // 52
+    {BoneId::kFoot, {0.69, 1.22, -0.37}, 0.59, true},       // 53
+    {BoneId::kFoot, {0.60, 1.29, -0.77}, 0.37, true},       // 54
+    {BoneId::kShin, {0.74, 0.01, -0.23}, 0.53, true},       // 55
+    {BoneId::kShin, {0.39, 0.00, -0.52}, 0.75, true},       // 56
+    {BoneId::kUpperArm, {0.14, -0.04, -0.07}, 1.30, true},  // 57
+    {BoneId::kThigh, {0.83, -0.03, -0.01}, 0.88, true},     // 58
+    {BoneId::kRibs, {1.35, 0.67, -0.17}, 1.15, true},       // 59
+    {BoneId::kChest, {0.18, 0.64, -0.11}, 1.54, true},      // 60
+    {BoneId::kChest, {0.70, 0.32, -0.37}, 0.92, true},      // 61
+    {BoneId::kHead, {0.62, 0.00, -0.68}, 0.86, false},      // 62
+    {BoneId::kChest, {0.84, 0.12, -0.21}, 0.59, true},      // 63
+    {BoneId::kRibs, {0.47, 0.46, -0.02}, 0.82, true},       // 64
+    {BoneId::kThigh, {0.30, -0.11, 0.20}, 1.26, true},      // 65
+    {BoneId::kClavicle, {0.98, 0.14, -0.05}, 0.80, true},   // 66
+    {BoneId::kShin, {1.80, -0.07, -0.17}, 0.61, true},      // 67
+    {BoneId::kShin, {0.81, 0.02, 0.22}, 0.43, true},        // 68
+    {BoneId::kHead, {0.71, 0.00, 0.08}, 1.32, false},       // 69
+    {BoneId::kClavicle, {0.48, -0.01, -0.18}, 1.22, true},  // 70
+    {BoneId::kPelvis, {0.94, 0.67, 0.23}, 1.39, true},      // 71
+    {BoneId::kRibs, {0.12, 0.58, -0.10}, 0.39, true},       // 72
+    {BoneId::kRibs, {1.21, 0.54, -0.11}, 1.22, true},       // 73
+    {BoneId::kUpperArm, {0.72, -0.01, 0.02}, 0.92, true},   // 74
+    {BoneId::kChest, {0.12, 0.00, -0.05}, 1.18, false},     // 75
+    {BoneId::kForearm, {0.75, 0.01, -0.05}, 0.40, true},    // 76
+    {BoneId::kHand, {0.95, -0.23, -0.59}, 0.40, true},      // 77
+    {BoneId::kHand, {0.62, -0.45, 2.59}, 0.40, true},       // 78
+    {BoneId::kHand, {0.95, -0.20, -0.04}, 0.52, true},      // 79
+    {BoneId::kFoot, {0.83, 1.25, 0.04}, 0.68, true},        // 80
+    {BoneId::kHand, {0.54, -0.16, -1.06}, 0.59, true},      // 81
+    {BoneId::kHand, {0.63, -0.17, -1.11}, 0.45, true},      // 82
+    {BoneId::kHand, {0.56, -0.15, 2.27}, 0.34, true},       // 83
+    {BoneId::kHand, {0.37, -0.09, 1.27}, 0.54, true},       // 84
+    {BoneId::kFoot, {0.81, 0.46, 0.23}, 0.87, true},        // 85
+    {BoneId::kHand, {0.34, -0.08, -0.14}, 0.81, true},      // 86
+    {BoneId::kHand, {0.74, -0.20, -1.38}, 0.21, true},      // 87
+    {BoneId::kBelly, {0.47, 0.58, -0.20}, 0.67, true},      // 88
+    {BoneId::kRibs, {0.97, 0.69, 0.46}, 0.94, true},        // 89
+    {BoneId::kHand, {0.97, -0.18, 0.78}, 0.31, true},       // 90
+    {BoneId::kBelly, {0.54, 0.00, 0.06}, 0.65, false},      // 91
+    {BoneId::kFoot, {0.61, -1.03, -0.54}, 0.55, true},      // 92
+    {BoneId::kClavicle, {0.32, -0.43, -0.18}, 1.24, true},  // 93
+    {BoneId::kThigh, {0.35, -0.10, 0.01}, 1.15, true},      // 94
+    {BoneId::kShin, {0.95, 0.02, -0.12}, 0.51, true},       // 95
+    {BoneId::kFoot, {0.10, -0.01, -0.25}, 1.33, true},      // 96
+    {BoneId::kBelly, {0.93, 0.34, 0.03}, 0.95, true},       // 97
+    {BoneId::kHand, {0.28, -0.03, 0.81}, 0.63, true},       // 98
+    {BoneId::kHead, {0.72, 0.00, 1.53}, 0.34, false},       // 99
+    {BoneId::kClavicle, {0.68, -0.38, 0.10}, 0.40, true},   // 100
+    {BoneId::kThigh, {0.50, -0.08, 0.34}, 1.12, true},      // 101
+    {BoneId::kBelly, {0.94, 0.63, -0.04}, 0.86, true},      // 102
+    {BoneId::kHand, {0.48, -0.09, 0.59}, 0.72, true},       // 103
+    {BoneId::kBelly, {0.80, 0.35, 0.17}, 0.62, true},       // 104
+    {BoneId::kPelvis, {0.70, 0.21, -0.35}, 1.28, true},     // 105
+    {BoneId::kUpperArm, {1.05, 0.00, 0.08}, 0.80, true},    // 106
+    {BoneId::kHand, {0.08, -0.01, 0.27}, 0.69, true},       // 107
+    {BoneId::kPelvis, {0.84, 0.05, -0.21}, 0.90, true},     // 108
+    {BoneId::kRibs, {0.44, 0.27, 0.08}, 0.62, true},        // 109
+    {BoneId::kRibs, {0.62, 0.13, -0.19}, 0.79, true},       // 110
+    {BoneId::kShin, {0.84, 0.01, -0.14}, 0.51, true},       // 111
+    {BoneId::kShin, {0.68, 0.01, 0.03}, 0.67, true},        // 112
+    {BoneId::kThigh, {0.87, -0.02, -0.04}, 0.86, true},     // 113
+    {BoneId::kPelvis, {0.38, -0.34, 0.48}, 0.89, true},     // 114
+    {BoneId::kThigh, {0.19, -0.18, 0.01}, 1.17, true},      // 115
+    {BoneId::kHead, {0.43, 0.00, 0.43}, 1.08, false},       // 116
+    {BoneId::kClavicle, {0.58, -0.24, -0.12}, 1.08, true},  // 117
+    {BoneId::kRibs, {0.62, 1.06, -0.25}, 0.49, true},       // 118
+    {BoneId::kThigh, {0.46, -0.08, 0.19}, 1.19, true},      // 119
+    {BoneId::kUpperArm, {0.76, -0.01, -0.16}, 0.87, true},  // 120
+    {BoneId::kThigh, {0.20, -0.42, 0.68}, 0.68, true},      // 121
+    {BoneId::kUpperArm, {0.81, -0.01, 0.11}, 0.82, true},   // 122
+    {BoneId::kForearm, {0.09, 0.00, 0.03}, 1.00, true},     // 123
+    {BoneId::kRibs, {0.15, 0.42, 0.20}, 0.56, true},        // 124
+    {BoneId::kClavicle, {0.51, 0.49, -0.32}, 0.93, true},   // 125
+    {BoneId::kClavicle, {0.96, 0.19, -0.12}, 0.81, true},   // 126
+    {BoneId::kHead, {0.43, 0.00, 0.80}, 1.07, false},       // 127
+    {BoneId::kForearm, {0.11, 0.01, 0.12}, 0.93, true},     // 128
+    {BoneId::kRibs, {0.54, 0.25, -0.01}, 1.11, true},       // 129
+    {BoneId::kThigh, {0.93, -0.04, 0.07}, 0.73, true},      // 130
+});
+constexpr auto kShellFull500Edges = std::to_array<LayoutEdge>(
+    {{1, 2, false},     {12, 16, false},   {9, 22, false},    {20, 23, false},  {22, 25, false},
+     {3, 26, false},    {13, 26, false},   {20, 30, false},   {22, 31, false},  {16, 17, false},
+     {17, 35, false},   {7, 37, false},    {33, 37, false},   {37, 39, false},  {0, 40, false},
+     {7, 42, false},    {4, 46, false},    {20, 47, false},   {45, 51, false},  {24, 53, false},
+     {44, 55, false},   {34, 57, false},   {1, 61, false},    {15, 61, true},   {28, 62, false},
+     {1, 63, false},    {52, 64, false},   {55, 56, false},   {10, 65, false},  {11, 69, false},
+     {45, 58, false},   {8, 45, false},    {54, 67, false},   {15, 73, true},   {13, 74, false},
+     {48, 74, false},   {41, 80, false},   {5, 44, false},    {76, 81, false},  {16, 72, false},
+     {21, 28, false},   {11, 20, false},   {77, 82, false},   {29, 36, false},  {78, 83, false},
+     {18, 33, false},   {57, 74, false},   {79, 84, false},   {30, 31, false},  {2, 38, false},
+     {37, 85, false},   {76, 86, false},   {77, 86, false},   {77, 87, false},  {12, 88, false},
+     {27, 88, false},   {59, 66, false},   {40, 71, false},   {79, 87, false},  {84, 90, false},
+     {71, 72, false},   {17, 46, false},   {15, 66, false},   {60, 89, false},  {67, 92, false},
+     {12, 14, true},    {65, 71, false},   {8, 32, false},    {19, 28, false},  {70, 70, true},
+     {10, 94, false},   {6, 95, false},    {18, 96, false},   {68, 96, false},  {91, 97, false},
+     {76, 98, false},   {78, 98, false},   {25, 99, false},   {37, 41, false},  {29, 101, false},
+     {32, 101, false},  {71, 97, false},   {75, 91, false},   {40, 59, false},  {46, 97, false},
+     {83, 86, false},   {17, 29, false},   {61, 70, false},   {57, 100, false}, {0, 0, true},
+     {77, 103, false},  {72, 89, false},   {88, 104, false},  {73, 73, true},   {49, 107, false},
+     {86, 107, false},  {29, 108, false},  {88, 108, false},  {59, 109, false}, {12, 110, false},
+     {14, 110, false},  {55, 111, false},  {95, 111, false},  {44, 112, false}, {50, 112, false},
+     {10, 113, false},  {27, 114, false},  {105, 114, false}, {94, 115, false}, {105, 115, false},
+     {1, 116, false},   {11, 116, false},  {48, 117, false},  {93, 117, false}, {59, 118, false},
+     {102, 118, false}, {5, 119, false},   {29, 119, false},  {13, 120, false}, {34, 120, false},
+     {27, 121, false},  {43, 122, false},  {106, 122, false}, {49, 123, false}, {60, 124, false},
+     {2, 125, false},   {57, 126, false},  {11, 127, false},  {22, 127, false}, {125, 126, false},
+     {106, 128, false}, {123, 128, false}, {17, 27, false},   {4, 121, false},  {38, 126, false},
+     {60, 129, false},  {97, 129, false},  {109, 124, false}, {5, 130, false},  {113, 130, false}});
 
 // 200 + 300 for enclosing, without head, hands and feet.
 constexpr auto kShell500Nodes = std::to_array<LayoutNode>({
