@@ -45,8 +45,14 @@ constexpr double kApart = 0.03;  // of the worst points, relative to the body's 
 }  // namespace
 
 EnclosingTask::EnclosingTask(const tighten::CoverTarget& target, bool symmetric, double tolerance_m,
-                             double spacing)
-    : EnclosingTask(ThinnedPointsOf(target, symmetric, spacing), tolerance_m) {}
+                             double spacing, std::span<const Vec3> inside_m)
+    : EnclosingTask(
+          [&] {
+            ThinnedPoints thinned = ThinnedPointsOf(target, symmetric, spacing);
+            AddPointsInside(inside_m, symmetric, thinned);
+            return thinned;
+          }(),
+          tolerance_m) {}
 
 EnclosingTask::EnclosingTask(ThinnedPoints thinned, double tolerance_m)
     : size_m_(thinned.size_m),

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/thread_pool.h"
@@ -25,8 +26,10 @@ namespace capfit::refine {
 class EnclosingTask {
  public:
   // `spacing`: between points, relative to the body's size (the square root of its surface area).
+  // `inside_m`: points that must be inside too (see PointsInside). Spheres that are much smaller
+  // than the body is thick would leave it hollow without them: that has less volume.
   EnclosingTask(const tighten::CoverTarget& target, bool symmetric, double tolerance_m,
-                double spacing);
+                double spacing, std::span<const Eigen::Vector3d> inside_m = {});
 
   // Moves and grows all spheres for the least volume, with points left out at a price that rises:
   // finds the shape of a set whose spheres are guesses. Small

@@ -57,6 +57,11 @@ constexpr double kSearched = 0.92;
 constexpr double kFillingShare = 0.75;  // of the budget, that a standard layout must use
 constexpr double kLeastExcess = 0.12;   // of the budget: a layout with less too much is passed over
 constexpr double kSparedAlone = 0.8;    // of the budget: up to so much spared, nothing is grown
+// Beyond so many primitives a set may end hollow, but for points inside the large spheres of a
+// layout of so many: of a cut body with 1000 primitives two fifths were empty. With fewer no set
+// was, and E_r is 1 to 2 % less without.
+constexpr int kLeastHollow = 500;
+constexpr int kWithinPrimitives = 128;
 constexpr double kHungShapeFound = 0.45;  // of its time, as measured
 // Between the points of the enclosing search.
 struct Spacings {
@@ -122,6 +127,17 @@ std::vector<capsule::MirroredSet> StartsOf(const body::Body& body, const RefineO
   return starts;
 }
 
+// What keeps a set of many small spheres from being hollow: none where the spheres are as thick as
+// the body.
+std::vector<Eigen::Vector3d> PointsWithin(const body::Body& body, const RefineOptions& options,
+                                          int primitives, const ThreadPool& pool) {
+  if (primitives <= kLeastHollow) return {};
+  const capsule::Budget few{kWithinPrimitives, capsule::kNoLimit, capsule::kNoLimit};
+  const std::vector<capsule::MirroredSet> graphs =
+      StartingGraphs(FitKind::kEnclose, body, options.parts, few, {.most_spared = 0}, pool);
+  return PointsInside(graphs.front().spheres());
+}
+
 }  // namespace
 
 capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverTarget& target,
@@ -129,6 +145,7 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
                                    WorkMeter& meter) {
   const int primitives = options.budget.UsualPrimitives();
   const Spacings spacings = SpacingsFor(primitives);
+  const std::vector<Eigen::Vector3d> inside_m = PointsWithin(body, options, primitives, pool);
   // Each thins the points out on one thread, for some milliseconds on large meshes.
   std::optional<EnclosingTask> usual, fine, rough;
   const std::array task_of = {std::pair(&usual, spacings.usual), std::pair(&fine, spacings.fine),
@@ -140,7 +157,7 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
       return;
     }
     const auto& [task, spacing] = task_of[i - 1];
-    task->emplace(target, body.is_symmetric, options.tolerance_m, spacing);
+    task->emplace(target, body.is_symmetric, options.tolerance_m, spacing, inside_m);
   });
   const RenewalPlan plan = RenewalsFor(options.thorough, primitives);
   std::vector<capsule::MirroredSet> graphs = FindEnclosingGraphs(

@@ -10,10 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/formats/read_mesh.h"
 #include "core/geometry/tapered_capsule.h"
 #include "core/mannequin/mannequin.h"
 #include "core/pipeline/engines.h"
 #include "core/pipeline/fit.h"
+#include "tests/support/bodies.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -51,6 +53,19 @@ double FurthestVertexOut(const formats::PolygonSoup& soup, const FitResult& resu
     furthest = std::max(furthest, nearest);
   }
   return furthest;
+}
+
+// Spheres that are much smaller than the trunk is thick could enclose it with less volume if they
+// left it hollow.
+TEST(TightQuality, ManySmallSpheresLeaveNoHollow) {
+  CAPFIT_REQUIRE_BODIES();
+  const std::string bytes = test_support::ReadFile(test_support::BodiesFolder() /
+                                                   "male_muscular_tpose_no_hands_feet_head.obj");
+  const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)));
+  ASSERT_TRUE(soup.ok()) << soup.status();
+  const FitResult result = MustFit(*soup, Of(Quality::kTight, FitMode::kEnclose, 800));
+  EXPECT_LT(result.metrics.uncovered, 0.002);
+  EXPECT_LT(result.metrics.E_r, 0.1);
 }
 
 // Over real bodies an eighth less at 64 primitives and a fifth at 128 (medians).

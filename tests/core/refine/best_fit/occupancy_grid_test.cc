@@ -83,7 +83,7 @@ TEST_P(OccupancyGridTest, PartsLeftOutCostNothingToFillAndNothingToLeave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Folding, OccupancyGridTest, testing::Bool(),
-                         [](const auto& info) { return info.param ? "Folded" : "Whole"; });
+                         [](const auto& test) { return test.param ? "Folded" : "Whole"; });
 
 }  // namespace
 }  // namespace capfit::refine
