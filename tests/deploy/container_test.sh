@@ -18,7 +18,7 @@ bytes=$("$engine" image inspect --format '{{.Size}}' capfit-test)
 [ "$("$engine" image inspect --format '{{.Config.User}}' capfit-test)" = 65534:65534 ] || fail "it runs as root"
 
 # There may be none to remove.
-cleanup() { "$engine" rm -f capfit-test-server >/dev/null 2>&1 || true; }
+cleanup() { "$engine" rm -f capfit-test-server >/dev/null 2>&1 || true; }  # or there is none
 trap cleanup EXIT
 cleanup
 limits=(--read-only --cap-drop ALL --security-opt no-new-privileges ${run_more[@]+"${run_more[@]}"})

@@ -57,12 +57,13 @@ constexpr double kSearched = 0.92;
 constexpr double kFillingShare = 0.75;  // of the budget, that a standard layout must use
 constexpr double kLeastExcess = 0.12;   // of the budget: a layout with less too much is passed over
 constexpr double kSparedAlone = 0.8;    // of the budget: up to so much spared, nothing is grown
-// Beyond so many primitives a set may end hollow, but for points inside the large spheres of a
-// layout of so many: of a cut body with 1000 primitives two fifths were empty. With fewer no set
-// was, and E_r is 1 to 2 % less without.
+// Beyond the largest layout, of so many primitives, sets are grown and not what is left of a solid
+// one: they may end hollow, but for points inside the large spheres of a layout of so many. (Of a
+// cut body with 1000 primitives two fifths were empty.) Up to it E_r is 1 to 2 % less without.
 constexpr int kLeastHollow = 500;
 constexpr int kWithinPrimitives = 128;
 constexpr double kHungShapeFound = 0.45;  // of its time, as measured
+
 // Between the points of the enclosing search.
 struct Spacings {
   double rough;  // for its starts, much of which is given up again
