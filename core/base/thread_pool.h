@@ -27,11 +27,17 @@ class ThreadPool {
 
   // Calls body(begin, end) over fixed chunks of `chunk` indices that cover [0, count): the chunks
   // are the same for any number of threads. For loops whose single step is too small to be a task.
+  // Each thread begins with a part of its own, the same for equal counts and chunks.
   void ForChunks(std::size_t count, std::size_t chunk,
                  const std::function<void(std::size_t begin, std::size_t end)>& body) const;
 
  private:
   struct Arena;
+
+  // Calls run(number of the thread, from 0) `count` times.
+  template <typename Run>
+  void RunSideBySide(std::size_t count, const Run& run) const;
+
   std::unique_ptr<Arena> arena_;
   int threads_;
 };

@@ -177,7 +177,7 @@ class TriangleSorter {
   void ForShares(std::span<const std::uint32_t> lowest, const Visit& visit) const {
     const auto most = static_cast<std::size_t>(std::min(kMostShares, pool_.threads()));
     const std::size_t shares = std::clamp<std::size_t>(rank_.size() / kLeastShare, 1, most);
-    pool_.ForEach(shares, [&](std::size_t share) {
+    pool_.ForChunks(shares, 1, [&](std::size_t share, std::size_t) {
       const auto begin = static_cast<std::uint32_t>(rank_.size() * share / shares);
       const auto end = static_cast<std::uint32_t>(rank_.size() * (share + 1) / shares);
       for (std::size_t i = 0; i < lowest.size(); ++i) {

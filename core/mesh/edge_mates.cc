@@ -60,7 +60,7 @@ class MateFinder {
     if (observer.IsCancelled()) return {};
     Deal();
     if (observer.IsCancelled()) return {};
-    pool_.ForEach(drawer_count_, [this](std::size_t d) { PairWithin(d); });
+    pool_.ForChunks(drawer_count_, 1, [this](std::size_t d, std::size_t) { PairWithin(d); });
     EdgeMates mates;
     mates.mate = std::move(mate_);
     for (const EdgeMates& drawer : drawers_) {
