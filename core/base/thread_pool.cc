@@ -107,8 +107,7 @@ void ThreadPool::ForEach(std::size_t count, const std::function<void(std::size_t
   // Begun in order, whichever of oneTBB's tasks comes to run: where the longest come first, the
   // last ones are short, and no thread is left alone with a long one.
   std::atomic<std::size_t> next = 0;
-  RunSideBySide(count,
-                [&](std::size_t) { body(next.fetch_add(1, std::memory_order_relaxed)); });
+  RunSideBySide(count, [&](std::size_t) { body(next.fetch_add(1, std::memory_order_relaxed)); });
 }
 
 void ThreadPool::ForChunks(std::size_t count, std::size_t chunk,

@@ -234,36 +234,6 @@ class TriangleSorter {
   std::vector<TriangleCorner> gone_to_;
 };
 
-struct Moment {
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  double six_volumes = 0.0;
-
-  Moment& operator+=(const Moment& other) {
-    moment += other.moment;
-    six_volumes += other.six_volumes;
-    return *this;
-  }
-};
-
-// Of the volume, in the mesh's frame.
-Eigen::Vector3d CentroidOf(const mesh::BodyMesh& mesh, const ThreadPool& pool) {
-  const Eigen::Vector3d middle = 0.5 * (mesh.box_min() + mesh.box_max());
-  const auto part = [&](std::size_t begin, std::size_t end) {
-    Moment sum;
-    for (const mesh::Triangle& t : mesh.triangles().subspan(begin, end - begin)) {
-      const Eigen::Vector3d a = mesh.vertices()[t[0]] - middle;
-      const Eigen::Vector3d b = mesh.vertices()[t[1]] - middle;
-      const Eigen::Vector3d c = mesh.vertices()[t[2]] - middle;
-      const double wedge = a.dot(b.cross(c));
-      sum.six_volumes += wedge;
-      sum.moment += wedge * (a + b + c) / 4.0;
-    }
-    return sum;
-  };
-  const Moment total = SumOverChunks(pool, mesh.triangles().size(), Moment{}, part);
-  return middle + total.moment / total.six_volumes;
-}
-
 // Adds up term(point).
 template <typename Sum, typename Term>
 Sum SumOf(std::span<const Eigen::Vector3d> points, const ThreadPool& pool, const Sum& zero,
@@ -307,7 +277,7 @@ Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points, const Thr
 WorkingCopy MakeWorkingCopy(const mesh::BodyMesh& mesh, const ThreadPool& pool,
                             const FitObserver& observer) {
   WorkingCopy copy;
-  copy.centroid = CentroidOf(mesh, pool);
+  copy.centroid = mesh.centroid();
   copy.unit = std::sqrt(mesh.area());
   const std::size_t count = mesh.vertices().size();
   std::vector<Eigen::Vector3d> points(count);

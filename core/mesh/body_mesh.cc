@@ -25,11 +25,13 @@ struct Box {
 
 struct Measures {
   double volume = 0.0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // of the volume
   double area = 0.0;
   double least_triangle_area = std::numeric_limits<double>::infinity();
 
   Measures& operator+=(const Measures& other) {
     volume += other.volume;
+    moment += other.moment;
     area += other.area;
     least_triangle_area = std::min(least_triangle_area, other.least_triangle_area);
     return *this;
@@ -68,12 +70,14 @@ void BodyMesh::Measure(const ThreadPool& pool) {
       const Eigen::Vector3d b = vertices_[t[1]] - middle;
       const Eigen::Vector3d c = vertices_[t[2]] - middle;
       const double area = (b - a).cross(c - a).norm() / 2.0;
-      sum += {SignedVolume(a, b, c), area, area};
+      const double volume = SignedVolume(a, b, c);
+      sum += {volume, volume * (a + b + c) / 4.0, area, area};
     }
     return sum;
   };
   const Measures measures = SumOverChunks(pool, triangles_.size(), Measures{}, part);
   volume_ = measures.volume;
+  centroid_ = middle + measures.moment / measures.volume;
   area_ = measures.area;
   least_triangle_area_ = measures.least_triangle_area;
 }

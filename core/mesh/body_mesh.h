@@ -40,7 +40,8 @@ class BodyMesh {
   std::span<const std::int32_t> vertex_of_source() && = delete;
 
   [[nodiscard]] double volume() const { return volume_; }  // cube of the mesh's unit, > 0
-  [[nodiscard]] double area() const { return area_; }      // square of the mesh's unit
+  [[nodiscard]] const Eigen::Vector3d& centroid() const { return centroid_; }  // of the volume
+  [[nodiscard]] double area() const { return area_; }  // square of the mesh's unit
   [[nodiscard]] double least_triangle_area() const { return least_triangle_area_; }
   [[nodiscard]] const Eigen::Vector3d& box_min() const { return box_min_; }
   [[nodiscard]] const Eigen::Vector3d& box_max() const { return box_max_; }
@@ -57,6 +58,7 @@ class BodyMesh {
   std::vector<std::int32_t> vertex_of_source_;
   std::vector<HalfEdge> mates_;
   double volume_ = 0.0;
+  Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
   double area_ = 0.0;
   double least_triangle_area_ = 0.0;
   Eigen::Vector3d box_min_ = Eigen::Vector3d::Zero();

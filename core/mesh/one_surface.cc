@@ -1,7 +1,6 @@
 #include "core/mesh/one_surface.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -37,16 +36,13 @@ std::optional<std::vector<std::uint32_t>> LowestInRings(std::span<const Triangle
                                                         std::span<const HalfEdge> mates,
                                                         std::size_t vertex_count,
                                                         const ThreadPool& pool) {
-  // One of each vertex, whichever: a ring is the same from all of its corners.
+  // One of each vertex, whichever: a ring is the same from all of its corners. By one thread: two
+  // that write all over the same array take three times as long as one.
   std::vector<HalfEdge> corner(vertex_count, kNoMate);
-  pool.ForChunks(triangles.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    auto h = static_cast<HalfEdge>(3 * begin);
-    for (const Triangle& t : triangles.subspan(begin, end - begin)) {
-      for (const std::uint32_t v : t) {
-        std::atomic_ref(corner[v]).store(h++, std::memory_order_relaxed);
-      }
-    }
-  });
+  HalfEdge h = 0;
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t) corner[v] = h++;
+  }
   std::vector<std::uint32_t> lowest_around(vertex_count);
   const auto walk = [&](std::size_t begin, std::size_t end) {
     std::size_t corners = 0;

@@ -25,13 +25,17 @@ class FaceTriangulator {
  public:
   FaceTriangulator(const formats::PolygonSoup& soup, std::span<const Eigen::Vector3d> positions,
                    const ThreadPool& pool)
-      : soup_(soup), positions_(positions), pool_(pool) {
-    if (!soup.face_sizes.empty()) result_.triangles.reserve(soup.face_vertices.size() / 3);
-  }
+      : soup_(soup), positions_(positions), pool_(pool) {}
 
   TriangulatedFaces Run() {
     const std::span<const std::uint32_t> corners = soup_.face_vertices;
-    if (soup_.face_sizes.empty()) TakeTriangles();
+    const bool has_triangles_only =
+        std::ranges::all_of(soup_.face_sizes, [](std::uint32_t size) { return size == 3; });
+    if (has_triangles_only) {
+      TakeTriangles();
+      return std::move(result_);
+    }
+    result_.triangles.reserve(corners.size() / 3);
     unfolds_ = kManyFolded * CountFolded() > soup_.face_sizes.size();
     std::size_t first = 0;
     for (const std::uint32_t size : soup_.face_sizes) {
