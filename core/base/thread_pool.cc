@@ -86,6 +86,10 @@ ThreadPool::ThreadPool(int threads)
 
 ThreadPool::~ThreadPool() = default;
 
+bool ThreadPool::Helps(std::size_t count) const {
+  return count > 1 && threads_ > 1 && jobs_.load(std::memory_order_relaxed) < threads_;
+}
+
 template <typename Run>
 void ThreadPool::RunSideBySide(std::size_t count, const Run& run) const {
 #ifdef CAPFIT_POOL_OF_STD_THREADS
@@ -100,7 +104,7 @@ void ThreadPool::RunSideBySide(std::size_t count, const Run& run) const {
 }
 
 void ThreadPool::ForEach(std::size_t count, const std::function<void(std::size_t)>& body) const {
-  if (threads_ == 1 || count <= 1) {
+  if (!Helps(count)) {
     for (std::size_t i = 0; i < count; ++i) body(i);
     return;
   }
@@ -116,7 +120,7 @@ void ThreadPool::ForChunks(std::size_t count, std::size_t chunk,
   const auto run = [&](std::size_t index) {
     body(index * chunk, std::min(count, (index + 1) * chunk));
   };
-  if (threads_ == 1 || chunks <= 1) {
+  if (!Helps(chunks)) {
     for (std::size_t i = 0; i < chunks; ++i) run(i);
     return;
   }

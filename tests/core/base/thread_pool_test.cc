@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -53,6 +54,40 @@ TEST_P(ThreadPoolTest, NothingToDoIsFine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, ThreadPoolTest, testing::Values(1, 2, 7));
+
+// Whether both turns of a loop are taken at the same time, each waiting for the other.
+bool HelpComes(const ThreadPool& pool) {
+  std::atomic<int> there = 0;
+  std::atomic<bool> met = false;
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  pool.ForEach(2, [&](std::size_t i) {
+    ++there;
+    while (i == 0 && !met && std::chrono::steady_clock::now() < until) met = there == 2;
+  });
+  return met;
+}
+
+TEST(ThreadPool, OthersHelpWhileThereAreFewerJobsThanThreads) {
+  const ThreadPool pool(2);
+  EXPECT_TRUE(HelpComes(pool));
+  const ThreadPool::Job job(pool);
+  EXPECT_TRUE(HelpComes(pool));
+}
+
+TEST(ThreadPool, WithAJobForEachThreadLoopsStayWithTheirCallers) {
+  const ThreadPool pool(2);
+  {
+    const ThreadPool::Job first(pool);
+    const ThreadPool::Job second(pool);
+    std::vector<std::thread::id> threads(100);
+    pool.ForEach(100, [&](std::size_t i) { threads[i] = std::this_thread::get_id(); });
+    EXPECT_EQ(threads, std::vector(100, std::this_thread::get_id()));
+    std::vector<std::size_t> begun;
+    pool.ForChunks(10, 3, [&](std::size_t begin, std::size_t) { begun.push_back(begin); });
+    EXPECT_EQ(begun, (std::vector<std::size_t>{0, 3, 6, 9}));
+  }
+  EXPECT_TRUE(HelpComes(pool));
+}
 
 TEST(ThreadPool, ZeroMeansOnePerCore) { EXPECT_GE(ThreadPool(0).threads(), 1); }
 
