@@ -13,9 +13,9 @@
 
 namespace capfit::server {
 
-// Runs jobs in the order of FitQueue. Each job may use the whole ThreadPool; more than one at a
-// time keeps the cores busy while another is in a serial stretch. Where there are two threads or
-// more, long fits never take the last one.
+// Runs jobs in the order of FitQueue. Jobs share the ThreadPool (ThreadPool::Job): one alone has
+// all of it, as many as it has threads have one each, which serves the most bodies a second. Where
+// there are two threads or more, long fits never take the last one.
 class FitExecutor {
  public:
   using Ticket = FitQueue::Ticket;
