@@ -156,10 +156,11 @@ class Coarsener {
       std::size_t kept = 0;
       for (std::size_t i = begin; i < end; ++i) {
         const mesh::Triangle t = NodesOf(i);
-        const bool is_kept = (t[0] != t[1]) & (t[1] != t[2]) & (t[2] != t[0]);
-        place_[i] = is_kept ? 0 : kNone;
+        const std::size_t is_kept =
+            std::size_t{t[0] != t[1]} & std::size_t{t[1] != t[2]} & std::size_t{t[2] != t[0]};
+        place_[i] = is_kept != 0 ? 0 : kNone;
         own[kept] = static_cast<std::uint32_t>(i);
-        kept += is_kept ? 1 : 0;
+        kept += is_kept;
       }
       own.resize(kept);
     });

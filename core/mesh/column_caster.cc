@@ -68,7 +68,7 @@ class TriangleCaster {
                            std::min({a.column, b.column, c.column}),
                            std::max({a.column, b.column, c.column})};
       ranges[count] = range;
-      count += (range.low_row < range.high_row) & (range.left < range.right) ? 1 : 0;
+      count += ((range.low_row < range.high_row) & (range.left < range.right)) ? 1 : 0;
     }
     Crossings found;
     for (std::size_t i = 0; i < count; ++i) {
@@ -139,7 +139,7 @@ class TriangleCaster {
       const double x = grid_.x[i];
       found.list[found.count] = {row, static_cast<std::uint32_t>(i), range.triangle,
                                  faces_up ? -1 : 1, left.along + slope * (x - left.x)};
-      found.count += (left.x <= x) & (x < right.x) ? 1 : 0;
+      found.count += ((left.x <= x) & (x < right.x)) ? 1 : 0;
     }
   }
 

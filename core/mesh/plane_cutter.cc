@@ -92,7 +92,7 @@ void PlaneCutter::CutGroup(std::size_t group, const Eigen::Vector3d& origin,
     const std::array<double, 3> heights = {height(t[0]), height(t[1]), height(t[2])};
     const std::size_t above = CornersAbove(heights);
     passed[count] = {i, above, heights};
-    count += (above != 0) & (above != 7) ? 1 : 0;
+    count += ((above != 0) & (above != 7)) ? 1 : 0;
   }
   for (std::size_t i = 0; i < count; ++i) {
     CutPassedTriangle(points_, triangles_[passed[i].triangle], passed[i].heights, passed[i].above,

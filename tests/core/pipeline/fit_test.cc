@@ -6,6 +6,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/formats/read_mesh.h"
@@ -130,6 +131,29 @@ TEST(Fit, SameBitsForAnyNumberOfThreads) {
   const FitResult one = FitOrDie(soup, options, 1);
   ExpectSameBits(one, FitOrDie(soup, options, 2));
   ExpectSameBits(one, FitOrDie(soup, options, 7));
+}
+
+// With more fits than threads, then as many, then one: loops stay with their callers, or do not.
+TEST(Fit, SameBitsSideBySideOnOnePool) {
+  const formats::PolygonSoup soup = Mannequin();
+  const FitOptions options = AllParts(64);
+  const FitResult alone = FitOrDie(soup, options, 1);
+  const ThreadPool pool(2);
+  std::vector<absl::StatusOr<FitResult>> results(6, absl::UnknownError("not begun"));
+  std::vector<std::thread> callers;
+  for (std::size_t caller = 0; caller < 3; ++caller) {
+    callers.emplace_back([&, caller] {
+      for (std::size_t i = 0; i <= caller; ++i) {
+        NullObserver observer;
+        results[caller * (caller + 1) / 2 + i] = Fit(soup, options, pool, observer);
+      }
+    });
+  }
+  for (std::thread& caller : callers) caller.join();
+  for (const absl::StatusOr<FitResult>& result : results) {
+    ASSERT_TRUE(result.ok()) << result.status();
+    ExpectSameBits(alone, *result);
+  }
 }
 
 struct Copy {
