@@ -34,7 +34,7 @@ class ThreadPool {
 
   // While it lives, its thread computes one of several jobs that share the pool, such as one fit of
   // a server's. Where there are as many jobs as threads, loops stay on the threads that call them:
-  // no core waits for another, and all jobs together get done a third sooner.
+  // no core waits for another, and all jobs together are done sooner.
   class Job {
    public:
     explicit Job(const ThreadPool& pool) : jobs_(pool.jobs_) { ++jobs_; }

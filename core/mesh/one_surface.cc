@@ -37,7 +37,7 @@ std::optional<std::vector<std::uint32_t>> LowestInRings(std::span<const Triangle
                                                         std::size_t vertex_count,
                                                         const ThreadPool& pool) {
   // One of each vertex, whichever: a ring is the same from all of its corners. By one thread: two
-  // that write all over the same array take three times as long as one.
+  // that write all over the same array are slower than one.
   std::vector<HalfEdge> corner(vertex_count, kNoMate);
   HalfEdge h = 0;
   for (const Triangle& t : triangles) {

@@ -10,7 +10,6 @@ build=$1 cmake=$2 in_tree=$3
 scratch=$(mktemp -d)
 server_pid=
 cleanup() {
-  # It may have ended by itself.
   [ -z "$server_pid" ] || kill -KILL "$server_pid" 2>/dev/null || true  # or it has ended
   rm -rf "$scratch"
 }

@@ -17,7 +17,6 @@ bytes=$("$engine" image inspect --format '{{.Size}}' capfit-test)
 [ "$bytes" -le 200000000 ] || fail "the image has $bytes bytes"
 [ "$("$engine" image inspect --format '{{.Config.User}}' capfit-test)" = 65534:65534 ] || fail "it runs as root"
 
-# There may be none to remove.
 cleanup() { "$engine" rm -f capfit-test-server >/dev/null 2>&1 || true; }  # or there is none
 trap cleanup EXIT
 cleanup

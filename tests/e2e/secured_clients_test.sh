@@ -20,7 +20,6 @@ esac
 scratch=$(mktemp -d)
 server_pid=
 cleanup() {
-  # It may have ended by itself.
   [ -z "$server_pid" ] || { kill -KILL "$server_pid" 2>/dev/null || true; }  # or it has ended
   rm -rf "$scratch"
 }

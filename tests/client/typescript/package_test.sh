@@ -26,7 +26,6 @@ install=(npm install --silent --no-audit --no-fund --no-package-lock --ignore-sc
 scratch=$(mktemp -d)
 server_pid=
 cleanup() {
-  # It may have ended by itself.
   [ -z "$server_pid" ] || kill -KILL "$server_pid" 2>/dev/null || true  # or it has ended
   rm -rf "$scratch"
 }
