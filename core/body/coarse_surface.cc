@@ -41,6 +41,8 @@ class NodeGatherer {
   NodeGatherer(const WorkingCopy& copy, std::size_t begin, std::size_t end,
                std::vector<std::uint32_t>& node)
       : copy_(copy),
+        triangles_(copy.mesh.triangles()),
+        first_triangle_(copy.mesh.first_triangle()),
         begin_(static_cast<std::uint32_t>(begin)),
         end_(static_cast<std::uint32_t>(end)),
         most_((copy.points.size() + kNodes - 1) / kNodes),
@@ -60,8 +62,8 @@ class NodeGatherer {
   // come after it and share an edge with it.
   template <typename Visit>
   void VisitNext(std::uint32_t v, const Visit& visit) const {
-    for (std::uint32_t t = copy_.first_triangle[v]; t < copy_.first_triangle[v + 1]; ++t) {
-      const std::uint32_t n = copy_.triangles[t][1];
+    for (std::uint32_t t = first_triangle_[v]; t < first_triangle_[v + 1]; ++t) {
+      const std::uint32_t n = triangles_[t][1];
       if (n < end_) visit(n);
     }
   }
@@ -99,6 +101,8 @@ class NodeGatherer {
   }
 
   const WorkingCopy& copy_;
+  std::span<const mesh::Triangle> triangles_;
+  std::span<const std::uint32_t> first_triangle_;
   std::uint32_t begin_;
   std::uint32_t end_;
   std::size_t most_;
@@ -109,7 +113,12 @@ class NodeGatherer {
 
 class Coarsener {
  public:
-  Coarsener(const WorkingCopy& copy, const ThreadPool& pool) : copy_(copy), pool_(pool) {}
+  Coarsener(const WorkingCopy& copy, const ThreadPool& pool)
+      : copy_(copy),
+        triangles_(copy.mesh.triangles()),
+        mates_(copy.mesh.mates()),
+        first_triangle_(copy.mesh.first_triangle()),
+        pool_(pool) {}
 
   CoarseSurface Run() {
     NumberNodes();
@@ -142,12 +151,12 @@ class Coarsener {
   }
 
   [[nodiscard]] mesh::Triangle NodesOf(std::size_t triangle) const {
-    const mesh::Triangle& t = copy_.triangles[triangle];
+    const mesh::Triangle& t = triangles_[triangle];
     return {node_[t[0]], node_[t[1]], node_[t[2]]};
   }
 
   void ChooseTriangles() {
-    const std::size_t count = copy_.triangles.size();
+    const std::size_t count = triangles_.size();
     place_.resize(count);
     std::vector<std::vector<std::uint32_t>> chosen((count + kMeshChunk - 1) / kMeshChunk);
     pool_.ForChunks(count, kMeshChunk, [&](std::size_t begin, std::size_t end) {
@@ -181,7 +190,7 @@ class Coarsener {
     if (std::find(joins.begin(), joins.end(), kNone) == joins.end()) return;
     for (std::uint32_t v = 0; v < node_.size(); ++v) {
       if (joins[node_[v]] != kNone) continue;
-      for (std::uint32_t i = copy_.first_triangle[v]; i < copy_.first_triangle[v + 1]; ++i) {
+      for (std::uint32_t i = first_triangle_[v]; i < first_triangle_[v + 1]; ++i) {
         for (const std::uint32_t n : NodesOf(i)) {
           if (joins[n] != kNone) joins[node_[v]] = joins[n];
         }
@@ -228,12 +237,12 @@ class Coarsener {
   // Where the way over half-edge `h` of a kept triangle arrives, through triangles that shrank to
   // the edge.
   [[nodiscard]] mesh::HalfEdge Across(mesh::HalfEdge h) const {
-    for (mesh::HalfEdge at = copy_.mates[h];;) {
+    for (mesh::HalfEdge at = mates_[h];;) {
       if (place_[at / 3] != kNone) return 3 * place_[at / 3] + at % 3;
       const mesh::HalfEdge before = mesh::PreviousInTriangle(at);
-      const std::uint32_t third = node_[mesh::StartOf(copy_.triangles, before)];
-      const bool is_at_start = third == node_[mesh::StartOf(copy_.triangles, at)];
-      at = copy_.mates[is_at_start ? mesh::NextInTriangle(at) : before];
+      const std::uint32_t third = node_[mesh::StartOf(triangles_, before)];
+      const bool is_at_start = third == node_[mesh::StartOf(triangles_, at)];
+      at = mates_[is_at_start ? mesh::NextInTriangle(at) : before];
     }
   }
 
@@ -252,6 +261,9 @@ class Coarsener {
   }
 
   const WorkingCopy& copy_;
+  std::span<const mesh::Triangle> triangles_;
+  std::span<const mesh::HalfEdge> mates_;
+  std::span<const std::uint32_t> first_triangle_;
   const ThreadPool& pool_;
   CoarseSurface coarse_;
   std::uint32_t node_count_ = 0;
@@ -263,8 +275,8 @@ class Coarsener {
 CoarseSurface AsItIs(const WorkingCopy& copy) {
   CoarseSurface same;
   same.points = copy.points;
-  same.triangles = copy.triangles;
-  same.mates = copy.mates;
+  same.triangles.assign(copy.mesh.triangles().begin(), copy.mesh.triangles().end());
+  same.mates.assign(copy.mesh.mates().begin(), copy.mesh.mates().end());
   same.vertices.resize(copy.points.size());
   std::iota(same.vertices.begin(), same.vertices.end(), 0u);
   same.first.resize(copy.points.size() + 1);

@@ -19,9 +19,9 @@
 #include "core/body/rig_ends.h"
 #include "core/body/shape.h"
 #include "core/body/skeleton_names.h"
-#include "core/body/snap.h"
 #include "core/body/surface_graph.h"
 #include "core/body/working_copy.h"
+#include "core/geometry/snap.h"
 #include "core/mesh/surface_sums.h"
 
 namespace capfit::body {
@@ -95,8 +95,8 @@ void TurnToToldSides(const BodyOptions& options, const Found& found, IntrinsicFr
     if (is_rig_told) break;  // crossed limbs say less than shoulders and hips
     if (MirrorLandmark(id) == id) continue;
     const bool is_left = id < MirrorLandmark(id);
-    agreement +=
-        (is_left ? 1.0 : -1.0) * (frame.left.dot(copy.FromMesh(position)) - frame.plane_offset);
+    agreement += (is_left ? 1.0 : -1.0) *
+                 (frame.left.dot(copy.frame.FromMesh(position)) - frame.plane_offset);
   }
   if (agreement < 0.0) frame = TurnedAbout(frame);
   if (is_rig_told) NameLimbs(found.extremities, frame);
@@ -116,7 +116,7 @@ double StatureWithoutLegs(const Extremities& extremities) {
 
 double VolumeOf(const WorkingCopy& copy) {
   double volume = 0.0;
-  for (const mesh::Triangle& t : copy.triangles) {
+  for (const mesh::Triangle& t : copy.mesh.triangles()) {
     volume += mesh::SignedVolume(copy.points[t[0]], copy.points[t[1]], copy.points[t[2]]);
   }
   return std::abs(volume);
@@ -174,10 +174,10 @@ absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const Work
   const auto [low, high] = SumOverChunks(pool, copy.points.size(), Extent{}, extent_of);
   const bool has_legs = extremities.limb(Tip::kFootA) || extremities.limb(Tip::kFootB);
   const double stature =
-      std::max(has_legs ? 0.0 : StatureWithoutLegs(extremities), high - low) * copy.unit;
+      std::max(has_legs ? 0.0 : StatureWithoutLegs(extremities), high - low) * copy.frame.unit;
   CAPFIT_ASSIGN_OR_RETURN(const LengthUnit unit, ChooseUnit(options.unit, stature));
   if (options.unit != Unit::kAuto) {
-    const double volume = VolumeOf(copy) * copy.unit * copy.unit * copy.unit;
+    const double volume = VolumeOf(copy) * copy.frame.unit * copy.frame.unit * copy.frame.unit;
     if (auto warning = JudgeToldUnit(unit, stature, volume)) warnings.push_back(*warning);
   }
   if (unit.unit != Unit::kMetre && options.unit == Unit::kAuto) {
@@ -188,44 +188,34 @@ absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const Work
          0});
   }
   WaysToBody ways;
-  ways.stature_m = Snap(stature * unit.metres, kFineGrid);
+  ways.stature_m = geometry::Snap(stature * unit.metres, geometry::kFineGrid);
   ways.from_copy.rotation.row(0) = frame.left;
   ways.from_copy.rotation.row(1) = frame.up;
   ways.from_copy.rotation.row(2) = frame.forward;
-  ways.from_copy.scale = Snap(copy.unit * unit.metres, kFineGrid);
+  ways.from_copy.scale = geometry::Snap(copy.frame.unit * unit.metres, geometry::kFineGrid);
   ways.from_copy.translation =
       -ways.from_copy.scale * Eigen::Vector3d(frame.plane_offset, low, 0.0);
-  ways.from_caller.rotation = ways.from_copy.rotation * copy.axes;
+  ways.from_caller.rotation = ways.from_copy.rotation * copy.frame.axes;
   ways.from_caller.scale = unit.metres;
   ways.from_caller.translation =
-      ways.from_copy.translation - unit.metres * (ways.from_caller.rotation * copy.centroid);
+      ways.from_copy.translation - unit.metres * (ways.from_caller.rotation * copy.frame.centroid);
   return ways;
 }
 
-// In the order of the working copy: every room that follows gets the same numbers in the same
-// order, whatever file and frame the body came in.
-mesh::BodyMesh MeshInBodyFrame(const mesh::BodyMesh& mesh, WorkingCopy copy,
-                               const geometry::Similarity& body_from_copy, const ThreadPool& pool) {
+// Every room that follows gets the same numbers in the same order, whatever file and frame the body
+// came in.
+mesh::BodyMesh MeshInBodyFrame(const WorkingCopy& copy, const geometry::Similarity& body_from_copy,
+                               const ThreadPool& pool) {
   std::vector<Eigen::Vector3d> vertices(copy.points.size());
-  std::vector<std::int32_t> place(copy.points.size());
   pool.ForChunks(vertices.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      vertices[i] = body_from_copy.Apply(copy.points[i]);
-      place[copy.mesh_vertex[i]] = static_cast<std::int32_t>(i);
-    }
+    for (std::size_t i = begin; i < end; ++i) vertices[i] = body_from_copy.Apply(copy.points[i]);
   });
-  std::vector<std::int32_t> vertex_of_source(mesh.vertex_of_source().size());
-  for (std::size_t i = 0; i < vertex_of_source.size(); ++i) {
-    const std::int32_t v = mesh.vertex_of_source()[i];
-    vertex_of_source[i] = v < 0 ? -1 : place[v];
-  }
-  return mesh::BodyMesh(std::move(vertices), std::move(copy.triangles), std::move(vertex_of_source),
-                        std::move(copy.mates), pool);
+  return copy.mesh.WithVertices(std::move(vertices), pool);
 }
 
 // The caller's axis, with its sign, that is nearest to a direction of the working copy: "-z".
 std::string NearestAxis(const WorkingCopy& copy, const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d in_mesh = copy.axes.transpose() * direction;
+  const Eigen::Vector3d in_mesh = copy.frame.axes.transpose() * direction;
   Eigen::Index axis = 0;
   in_mesh.cwiseAbs().maxCoeff(&axis);
   return std::string(in_mesh[axis] < 0.0 ? "-" : "") + "xyz"[axis];
@@ -244,7 +234,8 @@ absl::StatusOr<IntrinsicFrame> FrameWithTold(const Eigen::Vector3d& told, const 
                                              const ThreadPool& pool,
                                              std::vector<Warning>& warnings) {
   const WorkingCopy& copy = found.copy;
-  const Eigen::Vector3d up = Snap(copy.axes * told, kFineGrid).normalized();
+  const Eigen::Vector3d up =
+      geometry::Snap(copy.frame.axes * told, geometry::kFineGrid).normalized();
   IntrinsicFrame own = FrameOf(found, std::nullopt, pool);
   const double cosine = own.up.dot(up);
   const std::string axis = NearestAxis(copy, up);
@@ -314,7 +305,7 @@ absl::Status SearchSurface(const ThreadPool& pool, const FitObserver& observer, 
 absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& options,
                               const ThreadPool& pool, const FitObserver& observer) {
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-  WorkingCopy copy = MakeWorkingCopy(mesh, pool, observer);
+  const WorkingCopy copy = MakeWorkingCopy(mesh, pool, observer);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   Found found = {copy, MakeCoarseSurface(copy, pool), ReadRig(options.skeleton), {}, {}, {}, {}};
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
@@ -329,8 +320,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                         "front and back look alike; a left or right landmark would tell them", 0});
   }
   for (Eigen::Vector3d& p : found.coarse.points) p = ways.from_copy.Apply(p);
-  const std::vector<std::uint32_t> first_triangle = std::move(copy.first_triangle);
-  Body body = {MeshInBodyFrame(mesh, std::move(copy), ways.from_copy, pool),
+  Body body = {MeshInBodyFrame(copy, ways.from_copy, pool),
                ways.from_caller,
                0.0,
                false,
@@ -340,10 +330,9 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                std::move(warnings)};
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
-  CAPFIT_RETURN_IF_ERROR(FindParts(options,
-                                   {found.rig, *found.graph, found.coarse, first_triangle,
-                                    found.extremities, frame, ways.stature_m},
-                                   pool, observer, body));
+  CAPFIT_RETURN_IF_ERROR(FindParts(
+      options, {found.rig, *found.graph, found.coarse, found.extremities, frame, ways.stature_m},
+      pool, observer, body));
   return body;
 }
 

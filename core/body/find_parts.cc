@@ -72,7 +72,7 @@ class Anatomist {
         mesh_surface_(body.mesh.vertices(), body.mesh.triangles(), pool) {
     shape_.vertices = body.mesh.vertices();
     shape_.mesh_triangles = body.mesh.triangles();
-    shape_.first_triangle = found.first_triangle;
+    shape_.first_triangle = body.mesh.first_triangle();
     shape_.mesh_surface = &mesh_surface_;
     shape_.coarse = &found.coarse;
     shape_.points = found.coarse.points;

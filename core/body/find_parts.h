@@ -2,9 +2,6 @@
 #ifndef CAPFIT_CORE_BODY_FIND_PARTS_H_
 #define CAPFIT_CORE_BODY_FIND_PARTS_H_
 
-#include <cstdint>
-#include <span>
-
 #include "absl/status/status.h"
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
@@ -20,9 +17,8 @@ namespace capfit::body {
 // What is known of the body by then.
 struct FramedBody {
   const Rig& rig;
-  const SurfaceGraph& graph;                      // of the nodes of `coarse`
-  const CoarseSurface& coarse;                    // in the body frame
-  std::span<const std::uint32_t> first_triangle;  // as the working copy's
+  const SurfaceGraph& graph;    // of the nodes of `coarse`
+  const CoarseSurface& coarse;  // in the body frame
   const Extremities& extremities;
   const IntrinsicFrame& frame;
   double stature_m = 0.0;  // see Shape

@@ -7,7 +7,7 @@
 
 #include "core/body/cross_section.h"
 #include "core/body/inside.h"
-#include "core/body/snap.h"
+#include "core/geometry/snap.h"
 
 namespace capfit::body {
 namespace {
@@ -73,7 +73,7 @@ class RigInCopy {
   static constexpr std::size_t kJoints = 13;
 
   static Eigen::Vector3d InCopy(const Eigen::Vector3d& p, const WorkingCopy& copy) {
-    return Snap(copy.FromMesh(p), kFineGrid);
+    return geometry::Snap(copy.frame.FromMesh(p), geometry::kFineGrid);
   }
 
   std::map<LandmarkId, Eigen::Vector3d> at_;

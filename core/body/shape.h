@@ -31,7 +31,7 @@ inline constexpr int kRight = 1;
 struct Shape {
   std::span<const Eigen::Vector3d> vertices;  // of the whole mesh
   std::span<const mesh::Triangle> mesh_triangles;
-  std::span<const std::uint32_t> first_triangle;  // as the working copy's
+  std::span<const std::uint32_t> first_triangle;  // as the mesh's
   const CutSurface* mesh_surface = nullptr;
   const CoarseSurface* coarse = nullptr;
   std::span<const Eigen::Vector3d> points;    // its nodes: what is searched, and cut in many places

@@ -15,7 +15,7 @@
 #include "core/body/inside.h"
 #include "core/body/landmarks.h"
 #include "core/body/skeleton_names.h"
-#include "core/body/snap.h"
+#include "core/geometry/snap.h"
 
 namespace capfit::body {
 namespace {
@@ -189,7 +189,8 @@ void AddBones(const std::map<LandmarkId, Eigen::Vector3d>& bones,
   std::size_t bad = 0;
   Landmarks all;
   for (const auto& [id, position] : bones) {
-    const Eigen::Vector3d at = Snap(body_from_caller.Apply(position), kFineGrid);
+    const Eigen::Vector3d at =
+        geometry::Snap(body_from_caller.Apply(position), geometry::kFineGrid);
     all[Index(id)] = Landmark{at, LandmarkMethod::kSkeleton, 0.95};
   }
   const LimbJudge limbs(all, judge);
@@ -229,7 +230,8 @@ absl::StatusOr<Landmarks> ToldLandmarks(const BodyOptions& options, const Rig& r
   if (options.landmarks.empty() && bones.empty()) return told;
   const Judge judge(extremities, shape);
   for (const auto& [id, position] : options.landmarks) {
-    const Eigen::Vector3d at = Snap(body_from_caller.Apply(position), kFineGrid);
+    const Eigen::Vector3d at =
+        geometry::Snap(body_from_caller.Apply(position), geometry::kFineGrid);
     if (const auto objection = judge.Objection(id, at, kCallersReach)) {
       return InvalidField(ErrorReason::kContradictsBody,
                           absl::StrCat("options.landmarks.", std::string(LandmarkName(id))),

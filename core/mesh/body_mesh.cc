@@ -1,91 +1,79 @@
 #include "core/mesh/body_mesh.h"
 
-#include <Eigen/Geometry>  // cross
-#include <algorithm>
-#include <limits>
+#include <cstddef>
 #include <utility>
 
 #include "core/base/chunk_sums.h"
-#include "core/mesh/surface_sums.h"
 
 namespace capfit::mesh {
-
 namespace {
 
-struct Box {
-  Eigen::Vector3d low;
-  Eigen::Vector3d high;
-
-  Box& operator+=(const Box& other) {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
-    return *this;
-  }
-};
-
-struct Measures {
-  double volume = 0.0;
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // of the volume
-  double area = 0.0;
-  double least_triangle_area = std::numeric_limits<double>::infinity();
-
-  Measures& operator+=(const Measures& other) {
-    volume += other.volume;
-    moment += other.moment;
-    area += other.area;
-    least_triangle_area = std::min(least_triangle_area, other.least_triangle_area);
-    return *this;
-  }
-};
+using Points = std::vector<Eigen::Vector3d>;
 
 }  // namespace
 
-BodyMesh::BodyMesh(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles,
-                   std::vector<std::int32_t> vertex_of_source, std::vector<HalfEdge> mates,
-                   const ThreadPool& pool)
-    : vertices_(std::move(vertices)),
-      triangles_(std::move(triangles)),
-      vertex_of_source_(std::move(vertex_of_source)),
-      mates_(std::move(mates)) {
-  if (vertices_.empty()) return;
-  if (mates_.empty()) mates_ = FindEdgeMates(triangles_, vertices_.size(), pool).mate;
-  Measure(pool);
+BodyMesh BodyMesh::Of(std::shared_ptr<const Connections> connections, Points vertices,
+                      const ThreadPool& pool) {
+  BodyMesh mesh;
+  if (!vertices.empty()) mesh.measures_ = Measure(vertices, connections->triangles, pool);
+  mesh.connections_ = std::move(connections);
+  mesh.vertices_ = std::make_shared<const Points>(std::move(vertices));
+  return mesh;
 }
 
-void BodyMesh::Measure(const ThreadPool& pool) {
-  const auto box_of = [&](std::size_t begin, std::size_t end) {
-    Box box = {vertices_[begin], vertices_[begin]};
-    for (std::size_t i = begin; i < end; ++i) box += {vertices_[i], vertices_[i]};
-    return box;
-  };
-  const Box first = {vertices_.front(), vertices_.front()};
-  const Box box = SumOverChunks(pool, vertices_.size(), first, box_of);
-  box_min_ = box.low;
-  box_max_ = box.high;
-  const Eigen::Vector3d middle = 0.5 * (box_min_ + box_max_);  // keeps digits far from the origin
-  const auto part = [&](std::size_t begin, std::size_t end) {
-    Measures sum;
-    for (const Triangle& t : std::span(triangles_).subspan(begin, end - begin)) {
-      const Eigen::Vector3d a = vertices_[t[0]] - middle;
-      const Eigen::Vector3d b = vertices_[t[1]] - middle;
-      const Eigen::Vector3d c = vertices_[t[2]] - middle;
-      const double area = (b - a).cross(c - a).norm() / 2.0;
-      const double volume = SignedVolume(a, b, c);
-      sum += {volume, volume * (a + b + c) / 4.0, area, area};
+BodyMesh::BodyMesh(Points vertices, std::vector<Triangle> triangles,
+                   std::vector<std::int32_t> vertex_of_source, std::vector<HalfEdge> mates,
+                   const ThreadPool& pool) {
+  if (mates.empty()) mates = FindEdgeMates(triangles, vertices.size(), pool).mate;
+  *this = Of(std::make_shared<const Connections>(Connections{
+                 std::move(triangles), std::move(mates), {}, std::move(vertex_of_source)}),
+             std::move(vertices), pool);
+}
+
+BodyMesh::BodyMesh(std::span<const Eigen::Vector3d> vertices, CurveOrder order,
+                   std::vector<HalfEdge> mates, std::span<const std::int32_t> vertex_of_source,
+                   const SurfaceMeasures& measures, const PrincipalFrame& frame,
+                   const ThreadPool& pool)
+    : measures_(measures), frame_(frame) {
+  Points ordered(order.source.size());
+  pool.ForChunks(ordered.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) ordered[i] = vertices[order.source[i]];
+  });
+  std::vector<std::int32_t> place(vertex_of_source.size());
+  pool.ForChunks(place.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::int32_t v = vertex_of_source[i];
+      place[i] = v < 0 ? -1 : static_cast<std::int32_t>(order.rank[v]);
     }
-    return sum;
-  };
-  const Measures measures = SumOverChunks(pool, triangles_.size(), Measures{}, part);
-  volume_ = measures.volume;
-  centroid_ = middle + measures.moment / measures.volume;
-  area_ = measures.area;
-  least_triangle_area_ = measures.least_triangle_area;
+  });
+  vertices_ = std::make_shared<const Points>(std::move(ordered));
+  connections_ = std::make_shared<const Connections>(
+      Connections{std::move(order.triangles), std::move(mates), std::move(order.first_triangle),
+                  std::move(place)});
+}
+
+BodyMesh BodyMesh::WithVertices(Points vertices, const ThreadPool& pool) const {
+  return Of(connections_, std::move(vertices), pool);
 }
 
 BodyMesh BodyMesh::Transformed(const geometry::Similarity& similarity) const {
-  std::vector<Eigen::Vector3d> moved(vertices_.size());
-  for (std::size_t i = 0; i < vertices_.size(); ++i) moved[i] = similarity.Apply(vertices_[i]);
-  return BodyMesh(std::move(moved), triangles_, vertex_of_source_, mates_);
+  Points moved(vertices_->size());
+  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = similarity.Apply((*vertices_)[i]);
+  return WithVertices(std::move(moved));
+}
+
+BodyMesh BodyMesh::InCurveOrder(const ThreadPool& pool, const FitObserver& observer) const {
+  if (frame_) return *this;
+  const PrincipalFrame frame = FindPrincipalFrame(*vertices_, measures_, pool);
+  if (observer.IsCancelled()) return *this;
+  CurveOrder order = OrderAlongCurve(SnappedPoints(*vertices_, frame, pool),
+                                     connections_->triangles, pool, observer);
+  if (observer.IsCancelled()) return *this;
+  EdgeMates mates =
+      FindEdgeMates(order.triangles, vertices_->size(), pool, observer, order.first_triangle);
+  if (observer.IsCancelled()) return *this;
+  return BodyMesh(*vertices_, std::move(order), std::move(mates.mate),
+                  connections_->vertex_of_source, measures_, frame, pool);
 }
 
 }  // namespace capfit::mesh

@@ -4,19 +4,25 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
 #include "core/geometry/similarity.h"
+#include "core/mesh/curve_order.h"
 #include "core/mesh/edge_mates.h"
+#include "core/mesh/principal_frame.h"
+#include "core/mesh/surface_measures.h"
 
 namespace capfit::mesh {
 
 // One closed, consistently oriented surface with outward normals: every edge belongs to two
 // triangles that run it in opposite directions, volume > 0, all coordinates finite, no vertex
-// unused, no triangle with two equal corners. It may cut through itself. Immutable; copying copies
-// the arrays, so pass it by reference or move it.
+// unused, no triangle with two equal corners. It may cut through itself. Immutable; copies share
+// the arrays and cost nothing.
 class BodyMesh {
  public:
   // For makers of meshes inside the core that keep the promises themselves. `vertex_of_source` maps
@@ -26,43 +32,65 @@ class BodyMesh {
            std::vector<std::int32_t> vertex_of_source, std::vector<HalfEdge> mates = {},
            const ThreadPool& pool = ThreadPool(1));
 
-  [[nodiscard]] std::span<const Eigen::Vector3d> vertices() const& { return vertices_; }
+  // In the order of a curve, of a surface with these measures. `vertices` in the order in which
+  // they came, which `vertex_of_source` is about.
+  BodyMesh(std::span<const Eigen::Vector3d> vertices, CurveOrder order, std::vector<HalfEdge> mates,
+           std::span<const std::int32_t> vertex_of_source, const SurfaceMeasures& measures,
+           const PrincipalFrame& frame, const ThreadPool& pool);
+
+  [[nodiscard]] std::span<const Eigen::Vector3d> vertices() const& { return *vertices_; }
   std::span<const Eigen::Vector3d> vertices() && = delete;
-  [[nodiscard]] std::span<const Triangle> triangles() const& { return triangles_; }
+  [[nodiscard]] std::span<const Triangle> triangles() const& { return connections_->triangles; }
   std::span<const Triangle> triangles() && = delete;
   // For each half-edge the one across the edge (see edge_mates.h).
-  [[nodiscard]] std::span<const HalfEdge> mates() const& { return mates_; }
+  [[nodiscard]] std::span<const HalfEdge> mates() const& { return connections_->mates; }
   std::span<const HalfEdge> mates() && = delete;
+  // Of a mesh in the order of a curve the first of the triangles that begin at each vertex, the
+  // last: end (see curve_order.h). Empty where it is in another.
+  [[nodiscard]] std::span<const std::uint32_t> first_triangle() const& {
+    return connections_->first_triangle;
+  }
+  std::span<const std::uint32_t> first_triangle() && = delete;
   // Size: the caller's vertex count. Several sources may map to one vertex (welded copies).
   [[nodiscard]] std::span<const std::int32_t> vertex_of_source() const& {
-    return vertex_of_source_;
+    return connections_->vertex_of_source;
   }
   std::span<const std::int32_t> vertex_of_source() && = delete;
 
-  [[nodiscard]] double volume() const { return volume_; }  // cube of the mesh's unit, > 0
-  [[nodiscard]] const Eigen::Vector3d& centroid() const { return centroid_; }  // of the volume
-  [[nodiscard]] double area() const { return area_; }  // square of the mesh's unit
-  [[nodiscard]] double least_triangle_area() const { return least_triangle_area_; }
-  [[nodiscard]] const Eigen::Vector3d& box_min() const { return box_min_; }
-  [[nodiscard]] const Eigen::Vector3d& box_max() const { return box_max_; }
-  [[nodiscard]] double diagonal() const { return (box_max_ - box_min_).norm(); }
+  [[nodiscard]] double volume() const { return measures_.volume; }  // cube of the unit, > 0
+  [[nodiscard]] double area() const { return measures_.area; }      // square of the mesh's unit
+  [[nodiscard]] const Eigen::Vector3d& box_min() const { return measures_.box_min; }
+  [[nodiscard]] const Eigen::Vector3d& box_max() const { return measures_.box_max; }
+  [[nodiscard]] double diagonal() const { return measures_.diagonal(); }
+  // By which it was put in the order of a curve; nothing where it was not, or was moved since.
+  [[nodiscard]] const std::optional<PrincipalFrame>& frame() const { return frame_; }
 
+  // The same mesh with its vertices elsewhere, one for each.
+  [[nodiscard]] BodyMesh WithVertices(std::vector<Eigen::Vector3d> vertices,
+                                      const ThreadPool& pool = ThreadPool(1)) const;
   // The same mesh in another frame.
   [[nodiscard]] BodyMesh Transformed(const geometry::Similarity& similarity) const;
+  // The same mesh with its vertices and triangles in the order of a curve; itself where it is.
+  // Without a frame where the observer cancels.
+  [[nodiscard]] BodyMesh InCurveOrder(const ThreadPool& pool, const FitObserver& observer) const;
 
  private:
-  void Measure(const ThreadPool& pool);
+  // What stays when vertices move.
+  struct Connections {
+    std::vector<Triangle> triangles;
+    std::vector<HalfEdge> mates;
+    std::vector<std::uint32_t> first_triangle;
+    std::vector<std::int32_t> vertex_of_source;
+  };
 
-  std::vector<Eigen::Vector3d> vertices_;
-  std::vector<Triangle> triangles_;
-  std::vector<std::int32_t> vertex_of_source_;
-  std::vector<HalfEdge> mates_;
-  double volume_ = 0.0;
-  Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
-  double area_ = 0.0;
-  double least_triangle_area_ = 0.0;
-  Eigen::Vector3d box_min_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d box_max_ = Eigen::Vector3d::Zero();
+  BodyMesh() = default;
+  static BodyMesh Of(std::shared_ptr<const Connections> connections,
+                     std::vector<Eigen::Vector3d> vertices, const ThreadPool& pool);
+
+  std::shared_ptr<const Connections> connections_;
+  std::shared_ptr<const std::vector<Eigen::Vector3d>> vertices_;
+  SurfaceMeasures measures_;
+  std::optional<PrincipalFrame> frame_;
 };
 
 }  // namespace capfit::mesh

@@ -8,7 +8,9 @@ namespace capfit::mesh {
 namespace {
 
 // Edges are dealt to drawers by their lower vertex, so many vertices to each: what a drawer holds
-// stays in the processor's cache while it is sorted, and drawers are sorted side by side.
+// stays in the processor's cache while it is sorted, and drawers are sorted side by side. Where
+// triangles are listed by their lowest corners, two half-edges of each lie in the right drawer
+// as they are, and only the one across from that corner is dealt.
 constexpr int kDrawerBits = 10;
 constexpr std::uint32_t kDrawerVertices = 1u << kDrawerBits;
 constexpr std::size_t kMatesPerChunk = 8192;
@@ -46,12 +48,15 @@ void Sort(std::span<SpokeKey> spokes) {
 
 class MateFinder {
  public:
-  MateFinder(std::span<const Triangle> triangles, std::size_t vertex_count, const ThreadPool& pool)
+  MateFinder(std::span<const Triangle> triangles, std::size_t vertex_count, const ThreadPool& pool,
+             std::span<const std::uint32_t> first_triangle)
       : triangles_(triangles),
+        first_triangle_(first_triangle),
         pool_(pool),
         drawer_count_((vertex_count + kDrawerVertices - 1) / kDrawerVertices),
         chunk_count_((triangles.size() + kMatesPerChunk - 1) / kMatesPerChunk),
-        spokes_(std::make_unique_for_overwrite<Spoke[]>(3 * triangles.size())),
+        spokes_(std::make_unique_for_overwrite<Spoke[]>((first_triangle.empty() ? 3 : 1) *
+                                                        triangles.size())),
         drawers_(drawer_count_) {
     mate_.assign(3 * triangles.size(), kNoMate);
   }
@@ -74,16 +79,38 @@ class MateFinder {
   }
 
  private:
+  [[nodiscard]] bool IsSorted() const { return !first_triangle_.empty(); }
+
+  [[nodiscard]] Spoke SpokeOf(std::size_t triangle, std::size_t corner) const {
+    const std::uint32_t from = triangles_[triangle][corner];
+    const std::uint32_t to = triangles_[triangle][corner == 2 ? 0 : corner + 1];
+    const auto half_edge = static_cast<HalfEdge>(3 * triangle + corner);
+    return {std::min(from, to), std::max(from, to), 2 * half_edge + (from > to ? 1 : 0)};
+  }
+
+  // The spokes to be dealt.
   template <typename Visit>
   void VisitChunk(std::size_t begin, std::size_t end, const Visit& visit) const {
+    if (IsSorted()) {
+      for (std::size_t t = begin; t < end; ++t) visit(SpokeOf(t, 1));
+      return;
+    }
     for (std::size_t t = begin; t < end; ++t) {
-      const Triangle& corners = triangles_[t];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t from = corners[k];
-        const std::uint32_t to = corners[k == 2 ? 0 : k + 1];
-        const auto half_edge = static_cast<HalfEdge>(3 * t + k);
-        visit(Spoke{std::min(from, to), std::max(from, to), 2 * half_edge + (from > to ? 1 : 0)});
-      }
+      for (std::size_t k = 0; k < 3; ++k) visit(SpokeOf(t, k));
+    }
+  }
+
+  // The spokes that belong to the drawer: those dealt to it, and those that lie in it.
+  template <typename Visit>
+  void VisitDrawer(std::size_t d, const Visit& visit) const {
+    const std::uint32_t begin = d == 0 ? 0 : drawer_ends_[d - 1];
+    for (std::uint32_t i = begin; i < drawer_ends_[d]; ++i) visit(spokes_[i]);
+    if (!IsSorted()) return;
+    const std::size_t vertices = first_triangle_.size() - 1;
+    const std::uint32_t last = first_triangle_[std::min(vertices, (d + 1) * kDrawerVertices)];
+    for (std::uint32_t t = first_triangle_[d * kDrawerVertices]; t < last; ++t) {
+      visit(SpokeOf(t, 0));
+      visit(SpokeOf(t, 2));
     }
   }
 
@@ -113,16 +140,14 @@ class MateFinder {
 
   // A counting sort by lower vertex: faster than hashing, and the same on every platform.
   void PairWithin(std::size_t d) {
-    const std::uint32_t begin = d == 0 ? 0 : drawer_ends_[d - 1];
-    const std::span<const Spoke> dealt(spokes_.get() + begin, drawer_ends_[d] - begin);
     std::array<std::uint32_t, kDrawerVertices + 2> first{};
-    for (const Spoke& s : dealt) ++first[s.lower_vertex % kDrawerVertices + 2];
+    VisitDrawer(d, [&](const Spoke& s) { ++first[s.lower_vertex % kDrawerVertices + 2]; });
     for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
-    const auto sorted = std::make_unique_for_overwrite<SpokeKey[]>(dealt.size());
+    const auto sorted = std::make_unique_for_overwrite<SpokeKey[]>(first.back());
     // first[v + 1] serves as the write position of v and ends as the start of v + 1.
-    for (const Spoke& s : dealt) {
+    VisitDrawer(d, [&](const Spoke& s) {
       sorted[first[s.lower_vertex % kDrawerVertices + 1]++] = KeyOf(s);
-    }
+    });
     for (std::size_t v = 0; v < kDrawerVertices; ++v) {
       PairAtVertex({sorted.get() + first[v], first[v + 1] - first[v]}, drawers_[d]);
     }
@@ -152,6 +177,7 @@ class MateFinder {
   }
 
   std::span<const Triangle> triangles_;
+  std::span<const std::uint32_t> first_triangle_;
   const ThreadPool& pool_;
   std::size_t drawer_count_;
   std::size_t chunk_count_;
@@ -164,8 +190,9 @@ class MateFinder {
 }  // namespace
 
 EdgeMates FindEdgeMates(std::span<const Triangle> triangles, std::size_t vertex_count,
-                        const ThreadPool& pool, const FitObserver& observer) {
-  return MateFinder(triangles, vertex_count, pool).Run(observer);
+                        const ThreadPool& pool, const FitObserver& observer,
+                        std::span<const std::uint32_t> first_triangle) {
+  return MateFinder(triangles, vertex_count, pool, first_triangle).Run(observer);
 }
 
 }  // namespace capfit::mesh

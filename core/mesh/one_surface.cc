@@ -11,31 +11,20 @@
 namespace capfit::mesh {
 namespace {
 
-// The ring of triangles around a corner: their number, and the lowest vertex on it.
-struct Ring {
+// How many triangles the ring around a corner has.
+std::size_t CornersInRing(std::span<const HalfEdge> mates, HalfEdge corner) {
   std::size_t corners = 0;
-  std::uint32_t lowest = 0;
-};
-
-Ring WalkRing(std::span<const Triangle> triangles, std::span<const HalfEdge> mates,
-              HalfEdge corner) {
-  Ring ring = {0, StartOf(triangles, corner)};
   HalfEdge h = corner;
   do {
-    ++ring.corners;
-    const HalfEdge before = PreviousInTriangle(h);
-    ring.lowest = std::min(ring.lowest, StartOf(triangles, before));
-    h = mates[before];
+    ++corners;
+    h = mates[PreviousInTriangle(h)];
   } while (h != corner);
-  return ring;
+  return corners;
 }
 
-}  // namespace
-
-std::optional<std::vector<std::uint32_t>> LowestInRings(std::span<const Triangle> triangles,
-                                                        std::span<const HalfEdge> mates,
-                                                        std::size_t vertex_count,
-                                                        const ThreadPool& pool) {
+// Whether the triangles at each vertex are one ring.
+bool IsOneRingEach(std::span<const Triangle> triangles, std::span<const HalfEdge> mates,
+                   std::size_t vertex_count, const ThreadPool& pool) {
   // One of each vertex, whichever: a ring is the same from all of its corners. By one thread: two
   // that write all over the same array are slower than one.
   std::vector<HalfEdge> corner(vertex_count, kNoMate);
@@ -43,26 +32,26 @@ std::optional<std::vector<std::uint32_t>> LowestInRings(std::span<const Triangle
   for (const Triangle& t : triangles) {
     for (const std::uint32_t v : t) corner[v] = h++;
   }
-  std::vector<std::uint32_t> lowest_around(vertex_count);
   const auto walk = [&](std::size_t begin, std::size_t end) {
     std::size_t corners = 0;
     for (std::size_t v = begin; v < end; ++v) {
-      lowest_around[v] = static_cast<std::uint32_t>(v);
-      if (corner[v] == kNoMate) continue;
-      const Ring ring = WalkRing(triangles, mates, corner[v]);
-      lowest_around[v] = ring.lowest;
-      corners += ring.corners;
+      if (corner[v] != kNoMate) corners += CornersInRing(mates, corner[v]);
     }
     return corners;
   };
   // A second ring at a vertex has corners that no walk meets.
-  if (SumOverChunks(pool, vertex_count, std::size_t{0}, walk) != mates.size()) return std::nullopt;
-  return lowest_around;
+  return SumOverChunks(pool, vertex_count, std::size_t{0}, walk) == mates.size();
 }
 
-// The link of each vertex leads to its lowest neighbour, or to itself where there is no lower one
-// (an unused vertex is a piece).
-bool HangsTogether(std::span<const Triangle> triangles, std::vector<std::uint32_t> link) {
+// Whether edges lead from each vertex to every other; an unused vertex is a piece. First each has a
+// link to its lowest neighbour, or to itself where there is no lower one.
+bool HangsTogether(std::span<const Triangle> triangles, std::size_t vertex_count) {
+  std::vector<std::uint32_t> link(vertex_count);
+  std::iota(link.begin(), link.end(), 0u);
+  for (const Triangle& t : triangles) {
+    const std::uint32_t lowest = std::min({t[0], t[1], t[2]});
+    for (const std::uint32_t v : t) link[v] = std::min(link[v], lowest);
+  }
   std::size_t pieces = 0;
   for (std::uint32_t v = 0; v < link.size(); ++v) {
     if (link[v] == v) ++pieces;
@@ -82,11 +71,17 @@ bool HangsTogether(std::span<const Triangle> triangles, std::vector<std::uint32_
   return pieces == 1;
 }
 
+}  // namespace
+
 bool IsOneSurface(std::span<const Triangle> triangles, std::span<const HalfEdge> mates,
                   std::size_t vertex_count, const ThreadPool& pool) {
-  std::optional<std::vector<std::uint32_t>> lowest =
-      LowestInRings(triangles, mates, vertex_count, pool);
-  return lowest && HangsTogether(triangles, *std::move(lowest));
+  bool hangs_together = false;
+  bool is_one_ring_each = false;
+  pool.ForEach(2, [&](std::size_t half) {
+    if (half == 0) hangs_together = HangsTogether(triangles, vertex_count);
+    if (half == 1) is_one_ring_each = IsOneRingEach(triangles, mates, vertex_count, pool);
+  });
+  return hangs_together && is_one_ring_each;
 }
 
 }  // namespace capfit::mesh

@@ -17,13 +17,16 @@
 #include "core/formats/recover_decimals.h"
 #include "core/formats/soup_checks.h"
 #include "core/mesh/close_holes.h"
+#include "core/mesh/curve_order.h"
 #include "core/mesh/edge_mates.h"
 #include "core/mesh/join_triangles.h"
 #include "core/mesh/main_part.h"
 #include "core/mesh/mend_flat_triangles.h"
 #include "core/mesh/one_surface.h"
+#include "core/mesh/principal_frame.h"
 #include "core/mesh/split_vertices.h"
 #include "core/mesh/surface.h"
+#include "core/mesh/surface_measures.h"
 #include "core/mesh/surface_parts.h"
 #include "core/mesh/surface_sums.h"
 #include "core/mesh/triangulate_faces.h"
@@ -63,11 +66,9 @@ class MeshMender {
 
   absl::StatusOr<PreparedMesh> Run() {
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
-    EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size(), pool_, observer_);
+    if (std::optional<PreparedMesh> prepared = TakeAsItCame()) return *std::move(prepared);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
-    if (degenerate_ == 0 && !mates.mate.empty() && mates.IsClosedAndOriented()) {
-      if (std::optional<PreparedMesh> prepared = TakeAsItCame(mates)) return *std::move(prepared);
-    }
+    EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size(), pool_, observer_);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     MeasureUsed();
     Join(std::move(mates));
@@ -103,37 +104,35 @@ class MeshMender {
     degenerate_ = faces.degenerate;
   }
 
-  // What all of the steps below would leave as it is; else nothing, and they may begin. The
-  // triangles are closed and oriented.
-  std::optional<PreparedMesh> TakeAsItCame(EdgeMates& mates) {
-    const std::span<const Triangle> triangles = surface_.triangles;  // where they go they stay
-    const std::span<const HalfEdge> half_edges = mates.mate;
-    std::optional<std::vector<std::uint32_t>> lowest =
-        LowestInRings(triangles, half_edges, positions_.size(), pool_);
-    bool is_one = false;
-    std::optional<BodyMesh> taken;
-    pool_.ForEach(2, [&](std::size_t half) {
-      if (observer_.IsCancelled()) return;
-      if (half == 0) is_one = lowest && HangsTogether(triangles, *std::move(lowest));
-      if (half == 1) taken = AsItCame(mates);
-    });
-    if (!taken) return std::nullopt;  // cancelled
-    BodyMesh& mesh = *taken;
-    diagonal_ = mesh.diagonal();
+  // What all of the steps below would leave as it is; else nothing, and they may begin.
+  std::optional<PreparedMesh> TakeAsItCame() {
+    const std::span<const Triangle> triangles = surface_.triangles;
+    if (degenerate_ > 0 || !MayBeClosed()) return std::nullopt;
+    const SurfaceMeasures measures = Measure(positions_, triangles, pool_);
+    diagonal_ = measures.diagonal();
+    if (!(measures.volume > LeastVolume())) return std::nullopt;
     // A flat one, no longer than the diagonal, has half of this area at most.
     const double flat_area = kFlatShare * diagonal_ * diagonal_;
-    const bool has_flat = mesh.least_triangle_area() <= flat_area && HasFlat(mesh.triangles());
-    if (is_one && !has_flat && mesh.volume() > LeastVolume()) return Finish(std::move(mesh));
-    surface_.triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
-    mates.mate.assign(mesh.mates().begin(), mesh.mates().end());
-    return std::nullopt;
-  }
-
-  BodyMesh AsItCame(EdgeMates& mates) {
+    if (measures.least_triangle_area <= flat_area && HasFlat(triangles)) return std::nullopt;
+    const PrincipalFrame frame = FindPrincipalFrame(positions_, measures, pool_);
+    CurveOrder order =
+        OrderAlongCurve(SnappedPoints(positions_, frame, pool_), triangles, pool_, observer_);
+    if (observer_.IsCancelled()) return std::nullopt;
+    EdgeMates mates =
+        FindEdgeMates(order.triangles, positions_.size(), pool_, observer_, order.first_triangle);
+    if (mates.mate.empty() || !mates.IsClosedAndOriented()) return std::nullopt;
+    if (!IsOneSurface(order.triangles, mates.mate, positions_.size(), pool_)) return std::nullopt;
     std::vector<std::int32_t> themselves(positions_.size());
     std::iota(themselves.begin(), themselves.end(), 0);
-    return BodyMesh(positions_, std::move(surface_.triangles), std::move(themselves),
-                    std::move(mates.mate), pool_);
+    return Finish(BodyMesh(positions_, std::move(order), std::move(mates.mate), themselves,
+                           measures, frame, pool_));
+  }
+
+  // By Euler's formula: a closed surface without handles has two vertices more than half as many as
+  // triangles, one with handles fewer. An open one, or with seams, has more.
+  [[nodiscard]] bool MayBeClosed() const {
+    const std::size_t triangles = surface_.triangles.size();
+    return triangles > 0 && triangles % 2 == 0 && 2 * positions_.size() <= triangles + 4;
   }
 
   [[nodiscard]] bool HasFlat(std::span<const Triangle> triangles) const {

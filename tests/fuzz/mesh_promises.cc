@@ -54,7 +54,37 @@ std::string BrokenByVertices(const BodyMesh& mesh, std::size_t source_vertices) 
   return {};
 }
 
+// From the lowest corner on.
+Triangle Turned(const Triangle& t) {
+  Triangle turned = t;
+  std::rotate(turned.begin(), std::min_element(turned.begin(), turned.end()), turned.end());
+  return turned;
+}
+
 }  // namespace
+
+bool IsReordered(const formats::PolygonSoup& soup, const BodyMesh& mesh) {
+  const auto place = mesh.vertex_of_source();
+  if (mesh.vertices().size() != soup.positions.size() || place.size() != soup.positions.size()) {
+    return false;
+  }
+  std::vector<Triangle> came;
+  for (std::size_t i = 0; i + 2 < soup.face_vertices.size(); i += 3) {
+    const auto at = [&](std::size_t k) {
+      return static_cast<std::uint32_t>(place[soup.face_vertices[i + k]]);
+    };
+    came.push_back(Turned({at(0), at(1), at(2)}));
+  }
+  std::vector<Triangle> here;
+  for (const Triangle& t : mesh.triangles()) here.push_back(Turned(t));
+  std::sort(came.begin(), came.end());
+  std::sort(here.begin(), here.end());
+  if (came != here) return false;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    if (mesh.vertices()[place[i]] != soup.positions[i]) return false;
+  }
+  return true;
+}
 
 std::string BrokenPromise(const BodyMesh& mesh, std::size_t source_vertices) {
   if (mesh.triangles().empty()) return "the mesh is empty";
@@ -80,11 +110,7 @@ std::string BrokenPromiseOfPrepare(const mesh::PreparedMesh& prepared,
   if (!again->warnings.empty()) {
     return "a prepared mesh gets the warning " + again->warnings.front().code;
   }
-  const bool same = std::equal(mesh.triangles().begin(), mesh.triangles().end(),
-                               again->mesh.triangles().begin(), again->mesh.triangles().end()) &&
-                    std::equal(mesh.vertices().begin(), mesh.vertices().end(),
-                               again->mesh.vertices().begin(), again->mesh.vertices().end());
-  return same ? std::string() : "a prepared mesh is changed";
+  return IsReordered(soup, again->mesh) ? std::string() : "a prepared mesh is changed";
 }
 
 std::string BrokenPromiseOfRefusal(const absl::Status& refusal, bool is_file) {

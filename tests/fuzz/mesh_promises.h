@@ -6,6 +6,7 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "core/formats/polygon_soup.h"
 #include "core/mesh/body_mesh.h"
 #include "core/mesh/prepare_mesh.h"
 
@@ -15,7 +16,12 @@ namespace capfit::fuzz {
 // it keeps all.
 [[nodiscard]] std::string BrokenPromise(const mesh::BodyMesh& mesh, std::size_t source_vertices);
 
-// The same, and also: preparing the prepared mesh again changes nothing and warns of nothing.
+// Whether `mesh` has the vertices and triangles of `soup`, which are triangles all, in some order,
+// and vertex_of_source leads from one to the other.
+[[nodiscard]] bool IsReordered(const formats::PolygonSoup& soup, const mesh::BodyMesh& mesh);
+
+// As BrokenPromise, and also: preparing the prepared mesh again changes nothing but the order and
+// warns of nothing.
 [[nodiscard]] std::string BrokenPromiseOfPrepare(const mesh::PreparedMesh& prepared,
                                                  std::size_t source_vertices);
 

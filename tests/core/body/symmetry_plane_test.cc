@@ -26,8 +26,8 @@ Mirrored Nodes() {
   const mesh::BodyMesh mesh =
       std::move(mesh::PrepareMesh(*mannequin::MakeMannequin(options))->mesh);
   const WorkingCopy copy = MakeWorkingCopy(mesh, pool, NullObserver());
-  const Eigen::Vector3d normal = copy.axes * Eigen::Vector3d::UnitX();
-  const double offset = normal.dot(copy.FromMesh(Eigen::Vector3d::Zero()));
+  const Eigen::Vector3d normal = copy.frame.axes * Eigen::Vector3d::UnitX();
+  const double offset = normal.dot(copy.frame.FromMesh(Eigen::Vector3d::Zero()));
   return {MakeCoarseSurface(copy, pool), {normal, offset}};
 }
 

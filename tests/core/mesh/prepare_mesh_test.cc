@@ -41,15 +41,8 @@ TEST(PrepareMeshTest, PassesSoundMeshThroughUnchanged) {
   const formats::PolygonSoup ball = Ball(12, 7);
   const PreparedMesh prepared = Prepared(ball);
   EXPECT_EQ(CodesOf(prepared), "");
-  ASSERT_EQ(prepared.mesh.vertices().size(), ball.positions.size());
-  for (std::size_t i = 0; i < ball.positions.size(); ++i) {
-    EXPECT_EQ(prepared.mesh.vertices()[i], ball.positions[i]);
-    EXPECT_EQ(prepared.mesh.vertex_of_source()[i], static_cast<std::int32_t>(i));
-  }
-  ASSERT_EQ(prepared.mesh.triangles().size(), ball.face_vertices.size() / 3);
-  for (std::size_t i = 0; i < ball.face_vertices.size(); ++i) {
-    EXPECT_EQ(prepared.mesh.triangles()[i / 3][i % 3], ball.face_vertices[i]);
-  }
+  EXPECT_TRUE(fuzz::IsReordered(ball, prepared.mesh));
+  EXPECT_FALSE(prepared.mesh.first_triangle().empty());
 }
 
 TEST(PrepareMeshTest, SameBitsForAnyNumberOfThreads) {

@@ -1,11 +1,11 @@
 // Rounding that gives copies of a body the same bits again.
-#ifndef CAPFIT_CORE_BODY_SNAP_H_
-#define CAPFIT_CORE_BODY_SNAP_H_
+#ifndef CAPFIT_CORE_GEOMETRY_SNAP_H_
+#define CAPFIT_CORE_GEOMETRY_SNAP_H_
 
 #include <Eigen/Core>
 #include <cmath>
 
-namespace capfit::body {
+namespace capfit::geometry {
 
 // A body that was turned, moved or scaled comes back with rounding noise of 1e-15 of its size.
 // That tips every choice between equals (mirrored halves, ties of a sort), and the fits part ways
@@ -27,6 +27,6 @@ inline constexpr double kFineGrid = 0x1p-40 * kOddFactor;
   return {Snap(value.x(), grid), Snap(value.y(), grid), Snap(value.z(), grid)};
 }
 
-}  // namespace capfit::body
+}  // namespace capfit::geometry
 
-#endif  // CAPFIT_CORE_BODY_SNAP_H_
+#endif  // CAPFIT_CORE_GEOMETRY_SNAP_H_

@@ -1,0 +1,70 @@
+#include "core/mesh/surface_measures.h"
+
+#include <Eigen/Geometry>  // cross
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "core/base/chunk_sums.h"
+#include "core/mesh/surface_sums.h"
+
+namespace capfit::mesh {
+namespace {
+
+struct Box {
+  Eigen::Vector3d low;
+  Eigen::Vector3d high;
+
+  Box& operator+=(const Box& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+    return *this;
+  }
+};
+
+struct Sums {
+  double volume = 0.0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // of the volume
+  double area = 0.0;
+  double least_triangle_area = std::numeric_limits<double>::infinity();
+
+  Sums& operator+=(const Sums& other) {
+    volume += other.volume;
+    moment += other.moment;
+    area += other.area;
+    least_triangle_area = std::min(least_triangle_area, other.least_triangle_area);
+    return *this;
+  }
+};
+
+}  // namespace
+
+SurfaceMeasures Measure(std::span<const Eigen::Vector3d> vertices,
+                        std::span<const Triangle> triangles, const ThreadPool& pool) {
+  const auto box_of = [&](std::size_t begin, std::size_t end) {
+    Box box = {vertices[begin], vertices[begin]};
+    for (std::size_t i = begin; i < end; ++i) box += {vertices[i], vertices[i]};
+    return box;
+  };
+  const Box first = {vertices.front(), vertices.front()};
+  const Box box = SumOverChunks(pool, vertices.size(), first, box_of);
+  const Eigen::Vector3d middle = 0.5 * (box.low + box.high);  // keeps digits far from the origin
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    Sums sum;
+    for (const Triangle& t : triangles.subspan(begin, end - begin)) {
+      const Eigen::Vector3d a = vertices[t[0]] - middle;
+      const Eigen::Vector3d b = vertices[t[1]] - middle;
+      const Eigen::Vector3d c = vertices[t[2]] - middle;
+      const double area = (b - a).cross(c - a).norm() / 2.0;
+      const double volume = SignedVolume(a, b, c);
+      sum += {volume, volume * (a + b + c) / 4.0, area, area};
+    }
+    return sum;
+  };
+  const Sums sums = SumOverChunks(pool, triangles.size(), Sums{}, part);
+  return {sums.volume, middle + sums.moment / sums.volume,
+          sums.area,   sums.least_triangle_area,
+          box.low,     box.high};
+}
+
+}  // namespace capfit::mesh
