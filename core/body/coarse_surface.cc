@@ -1,6 +1,7 @@
 #include "core/body/coarse_surface.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <utility>
 
@@ -158,6 +159,7 @@ class Coarsener {
   void ChooseTriangles() {
     const std::size_t count = triangles_.size();
     place_.resize(count);
+    has_triangle_.assign(node_count_, 0);
     std::vector<std::vector<std::uint32_t>> chosen((count + kMeshChunk - 1) / kMeshChunk);
     pool_.ForChunks(count, kMeshChunk, [&](std::size_t begin, std::size_t end) {
       std::vector<std::uint32_t>& own = chosen[begin / kMeshChunk];
@@ -173,22 +175,30 @@ class Coarsener {
       }
       own.resize(kept);
     });
-    for (const std::vector<std::uint32_t>& own : chosen) {
-      for (const std::uint32_t i : own) {
-        place_[i] = static_cast<std::uint32_t>(chosen_.size());
-        chosen_.push_back(i);
+    std::vector<std::size_t> first(chosen.size() + 1, 0);
+    for (std::size_t c = 0; c < chosen.size(); ++c) first[c + 1] = first[c] + chosen[c].size();
+    chosen_.resize(first.back());
+    pool_.ForChunks(chosen.size(), 1, [&](std::size_t c, std::size_t) {
+      auto next = static_cast<std::uint32_t>(first[c]);
+      for (const std::uint32_t i : chosen[c]) {
+        // Several threads may say so of one node.
+        for (const std::uint32_t n : NodesOf(i)) {
+          std::atomic_ref(has_triangle_[n]).store(1, std::memory_order_relaxed);
+        }
+        chosen_[next] = i;
+        place_[i] = next++;
       }
-    }
+    });
   }
 
   // Nodes that others leave no triangle of their own join a neighbour.
   void AbsorbLoneNodes() {
-    std::vector<std::uint32_t> joins(node_count_, kNone);
-    for (const std::uint32_t i : chosen_) {
-      for (const std::uint32_t n : NodesOf(i)) joins[n] = n;
-    }
-    if (std::find(joins.begin(), joins.end(), kNone) == joins.end()) return;
-    for (std::uint32_t v = 0; v < node_.size(); ++v) {
+    const auto is_lone = [&](std::uint32_t n) { return has_triangle_[n] == 0; };
+    if (std::find(has_triangle_.begin(), has_triangle_.end(), 0) == has_triangle_.end()) return;
+    std::vector<std::uint32_t> joins(node_count_);
+    for (std::uint32_t n = 0; n < node_count_; ++n) joins[n] = is_lone(n) ? kNone : n;
+    const auto is_of_lone = [&](std::size_t v) { return is_lone(node_[v]); };
+    for (const std::uint32_t v : Which(node_.size(), is_of_lone)) {
       if (joins[node_[v]] != kNone) continue;
       for (std::uint32_t i = first_triangle_[v]; i < first_triangle_[v + 1]; ++i) {
         for (const std::uint32_t n : NodesOf(i)) {
@@ -202,12 +212,21 @@ class Coarsener {
     for (std::uint32_t n = 0; n < joins.size(); ++n) {
       if (joins[n] == n || joins[n] == kNone) number[n] = node_count_++;
     }
-    for (std::uint32_t& n : node_) n = number[joins[n] == kNone ? n : joins[n]];
+    pool_.ForChunks(node_.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const std::uint32_t n = node_[v];
+        node_[v] = number[joins[n] == kNone ? n : joins[n]];
+      }
+    });
   }
 
   // Of nodes whose neighbours all come before them.
   void AskAllTriangles(std::vector<std::uint32_t>& joins) const {
-    for (std::size_t i = 0; i < place_.size(); ++i) {
+    const auto touches_lone = [&](std::size_t i) {
+      const mesh::Triangle t = NodesOf(i);
+      return joins[t[0]] == kNone || joins[t[1]] == kNone || joins[t[2]] == kNone;
+    };
+    for (const std::uint32_t i : Which(triangles_.size(), touches_lone)) {
       const mesh::Triangle t = NodesOf(i);
       for (const std::uint32_t n : t) {
         if (joins[n] != kNone) continue;
@@ -216,6 +235,21 @@ class Coarsener {
         }
       }
     }
+  }
+
+  // The numbers below `count` for which is_wanted(number), in order.
+  template <typename IsWanted>
+  [[nodiscard]] std::vector<std::uint32_t> Which(std::size_t count,
+                                                 const IsWanted& is_wanted) const {
+    std::vector<std::vector<std::uint32_t>> found((count + kMeshChunk - 1) / kMeshChunk);
+    pool_.ForChunks(count, kMeshChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (is_wanted(i)) found[begin / kMeshChunk].push_back(static_cast<std::uint32_t>(i));
+      }
+    });
+    std::vector<std::uint32_t> all;
+    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    return all;
   }
 
   void GatherVertices() {
@@ -269,6 +303,7 @@ class Coarsener {
   std::uint32_t node_count_ = 0;
   std::vector<std::uint32_t> node_;    // of each vertex
   std::vector<std::uint32_t> chosen_;  // triangles that are kept
+  std::vector<char> has_triangle_;     // by node: one of those
   std::vector<std::uint32_t> place_;   // of each triangle among those
 };
 

@@ -275,34 +275,43 @@ void FindTrunkSections(const Shape& shape, Landmarks& landmarks) {
   const double armpit = MeanArmpitHeight(shape, landmarks);
   struct Extreme {
     double value = -std::numeric_limits<double>::infinity();
+    std::size_t level = 0;
     Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-    void Offer(double candidate, const Eigen::Vector3d& at) {
-      if (candidate <= value) return;
-      value = candidate;
-      centroid = at;
-    }
   };
   Extreme hip, waist, bust;
-  std::vector<CutPlane> levels;
+  std::vector<double> heights;
   for (double y = crotch + kHipFrom * stature; y < armpit; y += kTrunkLevelStep * stature) {
-    levels.push_back(Level(y));
+    heights.push_back(y);
   }
-  const std::vector<std::optional<SectionLoop>> loops = TrunkLoops(shape, levels);
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    const std::optional<SectionLoop>& loop = loops[i];
-    const double y = levels[i].origin.y();
-    if (!loop) continue;
-    const double above = (y - crotch) / stature;
-    const double below = (armpit - y) / stature;
-    if (above <= kHipTo) hip.Offer(loop->girth, loop->centroid);
-    if (above >= kWaistAboveCrotch && below >= kBustBelowArmpit) {
-      waist.Offer(-loop->girth, loop->centroid);
+  const auto offer = [&](std::size_t level, const SectionLoop& loop) {
+    const auto offer_to = [&](Extreme& extreme, double value) {
+      if (value > extreme.value) extreme = {value, level, loop.centroid};
+    };
+    const double above = (heights[level] - crotch) / stature;
+    const double below = (armpit - heights[level]) / stature;
+    if (above <= kHipTo) offer_to(hip, loop.girth);
+    if (above >= kWaistAboveCrotch && below >= kBustBelowArmpit) offer_to(waist, -loop.girth);
+    const double depth = loop.Max(Eigen::Vector3d::UnitZ()) - loop.Min(Eigen::Vector3d::UnitZ());
+    if (below < kBustBelowArmpit && !HasCaughtAnArm(loop, shape, landmarks)) offer_to(bust, depth);
+  };
+  const auto cut = [&](const std::vector<std::size_t>& levels) {
+    std::vector<CutPlane> planes;
+    for (const std::size_t level : levels) planes.push_back(Level(heights[level]));
+    const std::vector<std::optional<SectionLoop>> loops = TrunkLoops(shape, planes);
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      if (loops[i]) offer(levels[i], *loops[i]);
     }
-    const double depth = loop->Max(Eigen::Vector3d::UnitZ()) - loop->Min(Eigen::Vector3d::UnitZ());
-    if (below < kBustBelowArmpit && !HasCaughtAnArm(*loop, shape, landmarks)) {
-      bust.Offer(depth, loop->centroid);
-    }
+  };
+  // Every other one, then those beside the best.
+  std::vector<std::size_t> levels;
+  for (std::size_t level = 0; level < heights.size(); level += 2) levels.push_back(level);
+  cut(levels);
+  levels.clear();
+  for (const Extreme* extreme : {&hip, &waist, &bust}) {
+    if (extreme->level > 0) levels.push_back(extreme->level - 1);
+    if (extreme->level + 1 < heights.size()) levels.push_back(extreme->level + 1);
   }
+  cut(levels);
   const auto set = [&](LandmarkId id, const Extreme& extreme) {
     if (std::isfinite(extreme.value)) Put(landmarks, Index(id), extreme.centroid, 0.8);
   };

@@ -2,6 +2,12 @@
 
 namespace capfit::formats {
 
+bool PolygonSoup::HasTrianglesOnly() const {
+  bool all_are = true;  // a loop without an exit, which vectorises
+  for (const std::uint32_t size : face_sizes) all_are &= size == 3;
+  return all_are;
+}
+
 PolygonSoup WithFaces(const PolygonSoup& soup, std::span<const char> mark, char value) {
   PolygonSoup some;
   some.is_from_file = soup.is_from_file;

@@ -63,6 +63,8 @@ struct PolygonSoup {
   // files have, are left out with a warning. From a caller such faces are refused.
   bool is_from_file = false;
 
+  // Whether every face has three corners.
+  [[nodiscard]] bool HasTrianglesOnly() const;
   [[nodiscard]] std::size_t face_count() const {
     return face_sizes.empty() ? face_vertices.size() / 3 : face_sizes.size();
   }

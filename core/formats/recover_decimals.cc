@@ -16,6 +16,7 @@ constexpr int kMostDigits = 22;
 constexpr double kLargestInteger = 0x1p53;
 // Evidence that no chance agreement reaches: natural logarithm of one in 10^43.
 constexpr double kEnoughEvidence = 100.0;
+constexpr Eigen::Index kAtOnce = 1024;
 
 // Multiples of one power of ten.
 class DecimalGrid {
@@ -70,19 +71,24 @@ bool AllOnGrid(std::span<const Eigen::Vector3d> positions, const DecimalGrid& gr
   return evidence >= kEnoughEvidence;
 }
 
+using Coordinates = Eigen::Map<const Eigen::ArrayXd>;
+
+Coordinates CoordinatesOf(std::span<const Eigen::Vector3d> positions) {
+  return {positions.empty() ? nullptr : positions.front().data(),
+          static_cast<Eigen::Index>(3 * positions.size())};
+}
+
 double LargestCoordinate(std::span<const Eigen::Vector3d> positions) {
-  double largest = 0.0;
-  for (const Eigen::Vector3d& position : positions) {
-    largest = std::max(largest, position.cwiseAbs().maxCoeff());
-  }
-  return largest;
+  return positions.empty() ? 0.0 : CoordinatesOf(positions).abs().maxCoeff();
 }
 
 bool AllFloats(std::span<const Eigen::Vector3d> positions) {
-  const auto is_float = [](double x) { return static_cast<double>(static_cast<float>(x)) == x; };
-  return std::all_of(positions.begin(), positions.end(), [&](const Eigen::Vector3d& position) {
-    return std::all_of(position.begin(), position.end(), is_float);
-  });
+  const Coordinates all = CoordinatesOf(positions);
+  for (Eigen::Index begin = 0; begin < all.size(); begin += kAtOnce) {
+    const auto some = all.segment(begin, std::min(kAtOnce, all.size() - begin));
+    if (!(some.cast<float>().cast<double>() == some).all()) return false;
+  }
+  return true;
 }
 
 }  // namespace

@@ -43,6 +43,11 @@ absl::Status CheckFaceSizes(const PolygonSoup& soup, const MeshLimits& limits) {
         absl::StrCat("has ", soup.face_vertices.size(), " entries, must have 3 per triangle"),
         {{"value", absl::StrCat(soup.face_vertices.size())}, {"limit", "a multiple of 3"}});
   }
+  const std::size_t faces = soup.face_sizes.size();
+  if (soup.HasTrianglesOnly() && faces <= limits.max_triangles() &&
+      limits.max_corners_per_face >= 3 && soup.face_vertices.size() == 3 * faces) {
+    return absl::OkStatus();
+  }
   const std::size_t fewest_corners = soup.is_from_file ? 0 : 3;
   TriangleCounter triangles(limits);
   std::size_t corners = 0;

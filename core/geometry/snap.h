@@ -19,9 +19,12 @@ inline constexpr double kCoordinateGrid = 0x1p-26 * kOddFactor;
 // For few values that must stay precise: 8.6e-13.
 inline constexpr double kFineGrid = 0x1p-40 * kOddFactor;
 
-// The grid point nearest to `value`; odd: Snap(-x) = -Snap(x).
+// The grid point nearest to `value`; odd: Snap(-x) = -Snap(x). (What std::round gives, in three
+// instructions in place of a call: half a step less its last bit goes to the next integer from
+// where std::round does.)
 [[nodiscard]] inline double Snap(double value, double grid) {
-  return std::round(value / grid) * grid;
+  const double steps = value / grid;
+  return std::trunc(steps + std::copysign(0x1.fffffffffffffp-2, steps)) * grid;
 }
 [[nodiscard]] inline Eigen::Vector3d Snap(const Eigen::Vector3d& value, double grid) {
   return {Snap(value.x(), grid), Snap(value.y(), grid), Snap(value.z(), grid)};

@@ -22,16 +22,17 @@ BodyMesh BodyMesh::Of(std::shared_ptr<const Connections> connections, Points ver
 }
 
 BodyMesh::BodyMesh(Points vertices, std::vector<Triangle> triangles,
-                   std::vector<std::int32_t> vertex_of_source, std::vector<HalfEdge> mates,
+                   std::vector<std::int32_t> vertex_of_source, RawVector<HalfEdge> mates,
                    const ThreadPool& pool) {
   if (mates.empty()) mates = FindEdgeMates(triangles, vertices.size(), pool).mate;
-  *this = Of(std::make_shared<const Connections>(Connections{
-                 std::move(triangles), std::move(mates), {}, std::move(vertex_of_source)}),
-             std::move(vertices), pool);
+  *this = Of(
+      std::make_shared<const Connections>(Connections{
+          {triangles.begin(), triangles.end()}, std::move(mates), {}, std::move(vertex_of_source)}),
+      std::move(vertices), pool);
 }
 
 BodyMesh::BodyMesh(std::span<const Eigen::Vector3d> vertices, CurveOrder order,
-                   std::vector<HalfEdge> mates, std::span<const std::int32_t> vertex_of_source,
+                   RawVector<HalfEdge> mates, std::vector<std::int32_t> vertex_of_source,
                    const SurfaceMeasures& measures, const PrincipalFrame& frame,
                    const ThreadPool& pool)
     : measures_(measures), frame_(frame) {
@@ -39,17 +40,10 @@ BodyMesh::BodyMesh(std::span<const Eigen::Vector3d> vertices, CurveOrder order,
   pool.ForChunks(ordered.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) ordered[i] = vertices[order.source[i]];
   });
-  std::vector<std::int32_t> place(vertex_of_source.size());
-  pool.ForChunks(place.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::int32_t v = vertex_of_source[i];
-      place[i] = v < 0 ? -1 : static_cast<std::int32_t>(order.rank[v]);
-    }
-  });
   vertices_ = std::make_shared<const Points>(std::move(ordered));
   connections_ = std::make_shared<const Connections>(
       Connections{std::move(order.triangles), std::move(mates), std::move(order.first_triangle),
-                  std::move(place)});
+                  std::move(vertex_of_source)});
 }
 
 BodyMesh BodyMesh::WithVertices(Points vertices, const ThreadPool& pool) const {
@@ -72,8 +66,12 @@ BodyMesh BodyMesh::InCurveOrder(const ThreadPool& pool, const FitObserver& obser
   EdgeMates mates =
       FindEdgeMates(order.triangles, vertices_->size(), pool, observer, order.first_triangle);
   if (observer.IsCancelled()) return *this;
-  return BodyMesh(*vertices_, std::move(order), std::move(mates.mate),
-                  connections_->vertex_of_source, measures_, frame, pool);
+  std::vector<std::int32_t> vertex_of_source = connections_->vertex_of_source;
+  for (std::int32_t& v : vertex_of_source) {
+    if (v >= 0) v = static_cast<std::int32_t>(order.rank[v]);
+  }
+  return BodyMesh(*vertices_, std::move(order), std::move(mates.mate), std::move(vertex_of_source),
+                  measures_, frame, pool);
 }
 
 }  // namespace capfit::mesh

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/fit_observer.h"
+#include "core/base/raw_vector.h"
 #include "core/base/thread_pool.h"
 #include "core/geometry/similarity.h"
 #include "core/mesh/curve_order.h"
@@ -29,13 +30,13 @@ class BodyMesh {
   // each of the caller's vertices to a vertex here, -1 where none is left of it. `mates` are those
   // of the half-edges; empty: they are looked for.
   BodyMesh(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles,
-           std::vector<std::int32_t> vertex_of_source, std::vector<HalfEdge> mates = {},
+           std::vector<std::int32_t> vertex_of_source, RawVector<HalfEdge> mates = {},
            const ThreadPool& pool = ThreadPool(1));
 
-  // In the order of a curve, of a surface with these measures. `vertices` in the order in which
-  // they came, which `vertex_of_source` is about.
-  BodyMesh(std::span<const Eigen::Vector3d> vertices, CurveOrder order, std::vector<HalfEdge> mates,
-           std::span<const std::int32_t> vertex_of_source, const SurfaceMeasures& measures,
+  // In the order of a curve, of a surface with these measures in this frame. `vertices` in the
+  // order in which they came, all else in that of the curve.
+  BodyMesh(std::span<const Eigen::Vector3d> vertices, CurveOrder order, RawVector<HalfEdge> mates,
+           std::vector<std::int32_t> vertex_of_source, const SurfaceMeasures& measures,
            const PrincipalFrame& frame, const ThreadPool& pool);
 
   [[nodiscard]] std::span<const Eigen::Vector3d> vertices() const& { return *vertices_; }
@@ -77,8 +78,8 @@ class BodyMesh {
  private:
   // What stays when vertices move.
   struct Connections {
-    std::vector<Triangle> triangles;
-    std::vector<HalfEdge> mates;
+    RawVector<Triangle> triangles;
+    RawVector<HalfEdge> mates;
     std::vector<std::uint32_t> first_triangle;
     std::vector<std::int32_t> vertex_of_source;
   };

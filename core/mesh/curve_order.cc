@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/chunk_sums.h"
+#include "core/mesh/surface_measures.h"
 
 namespace capfit::mesh {
 namespace {
@@ -33,7 +34,7 @@ using KeyedVertex = std::uint64_t;
 std::uint32_t KeyOf(KeyedVertex v) { return static_cast<std::uint32_t>(v >> 32); }
 
 // One pass of a counting sort: `order` by 12 bits of the keys.
-void SortByDigit(int shift, const ThreadPool& pool, std::vector<KeyedVertex>& order) {
+void SortByDigit(int shift, const ThreadPool& pool, RawVector<KeyedVertex>& order) {
   const auto digit = [&](KeyedVertex v) { return (KeyOf(v) >> shift) & (kDigits - 1); };
   const std::size_t chunks = (order.size() + kSortChunk - 1) / kSortChunk;
   std::vector<std::uint32_t> place(chunks * kDigits, 0);
@@ -45,7 +46,7 @@ void SortByDigit(int shift, const ThreadPool& pool, std::vector<KeyedVertex>& or
   for (std::size_t d = 0; d < kDigits; ++d) {
     for (std::size_t c = 0; c < chunks; ++c) next += std::exchange(place[c * kDigits + d], next);
   }
-  std::vector<KeyedVertex> sorted(order.size());
+  RawVector<KeyedVertex> sorted(order.size());
   pool.ForChunks(order.size(), kSortChunk, [&](std::size_t begin, std::size_t end) {
     std::uint32_t* const place_of = place.data() + begin / kSortChunk * kDigits;
     for (std::size_t i = begin; i < end; ++i) sorted[place_of[digit(order[i])]++] = order[i];
@@ -54,9 +55,9 @@ void SortByDigit(int shift, const ThreadPool& pool, std::vector<KeyedVertex>& or
 }
 
 // Along the curve; at the same place of it by coordinates.
-std::vector<std::uint32_t> SortByKey(std::vector<KeyedVertex> order,
-                                     std::span<const Eigen::Vector3d> points,
-                                     const ThreadPool& pool) {
+RawVector<std::uint32_t> SortByKey(RawVector<KeyedVertex> order,
+                                   std::span<const Eigen::Vector3d> points,
+                                   const ThreadPool& pool) {
   for (const int shift : {0, 12}) SortByDigit(shift, pool, order);
   const auto comes_first = [&](std::uint32_t a, std::uint32_t b) {
     const Eigen::Vector3d& p = points[a];
@@ -65,7 +66,7 @@ std::vector<std::uint32_t> SortByKey(std::vector<KeyedVertex> order,
     if (p.z() != q.z()) return p.z() < q.z();
     return p.x() != q.x() ? p.x() < q.x() : a < b;
   };
-  std::vector<std::uint32_t> sorted(order.size());
+  RawVector<std::uint32_t> sorted(order.size());
   pool.ForChunks(order.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t first = begin; first < end; ++first) {
       // A run that began in the chunk before was sorted there.
@@ -81,20 +82,14 @@ std::vector<std::uint32_t> SortByKey(std::vector<KeyedVertex> order,
   return sorted;
 }
 
-std::vector<KeyedVertex> CurveKeys(std::span<const Eigen::Vector3d> points,
-                                   const ThreadPool& pool) {
-  Eigen::Vector3d low = points.front();
-  Eigen::Vector3d high = low;
-  for (const Eigen::Vector3d& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
+RawVector<KeyedVertex> CurveKeys(std::span<const Eigen::Vector3d> points, const ThreadPool& pool) {
+  const BoundingBox box = BoundingBoxOf(points, pool);
   const double cells = (1u << kBitsPerAxis) - 1;
-  const double side = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
-  std::vector<KeyedVertex> keys(points.size());
+  const double side = std::max((box.high - box.low).maxCoeff(), std::numeric_limits<double>::min());
+  RawVector<KeyedVertex> keys(points.size());
   pool.ForChunks(points.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      const Eigen::Vector3d at = (points[v] - low) * (cells / side);
+      const Eigen::Vector3d at = (points[v] - box.low) * (cells / side);
       const std::uint32_t key = Spread(static_cast<std::uint32_t>(at.x())) |
                                 Spread(static_cast<std::uint32_t>(at.y())) << 1 |
                                 Spread(static_cast<std::uint32_t>(at.z())) << 2;

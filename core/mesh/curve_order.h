@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/fit_observer.h"
+#include "core/base/raw_vector.h"
 #include "core/base/thread_pool.h"
 #include "core/mesh/edge_mates.h"
 
@@ -16,9 +17,9 @@ namespace capfit::mesh {
 // Vertices along a space-filling curve, triangles by their corners in that order: neighbours on the
 // surface are near each other in memory, which makes all that follows several times as fast.
 struct CurveOrder {
-  std::vector<std::uint32_t> source;          // of each vertex here the one that came
-  std::vector<std::uint32_t> rank;            // of each that came the vertex here
-  std::vector<Triangle> triangles;            // of vertices here, lowest corners first
+  RawVector<std::uint32_t> source;            // of each vertex here the one that came
+  RawVector<std::uint32_t> rank;              // of each that came the vertex here
+  RawVector<Triangle> triangles;              // of vertices here, lowest corners first
   std::vector<std::uint32_t> first_triangle;  // of those that begin at each vertex; the last: end
 };
 

@@ -58,7 +58,7 @@ class MateFinder {
         spokes_(std::make_unique_for_overwrite<Spoke[]>((first_triangle.empty() ? 3 : 1) *
                                                         triangles.size())),
         drawers_(drawer_count_) {
-    mate_.assign(3 * triangles.size(), kNoMate);
+    mate_.resize(3 * triangles.size());
   }
 
   EdgeMates Run(const FitObserver& observer) {
@@ -162,6 +162,9 @@ class MateFinder {
   }
 
   void RecordEdge(std::span<const SpokeKey> edge, EdgeMates& found) {
+    if (edge.size() != 2) {
+      for (const SpokeKey spoke : edge) mate_[HalfEdgeOf(spoke)] = kNoMate;
+    }
     if (edge.size() == 1) {
       ++found.open;
     } else if (edge.size() == 2) {
@@ -184,7 +187,7 @@ class MateFinder {
   std::unique_ptr<Spoke[]> spokes_;
   std::vector<std::uint32_t> drawer_ends_;
   std::vector<EdgeMates> drawers_;  // without mates
-  std::vector<HalfEdge> mate_;
+  RawVector<HalfEdge> mate_;        // each half-edge is in one edge, which fills its place
 };
 
 }  // namespace

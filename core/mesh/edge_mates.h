@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/fit_observer.h"
+#include "core/base/raw_vector.h"
 #include "core/base/thread_pool.h"
 
 namespace capfit::mesh {
@@ -30,7 +31,7 @@ inline constexpr HalfEdge kNoMate = 0xFFFFFFFFu;
 
 struct EdgeMates {
   // For each half-edge the one across the edge; kNoMate where the edge is open or crowded.
-  std::vector<HalfEdge> mate;
+  RawVector<HalfEdge> mate;
   // Edges with three or more triangles: their half-edges (ascending), one edge after the other.
   std::vector<HalfEdge> crowded;
   std::vector<std::uint32_t> crowded_sizes;

@@ -60,14 +60,18 @@ class MeshMender {
         is_left_out_(is_left_out),
         positions_(positions),
         pool_(pool),
-        observer_(observer) {
-    Triangulate();
-  }
+        observer_(observer) {}
 
   absl::StatusOr<PreparedMesh> Run() {
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
-    if (std::optional<PreparedMesh> prepared = TakeAsItCame()) return *std::move(prepared);
+    const bool has_triangles_only = is_left_out_.empty() && soup_.HasTrianglesOnly();
+    if (!has_triangles_only) Triangulate();
+    const std::span<const Triangle> triangles = has_triangles_only
+                                                    ? FacesAsTriangles(soup_)
+                                                    : std::span<const Triangle>(surface_.triangles);
+    if (auto prepared = TakeAsItCame(triangles)) return *std::move(prepared);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
+    if (has_triangles_only) Triangulate();
     EdgeMates mates = FindEdgeMates(surface_.triangles, positions_.size(), pool_, observer_);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled());
     MeasureUsed();
@@ -98,16 +102,16 @@ class MeshMender {
   void Triangulate() {
     TriangulatedFaces faces =
         is_left_out_.empty()
-            ? TriangulateFaces(soup_, positions_, pool_)
-            : TriangulateFaces(formats::WithFaces(soup_, is_left_out_, 0), positions_, pool_);
+            ? TriangulateFaces(soup_, positions_)
+            : TriangulateFaces(formats::WithFaces(soup_, is_left_out_, 0), positions_);
     surface_.triangles = std::move(faces.triangles);
     degenerate_ = faces.degenerate;
   }
 
   // What all of the steps below would leave as it is; else nothing, and they may begin.
-  std::optional<PreparedMesh> TakeAsItCame() {
-    const std::span<const Triangle> triangles = surface_.triangles;
-    if (degenerate_ > 0 || !MayBeClosed()) return std::nullopt;
+  // Degenerate triangles are flat.
+  std::optional<PreparedMesh> TakeAsItCame(std::span<const Triangle> triangles) {
+    if (degenerate_ > 0 || !MayBeClosed(triangles.size())) return std::nullopt;
     const SurfaceMeasures measures = Measure(positions_, triangles, pool_);
     diagonal_ = measures.diagonal();
     if (!(measures.volume > LeastVolume())) return std::nullopt;
@@ -122,16 +126,14 @@ class MeshMender {
         FindEdgeMates(order.triangles, positions_.size(), pool_, observer_, order.first_triangle);
     if (mates.mate.empty() || !mates.IsClosedAndOriented()) return std::nullopt;
     if (!IsOneSurface(order.triangles, mates.mate, positions_.size(), pool_)) return std::nullopt;
-    std::vector<std::int32_t> themselves(positions_.size());
-    std::iota(themselves.begin(), themselves.end(), 0);
-    return Finish(BodyMesh(positions_, std::move(order), std::move(mates.mate), themselves,
+    std::vector<std::int32_t> places(order.rank.begin(), order.rank.end());
+    return Finish(BodyMesh(positions_, std::move(order), std::move(mates.mate), std::move(places),
                            measures, frame, pool_));
   }
 
   // By Euler's formula: a closed surface without handles has two vertices more than half as many as
   // triangles, one with handles fewer. An open one, or with seams, has more.
-  [[nodiscard]] bool MayBeClosed() const {
-    const std::size_t triangles = surface_.triangles.size();
+  [[nodiscard]] bool MayBeClosed(std::size_t triangles) const {
     return triangles > 0 && triangles % 2 == 0 && 2 * positions_.size() <= triangles + 4;
   }
 

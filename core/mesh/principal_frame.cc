@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>  // determinant
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -11,36 +12,51 @@
 namespace capfit::mesh {
 namespace {
 
-// Adds up term(point).
-template <typename Sum, typename Term>
-Sum SumOf(std::span<const Eigen::Vector3d> points, const ThreadPool& pool, const Sum& zero,
-          const Term& term) {
-  return SumOverChunks(pool, points.size(), zero, [&](std::size_t begin, std::size_t end) {
-    Sum sum = zero;
-    for (const Eigen::Vector3d& p : points.subspan(begin, end - begin)) sum += term(p);
+// Numbers that are added up over all points. (Plain ones: sums of Eigen's small matrices wait for
+// their memory, which takes three times as long.)
+template <std::size_t kCount>
+struct Totals {
+  std::array<double, kCount> values{};
+
+  Totals& operator+=(const Totals& more) {
+    for (std::size_t i = 0; i < kCount; ++i) values[i] += more.values[i];
+    return *this;
+  }
+};
+
+// Adds up the numbers term(point).
+template <std::size_t kCount, typename Term>
+std::array<double, kCount> SumOf(std::span<const Eigen::Vector3d> points, const ThreadPool& pool,
+                                 const Term& term) {
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    Totals<kCount> sum;
+    for (const Eigen::Vector3d& p : points.subspan(begin, end - begin)) sum += {term(p)};
     return sum;
-  });
+  };
+  return SumOverChunks(pool, points.size(), Totals<kCount>{}, part).values;
 }
 
 // Rows: the directions in which the points spread most, second most and least. The first and the
 // more lopsided of the others point to where the points reach out farther.
 Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points, const ThreadPool& pool) {
-  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d mean =
-      SumOf(points, pool, zero, [](const Eigen::Vector3d& p) { return p; }) /
-      static_cast<double>(points.size());
-  const Eigen::Matrix3d no_products = Eigen::Matrix3d::Zero();
-  const Eigen::Matrix3d products =
-      SumOf(points, pool, no_products, [&](const Eigen::Vector3d& p) -> Eigen::Matrix3d {
-        return (p - mean) * (p - mean).transpose();
-      });
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(products);
+  const auto sums = SumOf<3>(points, pool, [](const Eigen::Vector3d& p) {
+    return std::array{p.x(), p.y(), p.z()};
+  });
+  const Eigen::Vector3d mean = Eigen::Vector3d(sums.data()) / static_cast<double>(points.size());
+  const auto products = SumOf<6>(points, pool, [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d d = p - mean;
+    return std::array{d.x() * d.x(), d.x() * d.y(), d.x() * d.z(),
+                      d.y() * d.y(), d.y() * d.z(), d.z() * d.z()};
+  });
+  Eigen::Matrix3d spread;
+  spread << products[0], products[1], products[2], products[1], products[3], products[4],
+      products[2], products[4], products[5];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse().transpose();
-  const Eigen::Vector3d cubes =
-      SumOf(points, pool, zero, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-        const Eigen::Vector3d at = axes * (p - mean);
-        return at.cwiseProduct(at).cwiseProduct(at);
-      });
+  const auto cubes = SumOf<3>(points, pool, [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d at = axes * (p - mean);
+    return std::array{at.x() * at.x() * at.x(), at.y() * at.y() * at.y(), at.z() * at.z() * at.z()};
+  });
   const int lopsided = std::abs(cubes[1]) >= std::abs(cubes[2]) ? 1 : 2;
   for (const int k : {0, lopsided}) {
     if (cubes[k] < 0.0) axes.row(k) = -axes.row(k);

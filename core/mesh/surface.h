@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/base/raw_vector.h"
 #include "core/mesh/body_mesh.h"
 #include "core/mesh/edge_mates.h"
 
@@ -13,7 +14,7 @@ namespace capfit::mesh {
 // who is joined to whom, and corners decide nothing. Size: 3 * triangles.
 struct Surface {
   std::vector<Triangle> triangles;
-  std::vector<HalfEdge> mate;
+  RawVector<HalfEdge> mate;
 };
 
 }  // namespace capfit::mesh

@@ -11,17 +11,6 @@
 namespace capfit::mesh {
 namespace {
 
-struct Box {
-  Eigen::Vector3d low;
-  Eigen::Vector3d high;
-
-  Box& operator+=(const Box& other) {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
-    return *this;
-  }
-};
-
 struct Sums {
   double volume = 0.0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // of the volume
@@ -39,15 +28,18 @@ struct Sums {
 
 }  // namespace
 
-SurfaceMeasures Measure(std::span<const Eigen::Vector3d> vertices,
-                        std::span<const Triangle> triangles, const ThreadPool& pool) {
+BoundingBox BoundingBoxOf(std::span<const Eigen::Vector3d> points, const ThreadPool& pool) {
   const auto box_of = [&](std::size_t begin, std::size_t end) {
-    Box box = {vertices[begin], vertices[begin]};
-    for (std::size_t i = begin; i < end; ++i) box += {vertices[i], vertices[i]};
+    BoundingBox box = {points[begin], points[begin]};
+    for (std::size_t i = begin; i < end; ++i) box += {points[i], points[i]};
     return box;
   };
-  const Box first = {vertices.front(), vertices.front()};
-  const Box box = SumOverChunks(pool, vertices.size(), first, box_of);
+  return SumOverChunks(pool, points.size(), BoundingBox{points.front(), points.front()}, box_of);
+}
+
+SurfaceMeasures Measure(std::span<const Eigen::Vector3d> vertices,
+                        std::span<const Triangle> triangles, const ThreadPool& pool) {
+  const BoundingBox box = BoundingBoxOf(vertices, pool);
   const Eigen::Vector3d middle = 0.5 * (box.low + box.high);  // keeps digits far from the origin
   const auto part = [&](std::size_t begin, std::size_t end) {
     Sums sum;

@@ -10,6 +10,22 @@
 
 namespace capfit::mesh {
 
+// Axis-parallel.
+struct BoundingBox {
+  Eigen::Vector3d low;
+  Eigen::Vector3d high;
+
+  BoundingBox& operator+=(const BoundingBox& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+    return *this;
+  }
+};
+
+// Around points, of which there is one at least. O(n).
+[[nodiscard]] BoundingBox BoundingBoxOf(std::span<const Eigen::Vector3d> points,
+                                        const ThreadPool& pool);
+
 // In the unit of the vertices, its square and its cube.
 struct SurfaceMeasures {
   double volume = 0.0;                                 // below 0 where the triangles face inward

@@ -15,7 +15,7 @@ HalfEdge AfterTurn(HalfEdge h, const std::vector<char>& turned) {
 }
 
 void TurnTriangles(const std::vector<char>& turned, Surface& surface) {
-  std::vector<HalfEdge> mate(surface.mate.size());
+  RawVector<HalfEdge> mate(surface.mate.size());
   for (HalfEdge h = 0; h < mate.size(); ++h) {
     mate[AfterTurn(h, turned)] = AfterTurn(surface.mate[h], turned);
   }

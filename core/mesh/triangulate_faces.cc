@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 
-#include "core/base/chunk_sums.h"
 #include "core/mesh/triangulate_loop.h"
 
 namespace capfit::mesh {
@@ -23,16 +22,15 @@ constexpr std::size_t kManyFolded = 100;
 
 class FaceTriangulator {
  public:
-  FaceTriangulator(const formats::PolygonSoup& soup, std::span<const Eigen::Vector3d> positions,
-                   const ThreadPool& pool)
-      : soup_(soup), positions_(positions), pool_(pool) {}
+  FaceTriangulator(const formats::PolygonSoup& soup, std::span<const Eigen::Vector3d> positions)
+      : soup_(soup), positions_(positions) {}
 
   TriangulatedFaces Run() {
     const std::span<const std::uint32_t> corners = soup_.face_vertices;
-    const bool has_triangles_only =
-        std::ranges::all_of(soup_.face_sizes, [](std::uint32_t size) { return size == 3; });
-    if (has_triangles_only) {
-      TakeTriangles();
+    if (soup_.HasTrianglesOnly()) {
+      const std::span<const Triangle> faces = FacesAsTriangles(soup_);
+      result_.triangles.assign(faces.begin(), faces.end());
+      result_.degenerate = std::erase_if(result_.triangles, IsDegenerate);
       return std::move(result_);
     }
     result_.triangles.reserve(corners.size() / 3);
@@ -46,21 +44,6 @@ class FaceTriangulator {
   }
 
  private:
-  void TakeTriangles() {
-    const std::span<const std::uint32_t> corners = soup_.face_vertices;
-    result_.triangles.resize(corners.size() / 3);
-    const auto take = [&](std::size_t begin, std::size_t end) {
-      std::size_t degenerate = 0;
-      for (std::size_t t = begin; t < end; ++t) {
-        result_.triangles[t] = {corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]};
-        degenerate += IsDegenerate(result_.triangles[t]) ? 1 : 0;
-      }
-      return degenerate;
-    };
-    result_.degenerate = SumOverChunks(pool_, result_.triangles.size(), std::size_t{0}, take);
-    if (result_.degenerate > 0) std::erase_if(result_.triangles, IsDegenerate);
-  }
-
   static bool IsDegenerate(const Triangle& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
   }
@@ -132,7 +115,6 @@ class FaceTriangulator {
 
   const formats::PolygonSoup& soup_;
   std::span<const Eigen::Vector3d> positions_;
-  const ThreadPool& pool_;
   TriangulatedFaces result_;
   std::vector<Eigen::Vector3d> points_;
   std::size_t steps_left_ = kMostCuttingSteps;
@@ -141,10 +123,15 @@ class FaceTriangulator {
 
 }  // namespace
 
+std::span<const Triangle> FacesAsTriangles(const formats::PolygonSoup& soup) {
+  static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t));
+  return {reinterpret_cast<const Triangle*>(soup.face_vertices.data()),
+          soup.face_vertices.size() / 3};
+}
+
 TriangulatedFaces TriangulateFaces(const formats::PolygonSoup& soup,
-                                   std::span<const Eigen::Vector3d> positions,
-                                   const ThreadPool& pool) {
-  return FaceTriangulator(soup, positions, pool).Run();
+                                   std::span<const Eigen::Vector3d> positions) {
+  return FaceTriangulator(soup, positions).Run();
 }
 
 }  // namespace capfit::mesh

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "core/base/thread_pool.h"
 #include "core/formats/polygon_soup.h"
 #include "core/mesh/body_mesh.h"
 
@@ -17,6 +16,10 @@ struct TriangulatedFaces {
   std::vector<Triangle> triangles;  // in the order of the faces, each with three different corners
   std::size_t degenerate = 0;       // triangles without three different corners, left out
 };
+
+// The faces of a checked soup whose faces have three corners each, as they are: the soup's own
+// array. Some may be degenerate.
+[[nodiscard]] std::span<const Triangle> FacesAsTriangles(const formats::PolygonSoup& soup);
 
 // Triangles as they are, quads by the diagonal from their first corner, as other programs do (so a
 // mesh of quads gives the same surface as its triangulated copy, to the bit). Where that would fold
@@ -34,11 +37,9 @@ struct TriangulatedFaces {
 //
 // Larger faces often have inward corners: they get the triangulation of least area
 // (beyond some millions of corners or some hundreds in one face, one by cutting ears). `soup` is
-// checked; `positions` stand for its own. O(corners) for the usual sizes of faces; a mesh of
-// nothing but triangles is taken by all threads.
+// checked; `positions` stand for its own. O(corners) for the usual sizes of faces.
 [[nodiscard]] TriangulatedFaces TriangulateFaces(const formats::PolygonSoup& soup,
-                                                 std::span<const Eigen::Vector3d> positions,
-                                                 const ThreadPool& pool = ThreadPool(1));
+                                                 std::span<const Eigen::Vector3d> positions);
 
 }  // namespace capfit::mesh
 

@@ -17,7 +17,7 @@ namespace capfit::solid {
 struct NetSurface {
   std::vector<Eigen::Vector3d> vertices;  // in the caller's frame
   std::vector<mesh::Triangle> triangles;  // outward
-  std::vector<mesh::HalfEdge> mates;      // of the half-edges; empty: not closed after all
+  RawVector<mesh::HalfEdge> mates;        // of the half-edges; empty: not closed after all
   std::vector<std::uint32_t> cells;       // of each vertex
 };
 

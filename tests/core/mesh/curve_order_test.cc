@@ -86,7 +86,7 @@ TEST(CurveOrderTest, KeepsTheTrianglesAndTheirWayRound) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   }
   std::sort(came.begin(), came.end());
-  EXPECT_EQ(order.triangles, came);
+  EXPECT_TRUE(std::ranges::equal(order.triangles, came));
 }
 
 // What every later room gets is the same bit by bit, however the body came.

@@ -37,7 +37,7 @@ TEST(HalfEdgeMeshTest, GivesBackTheSurfaceItWasMadeOf) {
 // Edges are what the mates say, where four triangles share the two vertices of one too.
 TEST(HalfEdgeMeshTest, KeepsApartWhatMeetsAtACrowdedEdge) {
   std::vector<Triangle> triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 0, 5}};
-  Surface surface{triangles, std::vector<HalfEdge>(12, kNoMate)};
+  Surface surface{triangles, RawVector<HalfEdge>(12, kNoMate)};
   surface.mate[0] = 3, surface.mate[3] = 0;
   surface.mate[6] = 9, surface.mate[9] = 6;
   HalfEdgeMesh mesh(6, surface);

@@ -64,6 +64,17 @@ TEST(PrepareMeshTest, SameBitsForAnyNumberOfThreads) {
   }
 }
 
+// Such faces leave as many triangles as a closed surface may have.
+TEST(PrepareMeshTest, DropsDegenerateFacesOfASoupOfTriangles) {
+  formats::PolygonSoup soup = Ball(12, 7);
+  for (const std::uint32_t v : {5u, 5u, 9u, 3u, 8u, 8u, 4u, 7u, 4u, 6u, 6u, 6u}) {
+    soup.face_vertices.push_back(v);
+  }
+  const PreparedMesh prepared = Prepared(soup);
+  EXPECT_EQ(CodesOf(prepared), "DEGENERATE_FACES");
+  EXPECT_EQ(CountOf(prepared, "DEGENERATE_FACES"), 4);
+}
+
 // Which two corners of a quad of the cube are joined.
 bool HasEdge(const PreparedMesh& prepared, std::size_t a, std::size_t b) {
   const auto from = static_cast<std::uint32_t>(prepared.mesh.vertex_of_source()[a]);
