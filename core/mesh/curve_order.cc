@@ -28,10 +28,13 @@ constexpr std::size_t kSortChunk = 4 * kMeshChunk;
 constexpr std::size_t kLeastShare = 8192;
 constexpr int kMostShares = 4;
 
-// The key of a vertex in the upper half, its index in the lower.
+// The key of a vertex in the upper 24 bits, then eight of how high it lies in its cell of the
+// curve, and its index in the lower half.
 using KeyedVertex = std::uint64_t;
 
-std::uint32_t KeyOf(KeyedVertex v) { return static_cast<std::uint32_t>(v >> 32); }
+std::uint32_t KeyOf(KeyedVertex v) { return static_cast<std::uint32_t>(v >> 40); }
+std::uint32_t HeightInCell(KeyedVertex v) { return static_cast<std::uint32_t>(v >> 32) & 0xFFu; }
+std::uint32_t IndexOf(KeyedVertex v) { return static_cast<std::uint32_t>(v); }
 
 // One pass of a counting sort: `order` by 12 bits of the keys.
 void SortByDigit(int shift, const ThreadPool& pool, RawVector<KeyedVertex>& order) {
@@ -54,29 +57,31 @@ void SortByDigit(int shift, const ThreadPool& pool, RawVector<KeyedVertex>& orde
   order.swap(sorted);
 }
 
-// Along the curve; at the same place of it by coordinates.
+// Along the curve; in the same cell of it by coordinates, y first.
 RawVector<std::uint32_t> SortByKey(RawVector<KeyedVertex> order,
                                    std::span<const Eigen::Vector3d> points,
                                    const ThreadPool& pool) {
   for (const int shift : {0, 12}) SortByDigit(shift, pool, order);
-  const auto comes_first = [&](std::uint32_t a, std::uint32_t b) {
-    const Eigen::Vector3d& p = points[a];
-    const Eigen::Vector3d& q = points[b];
+  const auto comes_first = [&](KeyedVertex a, KeyedVertex b) {
+    if (HeightInCell(a) != HeightInCell(b)) return HeightInCell(a) < HeightInCell(b);
+    const Eigen::Vector3d& p = points[IndexOf(a)];
+    const Eigen::Vector3d& q = points[IndexOf(b)];
     if (p.y() != q.y()) return p.y() < q.y();
     if (p.z() != q.z()) return p.z() < q.z();
-    return p.x() != q.x() ? p.x() < q.x() : a < b;
+    return p.x() != q.x() ? p.x() < q.x() : IndexOf(a) < IndexOf(b);
   };
   RawVector<std::uint32_t> sorted(order.size());
   pool.ForChunks(order.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<KeyedVertex> run;
     for (std::size_t first = begin; first < end; ++first) {
       // A run that began in the chunk before was sorted there.
       if (first > 0 && KeyOf(order[first - 1]) == KeyOf(order[first])) continue;
-      std::size_t last = first;
-      for (; last < order.size() && KeyOf(order[last]) == KeyOf(order[first]); ++last) {
-        sorted[last] = static_cast<std::uint32_t>(order[last]);
-      }
-      std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(first),
-                sorted.begin() + static_cast<std::ptrdiff_t>(last), comes_first);
+      std::size_t last = first + 1;
+      while (last < order.size() && KeyOf(order[last]) == KeyOf(order[first])) ++last;
+      run.assign(order.begin() + static_cast<std::ptrdiff_t>(first),
+                 order.begin() + static_cast<std::ptrdiff_t>(last));
+      std::sort(run.begin(), run.end(), comes_first);
+      for (std::size_t i = 0; i < run.size(); ++i) sorted[first + i] = IndexOf(run[i]);
     }
   });
   return sorted;
@@ -93,7 +98,8 @@ RawVector<KeyedVertex> CurveKeys(std::span<const Eigen::Vector3d> points, const 
       const std::uint32_t key = Spread(static_cast<std::uint32_t>(at.x())) |
                                 Spread(static_cast<std::uint32_t>(at.y())) << 1 |
                                 Spread(static_cast<std::uint32_t>(at.z())) << 2;
-      keys[v] = KeyedVertex{key} << 32 | v;
+      const auto height = static_cast<std::uint32_t>(256.0 * at.y()) & 0xFFu;
+      keys[v] = KeyedVertex{key} << 40 | KeyedVertex{height} << 32 | v;
     }
   });
   return keys;
