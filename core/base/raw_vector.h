@@ -13,11 +13,6 @@ namespace capfit {
 template <typename T>
 struct RawAllocator : std::allocator<T> {
   template <typename U>
-  struct rebind {
-    using other = RawAllocator<U>;
-  };
-
-  template <typename U>
   void construct(U* place) noexcept(std::is_nothrow_default_constructible_v<U>) {
     ::new (static_cast<void*>(place)) U;
   }
