@@ -15,7 +15,7 @@ namespace capfit::body {
 // principal_frame.h), and so does all that is computed from them; the order in which a file lists
 // vertices and triangles has no say in it.
 struct WorkingCopy {
-  mesh::BodyMesh mesh;  // in the order of the curve, where it came
+  mesh::BodyMesh mesh;  // in the order of a curve, in the caller's frame
   mesh::PrincipalFrame frame;
   std::vector<Eigen::Vector3d> points;  // the vertices in the frame, snapped
 };

@@ -8,6 +8,7 @@
 
 #include "core/base/enum_index.h"
 #include "core/base/status.h"
+#include "core/mesh/triangulate_faces.h"
 
 namespace capfit::fuzz {
 namespace {
@@ -69,11 +70,9 @@ bool IsReordered(const formats::PolygonSoup& soup, const BodyMesh& mesh) {
     return false;
   }
   std::vector<Triangle> came;
-  for (std::size_t i = 0; i + 2 < soup.face_vertices.size(); i += 3) {
-    const auto at = [&](std::size_t k) {
-      return static_cast<std::uint32_t>(place[soup.face_vertices[i + k]]);
-    };
-    came.push_back(Turned({at(0), at(1), at(2)}));
+  for (Triangle t : mesh::FacesAsTriangles(soup)) {
+    for (std::uint32_t& v : t) v = static_cast<std::uint32_t>(place[v]);
+    came.push_back(Turned(t));
   }
   std::vector<Triangle> here;
   for (const Triangle& t : mesh.triangles()) here.push_back(Turned(t));

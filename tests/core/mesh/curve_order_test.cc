@@ -15,15 +15,6 @@
 namespace capfit::mesh {
 namespace {
 
-std::vector<Triangle> TrianglesOf(const formats::PolygonSoup& soup) {
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i + 2 < soup.face_vertices.size(); i += 3) {
-    triangles.push_back(
-        {soup.face_vertices[i], soup.face_vertices[i + 1], soup.face_vertices[i + 2]});
-  }
-  return triangles;
-}
-
 // Listed otherwise: vertices and triangles dealt anew, each triangle from another corner.
 formats::PolygonSoup ListedAnew(const formats::PolygonSoup& soup) {
   Random random(11);

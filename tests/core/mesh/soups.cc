@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "core/base/random.h"
+#include "core/mesh/triangulate_faces.h"
 
 namespace capfit::mesh {
 namespace {
@@ -79,6 +81,11 @@ formats::PolygonSoup Ball(int meridians, int parallels, double radius) {
     }
   }
   return ball;
+}
+
+std::vector<Triangle> TrianglesOf(const formats::PolygonSoup& soup) {
+  const std::span<const Triangle> faces = FacesAsTriangles(soup);
+  return {faces.begin(), faces.end()};
 }
 
 formats::PolygonSoup Together(const formats::PolygonSoup& a, const formats::PolygonSoup& b) {

@@ -20,6 +20,9 @@ namespace capfit::mesh {
 // A ball round the origin as triangles: 2 * meridians * parallels of them, outward.
 [[nodiscard]] formats::PolygonSoup Ball(int meridians, int parallels, double radius = 1.0);
 
+// The faces of a soup of triangles.
+[[nodiscard]] std::vector<Triangle> TrianglesOf(const formats::PolygonSoup& soup);
+
 // Both in one, as separate parts.
 [[nodiscard]] formats::PolygonSoup Together(const formats::PolygonSoup& a,
                                             const formats::PolygonSoup& b);

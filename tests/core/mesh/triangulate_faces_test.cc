@@ -19,15 +19,6 @@
 namespace capfit::mesh {
 namespace {
 
-std::vector<Triangle> TrianglesOf(const formats::PolygonSoup& soup) {
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i + 2 < soup.face_vertices.size(); i += 3) {
-    triangles.push_back(
-        {soup.face_vertices[i], soup.face_vertices[i + 1], soup.face_vertices[i + 2]});
-  }
-  return triangles;
-}
-
 Eigen::Vector3d NormalOf(const formats::PolygonSoup& soup, const Triangle& t) {
   const Eigen::Vector3d& a = soup.positions[t[0]];
   return (soup.positions[t[1]] - a).cross(soup.positions[t[2]] - a);
