@@ -26,7 +26,7 @@ constexpr double kSplitAllowance = 1.25;
 // Settings of drafts. Over 19 bodies at six resolutions and 22 to 150 primitives, tightened from
 // drafts, E_r is the same to half a per cent on average as from the best circles.
 constexpr int kDraftPoints = 50;
-constexpr int kDraftIterations = 3;
+constexpr int kDraftIterations = 2;
 
 // One piece of a split outline (or the whole of it) while circles are handed out.
 class Piece {
@@ -180,7 +180,8 @@ PolygonApproximation Finish(std::vector<Circle> circles, const section::Polygon&
 
 PolygonApproximation Covering(std::vector<Cluster> clusters, const section::FeaturePolygon& polygon,
                               const CircleOptions& options) {
-  CloseGaps(polygon.outline, options.symmetric, kCoverageToleranceM, clusters);
+  CloseGaps(polygon.outline, options.symmetric, options.gap_fitting_rounds, kCoverageToleranceM,
+            clusters);
   return Finish(AllCircles(clusters), polygon.outline);
 }
 
@@ -202,6 +203,7 @@ CircleOptions DraftOptions(const CircleOptions& options) {
   draft.interior_points = kDraftPoints;
   draft.max_iterations = kDraftIterations;
   draft.max_idle_teleports = 0;
+  draft.gap_fitting_rounds = 0;
   return draft;
 }
 

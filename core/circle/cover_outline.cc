@@ -10,11 +10,10 @@
 namespace capfit::circle {
 namespace {
 
-// Rounds in which the middle of each gap goes to a circle, which is then fitted anew: gaps halve in
-// every round, each time at the expense of the circle to which it matters least. Later rounds take
-// in whole gaps and only grow circles about their centres, so that nothing that was covered opens
-// again and the loop ends.
-constexpr int kFittingRounds = 6;
+// In the first rounds the middle of each gap goes to a circle, which is then fitted anew: gaps
+// halve in every round, each time at the expense of the circle to which it matters least. Later
+// rounds take in whole gaps and only grow circles about their centres, so that nothing that was
+// covered opens again and the loop ends.
 constexpr int kRounds = 40;
 constexpr int kFitSteps = 5;
 
@@ -85,8 +84,12 @@ constexpr double kOnCircleM = 1e-8;
 
 class Closer {
  public:
-  Closer(const section::Polygon& outline, bool mirrored, std::vector<Cluster>& clusters)
-      : outline_(outline), mirrored_(mirrored), clusters_(clusters) {}
+  Closer(const section::Polygon& outline, bool mirrored, int fitting_rounds,
+         std::vector<Cluster>& clusters)
+      : outline_(outline),
+        mirrored_(mirrored),
+        fitting_rounds_(fitting_rounds),
+        clusters_(clusters) {}
 
   void Run(double tolerance) {
     for (int round = 0; round < kRounds; ++round) {
@@ -94,7 +97,7 @@ class Closer {
       if (gaps.empty()) return;
       for (const Gap& gap : gaps) {
         if (mirrored_ && gap.begin_m.x() + gap.end_m.x() < -tolerance) continue;  // its image comes
-        if (round < kFittingRounds) {
+        if (round < fitting_rounds_) {
           FitToMiddle(gap);
         } else {
           GrowOver(gap);
@@ -198,6 +201,7 @@ class Closer {
 
   const section::Polygon& outline_;
   bool mirrored_;
+  int fitting_rounds_;
   std::vector<Cluster>& clusters_;
 };
 
@@ -221,9 +225,9 @@ std::vector<Gap> FindGaps(std::span<const Circle> circles, const section::Polygo
   return gaps;
 }
 
-void CloseGaps(const section::Polygon& outline, bool mirrored, double tolerance_m,
-               std::vector<Cluster>& clusters) {
-  Closer(outline, mirrored, clusters).Run(tolerance_m);
+void CloseGaps(const section::Polygon& outline, bool mirrored, int fitting_rounds,
+               double tolerance_m, std::vector<Cluster>& clusters) {
+  Closer(outline, mirrored, fitting_rounds, clusters).Run(tolerance_m);
 }
 
 }  // namespace capfit::circle

@@ -27,8 +27,10 @@ struct Gap {
 // Moves and grows the clusters' circles, as little as it can, until FindGaps finds nothing at
 // `tolerance_m` > 0: each gap goes to the circle that takes it in for the least outside area. The
 // points that the clusters covered stay covered. `mirrored`: outline and clusters mirror in x = 0.
-void CloseGaps(const section::Polygon& outline, bool mirrored, double tolerance_m,
-               std::vector<Cluster>& clusters);
+// `fitting_rounds`: in so many rounds circles are fitted anew to the middles of gaps; then, or with
+// 0 at once, they only grow, which is quicker and wastes more.
+void CloseGaps(const section::Polygon& outline, bool mirrored, int fitting_rounds,
+               double tolerance_m, std::vector<Cluster>& clusters);
 
 }  // namespace capfit::circle
 

@@ -32,10 +32,10 @@ struct Region {
                                 std::span<const Eigen::Vector2d> interior_m);
 
 // Covers the region's points with `circle_count` circles (kHalf: an even number). Outside areas are
-// those of the whole `outline`. All but the last round works on every fourth point and vertex
-// of the outline, of more than three circles every other, which is as good a guide. Every cluster
-// has a point unless there are fewer points than circles. Deterministic for options.seed; stops
-// early when the observer says so.
+// those of the whole `outline`. The rounds work on every fourth point and vertex of the outline, of
+// more than three circles on every other, which is as good a guide; then all points go to the
+// nearest circles, which are fitted to them. Every cluster has a point unless there are fewer
+// points than circles. Deterministic for options.seed; stops early when the observer says so.
 [[nodiscard]] std::vector<Cluster> SearchClusters(const Region& region,
                                                   const section::Polygon& outline, int circle_count,
                                                   const CircleOptions& options,

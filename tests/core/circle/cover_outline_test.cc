@@ -55,8 +55,12 @@ TEST(CloseGapsTest, ClosesWhatRandomCirclesLeaveOpen) {
       clusters.push_back(
           Free({{random.NextIn(-0.7, 0.7), random.NextIn(-0.7, 0.7)}, random.NextIn(0.2, 0.7)}));
     }
-    CloseGaps(outline, false, 1e-9, clusters);
-    EXPECT_TRUE(FindGaps(AllCircles(clusters), outline, 1e-9).empty()) << "scene " << scene;
+    for (const int fitting_rounds : {0, 6}) {
+      std::vector<Cluster> closed = clusters;
+      CloseGaps(outline, false, fitting_rounds, 1e-9, closed);
+      EXPECT_TRUE(FindGaps(AllCircles(closed), outline, 1e-9).empty())
+          << "scene " << scene << ", fitting rounds " << fitting_rounds;
+    }
   }
 }
 
@@ -69,7 +73,7 @@ TEST(CloseGapsTest, TinyGapsCostTinyGrowth) {
   clusters[1].hull = {{1, 0}, {1, 1}};
   const section::Polygon outline = Square(1);
   ASSERT_EQ(FindGaps(AllCircles(clusters), outline, 1e-9).size(), 2u);
-  CloseGaps(outline, false, 1e-9, clusters);
+  CloseGaps(outline, false, 6, 1e-9, clusters);
   for (const Cluster& c : clusters) EXPECT_LT(c.circle.radius_m, r + 2e-4);
 }
 
