@@ -1,6 +1,7 @@
 #include "core/body/anatomy.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "core/base/enum_index.h"
 
@@ -130,6 +131,24 @@ LandmarkId MirrorLandmark(LandmarkId id) {
   const int first_pair = static_cast<int>(LandmarkId::kLeftArmpit);
   if (index < first_pair) return id;
   return static_cast<LandmarkId>((index - first_pair) % 2 == 0 ? index + 1 : index - 1);
+}
+
+std::array<bool, kPartCount> PartsAmong(std::span<const Segment> segments) {
+  std::uint32_t bits = 0;  // by segment; free of branches, so that it vectorises
+  for (const Segment segment : segments) bits |= 1u << static_cast<std::uint32_t>(segment);
+  std::array<bool, kPartCount> has_part{};
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    if ((bits >> s & 1u) != 0) has_part[Index(PartOf(static_cast<Segment>(s)))] = true;
+  }
+  return has_part;
+}
+
+bool LeavesOutSome(std::span<const Segment> segments, const PartSelection& parts) {
+  const std::array<bool, kPartCount> has_part = PartsAmong(segments);
+  for (std::size_t p = 0; p < has_part.size(); ++p) {
+    if (has_part[p] && !parts.Includes(static_cast<Part>(p))) return true;
+  }
+  return false;
 }
 
 }  // namespace capfit::body

@@ -26,33 +26,13 @@ void AssignSides(const Extremities& extremities, const IntrinsicFrame& frame, Sh
   shape.legs[1 - first_foot] = extremities.limb(Tip::kFootB);
 }
 
-bool HasSegment(const Body& body, Segment segment) {
-  return std::find(body.vertex_segments.begin(), body.vertex_segments.end(), segment) !=
-         body.vertex_segments.end();
-}
-
-bool HasPart(const Body& body, Part part) {
-  switch (part) {
-    case Part::kHead:
-      return HasSegment(body, Segment::kHead);
-    case Part::kLeftHand:
-      return HasSegment(body, Segment::kLeftHand);
-    case Part::kRightHand:
-      return HasSegment(body, Segment::kRightHand);
-    case Part::kLeftFoot:
-      return HasSegment(body, Segment::kLeftFoot);
-    case Part::kRightFoot:
-      return HasSegment(body, Segment::kRightFoot);
-    default:
-      return body.chain(part).has_value();
-  }
-}
-
 absl::Status CheckRequired(const Body& body, const PartSelection& required) {
+  const std::array<bool, kPartCount> has_vertices = PartsAmong(body.vertex_segments);
   std::string missing;
   for (int i = 0; i < kPartCount; ++i) {
     const Part part = static_cast<Part>(i);
-    if (!required.Includes(part) || HasPart(body, part)) continue;
+    const bool is_found = i < kChainCount ? body.chain(part).has_value() : has_vertices[i];
+    if (!required.Includes(part) || is_found) continue;
     absl::StrAppend(&missing, missing.empty() ? "" : ", ", std::string(PartName(part)));
   }
   if (missing.empty()) return absl::OkStatus();

@@ -71,7 +71,7 @@ class BodyFit {
     will_move_ = options_.motion != nullptr || HasRig(soup);
     CAPFIT_RETURN_IF_ERROR(Understand(soup));
     CAPFIT_RETURN_IF_ERROR(Build());
-    LayMeasureGround();
+    LayGroundForLater();
     CAPFIT_RETURN_IF_ERROR(Cover());
     if (options_.motion != nullptr) CAPFIT_RETURN_IF_ERROR(CoverMotion(soup));
     CAPFIT_RETURN_IF_ERROR(Measure());
@@ -98,8 +98,8 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
-  // What covering and naming take from the body alone is made beside the first step of Build that
-  // does not keep all threads busy all the time.
+  // What covering takes from the body alone is made beside the first step of Build that does not
+  // keep all threads busy all the time.
   template <typename Work>
   void BesideCoverGround(const Work& work) {
     if (std::exchange(has_cover_ground_, true)) return work();
@@ -108,7 +108,6 @@ class BodyFit {
         options_.polygon_error ? kUsualPrimitives : TotalBudget(options_).UsualPrimitives();
     Backlog ground(pool_, clock_);
     ground.Add(1, [this, primitives](std::size_t) { LayCoverGround(primitives); });
-    ground.Add(1, [this](std::size_t) { skeleton_.emplace(*body_); });
     ground.Beside(work);
     ground.Finish();
   }
@@ -120,8 +119,10 @@ class BodyFit {
                                   CoverOptionsFor(options_, HasShape(options_)), primitives, pool_);
   }
 
-  // Left to whoever has time while the set is covered.
-  void LayMeasureGround() {
+  // What naming and measuring take from the body alone, left to whoever has time while the set is
+  // covered.
+  void LayGroundForLater() {
+    backlog_.Add(1, [this](std::size_t) { skeleton_.emplace(*body_); });
     measure_ground_.emplace(*body_, ToMeasure(), CoversLast(options_, *body_), backlog_);
   }
 
@@ -327,7 +328,7 @@ class BodyFit {
   FitOptions options_;  // with the limits of the engine
   const ThreadPool& pool_;
   StageClock& clock_;
-  Backlog backlog_;  // what measuring needs
+  Backlog backlog_;  // what naming and measuring need
   FitResult& result_;
   std::optional<body::Body> body_;  // set by Understand
   geometry::Similarity caller_from_body_;

@@ -96,10 +96,7 @@ capsule::PrimitiveCount Times(double room, const capsule::PrimitiveCount& cost) 
 
 // The heads, hands and feet that get a ball. O(vertices).
 std::vector<body::Part> EndsPresent(const body::Body& body, const body::PartSelection& parts) {
-  std::array<bool, body::kPartCount> has_vertices{};
-  for (const body::Segment segment : body.vertex_segments) {
-    has_vertices[Index(body::PartOf(segment))] = true;
-  }
+  const std::array<bool, body::kPartCount> has_vertices = body::PartsAmong(body.vertex_segments);
   std::vector<body::Part> ends;
   for (int i = body::kChainCount; i < body::kPartCount; ++i) {
     const body::Part part = static_cast<body::Part>(i);

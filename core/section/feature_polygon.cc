@@ -105,8 +105,7 @@ class Extractor {
     constexpr std::array<Part, body::kChainCount> kNext{
         Part::kHead, Part::kLeftHand, Part::kRightHand, Part::kLeftFoot, Part::kRightFoot};
     const Part next = kNext[Index(chain)];
-    return std::none_of(body_.vertex_segments.begin(), body_.vertex_segments.end(),
-                        [next](body::Segment s) { return body::PartOf(s) == next; });
+    return !body::PartsAmong(body_.vertex_segments)[Index(next)];
   }
 
   // Cuts at the station, else a little further towards the middle of the chain; clear of a slanting

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 #include "core/mesh/surface_sums.h"
 
@@ -14,17 +15,19 @@ CoverTarget TargetOf(const body::Body& body, const body::PartSelection& parts,
   constexpr std::uint32_t kLeftOut = std::numeric_limits<std::uint32_t>::max();
   CoverTarget target;
   const body::EnclosedSurface surface = body.enclosed();
+  if (!body::LeavesOutSome(surface.vertex_segments, parts)) {
+    target.points_m = LentOrOwn<Eigen::Vector3d>::Lent(surface.vertices_m);
+    target.triangles = LentOrOwn<mesh::Triangle>::Lent(surface.triangles);
+    target.vertices.resize(surface.vertices_m.size());
+    std::iota(target.vertices.begin(), target.vertices.end(), 0u);
+    return target;
+  }
   std::vector<std::uint32_t> new_index(surface.vertices_m.size(), kLeftOut);
   target.vertices.reserve(new_index.size());
   for (std::uint32_t v = 0; v < new_index.size(); ++v) {
     if (!parts.Includes(body::PartOf(surface.vertex_segments[v]))) continue;
     new_index[v] = static_cast<std::uint32_t>(target.vertices.size());
     target.vertices.push_back(v);
-  }
-  if (target.vertices.size() == surface.vertices_m.size()) {
-    target.points_m = LentOrOwn<Eigen::Vector3d>::Lent(surface.vertices_m);
-    target.triangles = LentOrOwn<mesh::Triangle>::Lent(surface.triangles);
-    return target;
   }
   const auto put_points = [&] {
     std::vector<Eigen::Vector3d>& points_m = target.points_m.own();

@@ -51,11 +51,13 @@ double WorstRatio(const Eigen::ArrayXd& value, const Eigen::ArrayXd& change) {
 template <typename Real>
 class InteriorPoint {
  public:
-  InteriorPoint(const PenaltyProgram& program, const SolveTo& to)
+  // `order`: RowsByGroup(program).
+  InteriorPoint(const PenaltyProgram& program, const std::vector<std::size_t>& order,
+                const SolveTo& to)
       : program_(program),
         to_(to),
         variables_(program.gradient.size()),
-        rows_(program),
+        rows_(program, order),
         matrix_(variables_, TiedGroups()) {
     for (RowGroup& group : rows_.groups) {
       group.a = matrix_.PlaceOf(group.first_a, group.first_a);
@@ -405,11 +407,13 @@ class InteriorPoint {
 }  // namespace
 
 Eigen::VectorXd Solve(const PenaltyProgram& program, const SolveTo& to) {
+  const std::vector<std::size_t> order = RowsByGroup(program);
   if (to.centrality > 0.0) {
-    return InteriorPoint<double>(program, to).Polish(InteriorPoint<float>(program, to).Run());
+    return InteriorPoint<double>(program, order, to)
+        .Polish(InteriorPoint<float>(program, order, to).Run());
   }
-  return to.relative_gap >= kFloatGap ? InteriorPoint<float>(program, to).Run()
-                                      : InteriorPoint<double>(program, to).Run();
+  return to.relative_gap >= kFloatGap ? InteriorPoint<float>(program, order, to).Run()
+                                      : InteriorPoint<double>(program, order, to).Run();
 }
 
 }  // namespace capfit::tighten

@@ -35,9 +35,9 @@ struct RowTable {
   using Lane = Eigen::Array<Real, kLane, 1>;
   using Lanes = std::array<Lane, 8>;  // one for each coefficient of a row
 
-  explicit RowTable(const PenaltyProgram& program) {
+  // `order`: RowsByGroup(program).
+  RowTable(const PenaltyProgram& program, const std::vector<std::size_t>& order) {
     const std::vector<PenaltyRow>& rows = program.rows;
-    const std::vector<std::size_t> order = RowsByGroup(program);
     std::size_t most_groups = 1;
     for (std::size_t i = 1; i < order.size(); ++i) {
       most_groups += rows[order[i]].first != rows[order[i - 1]].first ? 1 : 0;

@@ -191,11 +191,6 @@ double VolumeOf(const OccupancyGrid& grid) {
   return (grid.folded ? 2.0 : 1.0) * sum / OccupancyGrid::kFull * cell_m * cell_m * cell_m;
 }
 
-bool LeavesOutSomething(const body::Body& body, const body::PartSelection& parts) {
-  return std::any_of(body.vertex_segments.begin(), body.vertex_segments.end(),
-                     [&](body::Segment s) { return !parts.Includes(body::PartOf(s)); });
-}
-
 // Between four costs, along y and z.
 float Between(std::uint32_t costs, float along_y, float along_z) {
   const auto cost = [costs](int byte) {
@@ -272,7 +267,7 @@ OccupancyGrid MakeOccupancyGrid(const body::Body& body, const body::PartSelectio
                                 double cell_m, bool folded, const ThreadPool& pool) {
   OccupancyGrid grid = EmptyGrid(body.mesh, cell_m, folded);
   FillInside(body.mesh, pool, grid);
-  if (LeavesOutSomething(body, parts)) {
+  if (body::LeavesOutSome(body.vertex_segments, parts)) {
     grid.fitted = grid.inside;
     const std::vector<char> selected = SelectedCells(body, parts, grid);
     for (std::size_t i = 0; i < selected.size(); ++i) {

@@ -11,11 +11,11 @@ namespace capfit::refine {
 namespace {
 
 bool HasEnds(const body::Body& body, const body::PartSelection& parts) {
-  return std::any_of(body.vertex_segments.begin(), body.vertex_segments.end(),
-                     [&](body::Segment s) {
-                       const body::Part part = body::PartOf(s);
-                       return static_cast<int>(part) >= body::kChainCount && parts.Includes(part);
-                     });
+  const std::array<bool, body::kPartCount> has_part = body::PartsAmong(body.vertex_segments);
+  for (int p = body::kChainCount; p < body::kPartCount; ++p) {
+    if (has_part[p] && parts.Includes(static_cast<body::Part>(p))) return true;
+  }
+  return false;
 }
 
 // Layouts of one kind, hung on the body some at a time, as the first ones may be enough.
