@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <numeric>
+#include <utility>
 
+#include "absl/container/flat_hash_map.h"
 #include "core/base/chunk_sums.h"
 #include "core/base/disjoint_sets.h"
 
@@ -20,14 +23,31 @@ struct Merge {
 struct Saddle {
   double level = 0.0;
   std::uint32_t vertex = 0;
+  std::uint32_t tip = 0;  // of the vertex
   std::uint32_t other_tip = 0;
+
+  // The order in which pieces join: the farthest out first.
+  bool operator<(const Saddle& other) const {
+    return level != other.level ? level > other.level : vertex < other.vertex;
+  }
 };
 
+// Of those between the same two tips only the first joins anything: it stands for all.
 struct Saddles {
   std::vector<Saddle> list;
+  absl::flat_hash_map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> place;  // by tips
 
+  void Add(const Saddle& saddle) {
+    const auto [least, most] = std::minmax(saddle.tip, saddle.other_tip);
+    const auto [known, is_new] = place.try_emplace({least, most}, list.size());
+    if (is_new) {
+      list.push_back(saddle);
+    } else if (saddle < list[known->second]) {
+      list[known->second] = saddle;
+    }
+  }
   Saddles& operator+=(const Saddles& more) {
-    list.insert(list.end(), more.list.begin(), more.list.end());
+    for (const Saddle& saddle : more.list) Add(saddle);
     return *this;
   }
 };
@@ -72,20 +92,18 @@ std::vector<Merge> MergesFromTheTop(const SurfaceGraph& graph, std::span<const d
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
       for (const std::uint32_t n : graph.Neighbours(v)) {
         if (tip[n] == tip[v] || !is_farther(n, v)) continue;
-        found.list.push_back({distance[v], v, tip[n]});
+        found.Add({distance[v], v, tip[v], tip[n]});
       }
     }
     return found;
   };
   std::vector<Saddle> saddles = SumOverChunks(pool, tip.size(), Saddles{}, saddles_in).list;
-  std::stable_sort(saddles.begin(), saddles.end(), [&](const Saddle& a, const Saddle& b) {
-    return a.level != b.level ? a.level > b.level : a.vertex < b.vertex;
-  });
+  std::stable_sort(saddles.begin(), saddles.end());
   std::vector<std::uint32_t> survivor(tip.size());  // of each tip
   std::iota(survivor.begin(), survivor.end(), 0u);
   std::vector<Merge> merges;
   for (const Saddle& saddle : saddles) {
-    std::uint32_t a = FollowLinks(survivor, tip[saddle.vertex]);
+    std::uint32_t a = FollowLinks(survivor, saddle.tip);
     std::uint32_t b = FollowLinks(survivor, saddle.other_tip);
     if (a == b) continue;
     if (is_farther(b, a)) std::swap(a, b);

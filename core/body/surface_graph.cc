@@ -54,8 +54,7 @@ SurfaceGraph::SurfaceGraph(std::span<const Eigen::Vector3d> points,
   for (std::size_t v = 1; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
   region_.resize(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {
-    region_[v] =
-        static_cast<std::uint8_t>((points[v].x() < 0.0 ? 1 : 0) + (points[v].y() < 0.0 ? 2 : 0));
+    region_[v] = points[v].x() < 0.0 ? 1 : 0;
     region_links_[region_[v]] += offsets_[v + 1] - offsets_[v];
   }
   if (observer.IsCancelled()) return;

@@ -68,8 +68,9 @@ class SurfaceGraph {
   std::vector<std::uint32_t> offsets_;  // into next_, one slot per corner at the vertex
   std::vector<std::uint32_t> next_;     // the corner after the vertex in that triangle
   std::vector<Link> links_;             // one per slot
-  // By the signs of x and y: the quarters around the middle of a body, from where it is searched.
-  static constexpr std::uint8_t kRegions = 4;
+  // By the sign of x: above and below the middle of a body, from where it is searched. Shortest ways
+  // lead away from that border; one along them would be crossed again and again.
+  static constexpr std::uint8_t kRegions = 2;
   std::vector<std::uint8_t> region_;
   std::array<std::size_t, kRegions> region_links_{};
   double buckets_per_unit_ = 1.0;

@@ -65,6 +65,7 @@ class RoleFinder {
  private:
   void TryFrom(int role) {
     if (role == kTipCount) {
+      if (CostOfGaps() >= best_misfit_) return;  // the rest only adds to it
       const double misfit = Misfit();
       if (misfit >= best_misfit_) return;
       best_misfit_ = misfit;
@@ -158,15 +159,19 @@ class RoleFinder {
     return contradictions;
   }
 
-  [[nodiscard]] double Misfit() const {
+  [[nodiscard]] double CostOfGaps() const {
     const int used =
         static_cast<int>(std::count_if(roles_.begin(), roles_.end(), [](int r) { return r >= 0; }));
+    return kEmptyRoleCost * (kTipCount - used) + kUnusedTipCost * UnusedTips() +
+           kContradictionCost * Contradictions();
+  }
+
+  [[nodiscard]] double Misfit() const {
     const double inequality =
         Inequality(static_cast<int>(Tip::kHandA), static_cast<int>(Tip::kHandB)) +
         Inequality(static_cast<int>(Tip::kFootA), static_cast<int>(Tip::kFootB));
     return WayDeviation() + kUnequalPairCost * inequality + kGirthCost * GirthDeviation() +
-           kEmptyRoleCost * (kTipCount - used) + kUnusedTipCost * UnusedTips() +
-           kContradictionCost * Contradictions();
+           CostOfGaps();
   }
 
   std::span<const Branch> branches_;
