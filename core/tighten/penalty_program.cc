@@ -51,13 +51,12 @@ double WorstRatio(const Eigen::ArrayXd& value, const Eigen::ArrayXd& change) {
 template <typename Real>
 class InteriorPoint {
  public:
-  // `order`: RowsByGroup(program).
-  InteriorPoint(const PenaltyProgram& program, const std::vector<std::size_t>& order,
-                const SolveTo& to)
+  // `rows`: those of the programme.
+  InteriorPoint(const PenaltyProgram& program, RowTable<Real> rows, const SolveTo& to)
       : program_(program),
         to_(to),
         variables_(program.gradient.size()),
-        rows_(program, order),
+        rows_(std::move(rows)),
         matrix_(variables_, TiedGroups()) {
     for (RowGroup& group : rows_.groups) {
       group.a = matrix_.PlaceOf(group.first_a, group.first_a);
@@ -407,13 +406,13 @@ class InteriorPoint {
 }  // namespace
 
 Eigen::VectorXd Solve(const PenaltyProgram& program, const SolveTo& to) {
-  const std::vector<std::size_t> order = RowsByGroup(program);
-  if (to.centrality > 0.0) {
-    return InteriorPoint<double>(program, order, to)
-        .Polish(InteriorPoint<float>(program, order, to).Run());
+  if (to.centrality <= 0.0 && to.relative_gap < kFloatGap) {
+    return InteriorPoint<double>(program, RowTable<double>(program, kDoublesInLane), to).Run();
   }
-  return to.relative_gap >= kFloatGap ? InteriorPoint<float>(program, order, to).Run()
-                                      : InteriorPoint<double>(program, order, to).Run();
+  RowTable<double> rows(program, kFloatsInLane);
+  Eigen::VectorXd d = InteriorPoint<float>(program, RowTable<float>(rows), to).Run();
+  if (to.centrality <= 0.0) return d;
+  return InteriorPoint<double>(program, std::move(rows), to).Polish(std::move(d));
 }
 
 }  // namespace capfit::tighten

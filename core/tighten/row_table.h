@@ -16,6 +16,10 @@ namespace capfit::tighten {
 // O(rows + groups of variables^2).
 [[nodiscard]] std::vector<std::size_t> RowsByGroup(const PenaltyProgram& program);
 
+// Rows in a lane of doubles and of floats, one vector register each.
+inline constexpr Eigen::Index kDoublesInLane = 4;
+inline constexpr Eigen::Index kFloatsInLane = 8;
+
 // Rows that touch the same variables, [begin, end) in the solver's order, a whole number of lanes.
 struct RowGroup {
   Eigen::Index begin = 0;
@@ -27,22 +31,23 @@ struct RowGroup {
 };
 
 // The rows with their coefficients apart, group by group, in doubles or floats. Groups are filled
-// up to whole lanes, one vector register each, with rows that never bind.
+// up to whole lanes with rows that never bind.
 template <typename Real>
 struct RowTable {
   using Array = Eigen::Array<Real, Eigen::Dynamic, 1>;
-  static constexpr Eigen::Index kLane = 32 / sizeof(Real);
+  static constexpr Eigen::Index kLane = sizeof(Real) == 8 ? kDoublesInLane : kFloatsInLane;
   using Lane = Eigen::Array<Real, kLane, 1>;
   using Lanes = std::array<Lane, 8>;  // one for each coefficient of a row
 
-  // `order`: RowsByGroup(program).
-  RowTable(const PenaltyProgram& program, const std::vector<std::size_t>& order) {
+  // `lane`: what groups are filled up to, a multiple of kLane.
+  RowTable(const PenaltyProgram& program, Eigen::Index lane) : lane_(lane) {
     const std::vector<PenaltyRow>& rows = program.rows;
+    const std::vector<std::size_t> order = RowsByGroup(program);
     std::size_t most_groups = 1;
     for (std::size_t i = 1; i < order.size(); ++i) {
       most_groups += rows[order[i]].first != rows[order[i - 1]].first ? 1 : 0;
     }
-    const auto most = static_cast<Eigen::Index>(rows.size() + kLane * most_groups);
+    const auto most = static_cast<Eigen::Index>(rows.size() + lane * most_groups);
     coefficients.setZero(most, 8);
     value = Array::Constant(most, -static_cast<Real>((program.upper - program.lower).maxCoeff()));
     penalty = Array::Ones(most);
@@ -50,6 +55,15 @@ struct RowTable {
     CloseGroup();
     count = next_;
   }
+
+  // The same rows, whose groups fill up lanes of this table too.
+  template <typename Other>
+  explicit RowTable(const RowTable<Other>& other)
+      : groups(other.groups),
+        coefficients(other.coefficients.template cast<Real>()),
+        value(other.value.template cast<Real>()),
+        penalty(other.penalty.template cast<Real>()),
+        count(other.count) {}
 
   // The lane from row k on, here and of coefficient c.
   static auto At(Array& array, Eigen::Index k) { return array.template segment<kLane>(k); }
@@ -117,10 +131,11 @@ struct RowTable {
   void CloseGroup() {
     if (groups.empty()) return;
     // The rows that fill up cost as much as their neighbours, so that they converge like these.
-    while (next_ % kLane != 0) penalty[next_] = penalty[next_ - 1], ++next_;
+    while (next_ % lane_ != 0) penalty[next_] = penalty[next_ - 1], ++next_;
     groups.back().end = next_;
   }
 
+  Eigen::Index lane_ = kLane;
   Eigen::Index next_ = 0;
 };
 
