@@ -77,8 +77,9 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
   std::vector<int> counts;
   capsule::PrimitiveSet end_balls;
   pool.ForEach(2, [&](std::size_t half) {
-    if (half == 0) counts = allocate();
-    if (half == 1) end_balls = capsule::MakeEndBalls(body, options.parts, overhead.end_balls);
+    // Last, as its own loops can use threads that come free.
+    if (half == 1) counts = allocate();
+    if (half == 0) end_balls = capsule::MakeEndBalls(body, options.parts, overhead.end_balls);
   });
   PrimitiveStage best;
   for (int round = 0; round < kMaxRounds; ++round) {
