@@ -68,8 +68,8 @@ class SurfaceGraph {
   std::vector<std::uint32_t> offsets_;  // into next_, one slot per corner at the vertex
   std::vector<std::uint32_t> next_;     // the corner after the vertex in that triangle
   std::vector<Link> links_;             // one per slot
-  // By the sign of x: above and below the middle of a body, from where it is searched. Shortest ways
-  // lead away from that border; one along them would be crossed again and again.
+  // By the sign of x: above and below the middle of a body, from where it is searched. Shortest
+  // ways lead away from that border; one along them would be crossed again and again.
   static constexpr std::uint8_t kRegions = 2;
   std::vector<std::uint8_t> region_;
   std::array<std::size_t, kRegions> region_links_{};

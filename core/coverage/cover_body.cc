@@ -347,18 +347,18 @@ CoverGround MakeCoverGround(const tighten::CoverTarget& target, bool mirrored,
                             const CoverOptions& options, int primitives, const ThreadPool& pool) {
   CoverGround ground;
   if (mirrored) ground.fold = tighten::PointGrid::Fold::kToPositiveX;
-  std::vector<double> weights;
+  tighten::AreaWeights weights;
   pool.ForEach(2, [&](std::size_t half) {  // they touch different members
     if (half == 0) ground.points = tighten::PointGrid(target.points_m, ground.fold);
     if (half == 1) {
-      ground.size_m = tighten::SizeOf(target);
-      if (Loosens(options)) weights = tighten::AreaWeights(target);
+      if (Loosens(options)) weights = tighten::WeightsByArea(target);
+      ground.size_m = Loosens(options) ? weights.size_m : tighten::SizeOf(target);
     }
   });
-  if (weights.empty()) return ground;
+  if (weights.of_point_m2.empty()) return ground;
   std::vector<double> in_order;
-  in_order.reserve(weights.size());
-  for (const std::uint32_t i : ground.points.order()) in_order.push_back(weights[i]);
+  in_order.reserve(weights.of_point_m2.size());
+  for (const std::uint32_t i : ground.points.order()) in_order.push_back(weights.of_point_m2[i]);
   const double spacing = std::min(
       kMostSparse, kSparseSpacing / std::sqrt(std::max(1.0, static_cast<double>(primitives))));
   tighten::SparsePoints sparse =

@@ -139,7 +139,7 @@ class MotionCoverer {
   void TightenInAllFrames() {
     const bool is_own = options_.radii == MotionRadii::kPerFrame;
     const std::vector<double> weights =
-        is_own ? tighten::AreaWeights(target_) : std::vector<double>();
+        is_own ? tighten::WeightsByArea(target_).of_point_m2 : std::vector<double>();
     const tighten::PointGrid rest(target_.points_m);
     tighten::TightenPhase phase = is_own ? kOwnRadiiPhase : kAllFramesPhase;
     for (int round = 0; round < kRounds && !meter_.IsCancelled(); ++round) {

@@ -59,11 +59,12 @@ double SizeOf(const CoverTarget& target) {
   return std::max((high - low).matrix().norm(), 1e-9);
 }
 
-std::vector<double> AreaWeights(const CoverTarget& target) {
-  std::vector<double> weights(target.points_m.size(), 0.0);
-  const double area = mesh::AddVertexAreas(target.points_m, target.triangles, weights);
-  const double size = area > 0.0 ? std::sqrt(area) : SizeOf(target);
-  for (double& weight : weights) weight += 1e-9 * size * size;
+AreaWeights WeightsByArea(const CoverTarget& target) {
+  AreaWeights weights{std::vector<double>(target.points_m.size(), 0.0)};
+  const double area = mesh::AddVertexAreas(target.points_m, target.triangles, weights.of_point_m2);
+  weights.size_m = area > 0.0 ? std::sqrt(area) : SizeOf(target);
+  const double least_m2 = 1e-9 * weights.size_m * weights.size_m;
+  for (double& weight : weights.of_point_m2) weight += least_m2;
   return weights;
 }
 

@@ -30,9 +30,13 @@ CoverTarget TargetOf(body::Body&& body, const body::PartSelection& parts,
 // triangles the diagonal of the points' box. There must be a point.
 [[nodiscard]] double SizeOf(const CoverTarget& target);
 
-// By point a third of the area of the triangles around it, square metres; a billionth of the whole
-// for those without any.
-[[nodiscard]] std::vector<double> AreaWeights(const CoverTarget& target);
+struct AreaWeights {
+  // By point a third of the area of the triangles around it; a billionth of the whole for those
+  // without any.
+  std::vector<double> of_point_m2;
+  double size_m = 0.0;  // SizeOf the target
+};
+[[nodiscard]] AreaWeights WeightsByArea(const CoverTarget& target);
 
 }  // namespace capfit::tighten
 

@@ -21,9 +21,9 @@ constexpr double kOfTheWay = 0.99;
 constexpr double kOfAWhole = 0.99;
 // Programmes that may be left so far from solved are reckoned in floats, twice as many at a time.
 constexpr double kFloatGap = 0.01;
-// First complementarity, relative to the most that a variable can win, and the least slack that rows
-// start with, relative to the trust region's width. On the way to a point of the central path half
-// of the slack saves two iterations of eleven; twice of it costs two.
+// First complementarity, relative to the most that a variable can win, and the least slack that
+// rows start with, relative to the trust region's width. On the way to a point of the central path
+// half of the slack saves two iterations of eleven; twice of it costs two.
 constexpr double kFirstShare = 0.1;
 constexpr double kFirstShareToCentre = 0.005;
 constexpr double kFirstSlack = 0.25;

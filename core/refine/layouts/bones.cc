@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <span>
 
 #include "core/base/enum_index.h"
 
@@ -89,11 +89,26 @@ std::pair<std::optional<Vec3>, std::optional<Vec3>> EndsOf(const Joints& j, Bone
   return {};
 }
 
-double SkinDistance(const std::vector<Vec3>& skin, const Vec3& point) {
-  double least = std::numeric_limits<double>::max();
-  for (const Vec3& p : skin) least = std::min(least, (p - point).squaredNorm());
-  return std::sqrt(least);
-}
+// Vertices all over a body, coordinates apart.
+class Skin {
+ public:
+  explicit Skin(std::span<const Vec3> vertices) {
+    const auto stride = static_cast<Eigen::Index>(1 + vertices.size() / kSkinSamples);
+    const auto size = static_cast<Eigen::Index>(vertices.size());
+    const Eigen::Map<const Eigen::Matrix3Xd> all(vertices.data()->data(), 3, size);
+    samples_m_ = all(Eigen::all, Eigen::seq(0, size - 1, stride)).transpose();
+  }
+
+  [[nodiscard]] double DistanceFrom(const Vec3& point) const {
+    return std::sqrt(((samples_m_.col(0) - point.x()).square() +
+                      (samples_m_.col(1) - point.y()).square() +
+                      (samples_m_.col(2) - point.z()).square())
+                         .minCoeff());
+  }
+
+ private:
+  Eigen::ArrayX3d samples_m_;
+};
 
 // Along, aside and ahead of the standing body with arms stretched out sideways.
 Eigen::Matrix3d StandardAxes(BoneId id, Side side) {
@@ -165,10 +180,7 @@ body::Part PartOf(BoneId bone, Side side) {
 }
 
 Skeleton::Skeleton(const body::Body& body) {
-  const auto vertices = body.mesh.vertices();
-  std::vector<Vec3> skin;
-  const std::size_t stride = 1 + vertices.size() / kSkinSamples;
-  for (std::size_t i = 0; i < vertices.size(); i += stride) skin.push_back(vertices[i]);
+  const Skin skin(body.mesh.vertices());
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const Joints joints = JointsOf(body, side);
     for (int i = 0; i < kBoneCount; ++i) {
@@ -177,7 +189,7 @@ Skeleton::Skeleton(const body::Body& body) {
       if ((*to - *from).norm() > kLongestBoneShare * body.height_m) continue;
       Bone bone{*from, *to, 0.0};
       for (const double t : {0.25, 0.5, 0.75}) {
-        bone.radius_m += SkinDistance(skin, *from + t * (*to - *from)) / 3.0;
+        bone.radius_m += skin.DistanceFrom(*from + t * (*to - *from)) / 3.0;
       }
       bone.radius_m = std::max(bone.radius_m, kLeastRadiusShare * (*to - *from).norm());
       bones_[Index(side)][i] = bone;
