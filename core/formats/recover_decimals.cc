@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/base/chunk_sums.h"
+
 namespace capfit::formats {
 namespace {
 
@@ -91,6 +93,13 @@ bool AllFloats(std::span<const Eigen::Vector3d> positions) {
   return true;
 }
 
+bool AllFloats(std::span<const Eigen::Vector3d> positions, const ThreadPool& pool) {
+  const auto bad_chunk = [&](std::size_t begin, std::size_t end) {
+    return std::size_t{AllFloats(positions.subspan(begin, end - begin)) ? 0u : 1u};
+  };
+  return SumOverChunks(pool, positions.size(), std::size_t{0}, bad_chunk) == 0;
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> RecoverDecimals(std::span<const Eigen::Vector3d> positions,
@@ -113,8 +122,9 @@ std::vector<Eigen::Vector3d> RecoverDecimals(std::span<const Eigen::Vector3d> po
   return {};
 }
 
-std::vector<Eigen::Vector3d> RecoverDecimalsOfFloats(std::span<const Eigen::Vector3d> positions) {
-  return AllFloats(positions) ? RecoverDecimals(positions) : std::vector<Eigen::Vector3d>();
+std::vector<Eigen::Vector3d> RecoverDecimalsOfFloats(std::span<const Eigen::Vector3d> positions,
+                                                     const ThreadPool& pool) {
+  return AllFloats(positions, pool) ? RecoverDecimals(positions) : std::vector<Eigen::Vector3d>();
 }
 
 }  // namespace capfit::formats

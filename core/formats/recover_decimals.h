@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/base/thread_pool.h"
+
 namespace capfit::formats {
 
 // Most meshes were decimals once: a text file with five digits behind the point, converted to PLY,
@@ -22,7 +24,7 @@ namespace capfit::formats {
 
 // The same where each coordinate is exactly a float, else nothing: doubles are left as they are.
 [[nodiscard]] std::vector<Eigen::Vector3d> RecoverDecimalsOfFloats(
-    std::span<const Eigen::Vector3d> positions);
+    std::span<const Eigen::Vector3d> positions, const ThreadPool& pool = ThreadPool(1));
 
 }  // namespace capfit::formats
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/chunk_sums.h"
 #include "core/base/status.h"
 
 namespace capfit::formats {
@@ -72,10 +73,16 @@ absl::Status CheckFaceSizes(const PolygonSoup& soup, const MeshLimits& limits) {
       {{"value", absl::StrCat(corners)}, {"limit", absl::StrCat(soup.face_vertices.size())}});
 }
 
-absl::Status CheckPositions(const PolygonSoup& soup) {
-  bool all_are = true;  // a loop without an exit, which vectorises, tells that all is well
-  for (const Eigen::Vector3d& position : soup.positions) all_are &= IsPosition(position);
-  if (all_are) return absl::OkStatus();
+absl::Status CheckPositions(const PolygonSoup& soup, const ThreadPool& pool) {
+  // Loops without an exit, which vectorise, tell that all is well.
+  const auto bad_chunk = [&](std::size_t begin, std::size_t end) {
+    bool all_are = true;
+    for (std::size_t i = begin; i < end; ++i) all_are &= IsPosition(soup.positions[i]);
+    return std::size_t{all_are ? 0u : 1u};
+  };
+  if (SumOverChunks(pool, soup.positions.size(), std::size_t{0}, bad_chunk) == 0) {
+    return absl::OkStatus();
+  }
   for (std::size_t i = 0; i < soup.positions.size(); ++i) {
     const Eigen::Vector3d& position = soup.positions[i];
     if (IsPosition(position)) continue;
@@ -89,11 +96,16 @@ absl::Status CheckPositions(const PolygonSoup& soup) {
   return absl::OkStatus();
 }
 
-absl::Status CheckIndices(const PolygonSoup& soup) {
+absl::Status CheckIndices(const PolygonSoup& soup, const ThreadPool& pool) {
   const std::size_t count = soup.positions.size();
-  std::uint32_t largest = 0;  // without an exit, as above
-  for (const std::uint32_t v : soup.face_vertices) largest = std::max(largest, v);
-  if (largest < count) return absl::OkStatus();
+  const auto bad_chunk = [&](std::size_t begin, std::size_t end) {
+    std::uint32_t largest = 0;
+    for (std::size_t i = begin; i < end; ++i) largest = std::max(largest, soup.face_vertices[i]);
+    return std::size_t{largest < count ? 0u : 1u};
+  };
+  if (SumOverChunks(pool, soup.face_vertices.size(), std::size_t{0}, bad_chunk) == 0) {
+    return absl::OkStatus();
+  }
   for (std::size_t i = 0; i < soup.face_vertices.size(); ++i) {
     if (soup.face_vertices[i] < count) continue;
     const char* const field = soup.face_sizes.empty() ? "triangle_indices" : "face_indices";
@@ -126,11 +138,11 @@ std::string TooManyTriangles(const MeshLimits& limits) {
                       "most ", limits.max_triangles(), " together");
 }
 
-absl::Status CheckSoup(const PolygonSoup& soup, const MeshLimits& limits) {
+absl::Status CheckSoup(const PolygonSoup& soup, const MeshLimits& limits, const ThreadPool& pool) {
   CAPFIT_RETURN_IF_ERROR(CheckLimits(soup, limits));
   CAPFIT_RETURN_IF_ERROR(CheckFaceSizes(soup, limits));
-  CAPFIT_RETURN_IF_ERROR(CheckPositions(soup));
-  return CheckIndices(soup);
+  CAPFIT_RETURN_IF_ERROR(CheckPositions(soup, pool));
+  return CheckIndices(soup, pool);
 }
 
 }  // namespace capfit::formats

@@ -8,6 +8,7 @@
 
 #include "absl/status/status.h"
 #include "core/base/status.h"
+#include "core/base/thread_pool.h"
 #include "core/formats/mesh_limits.h"
 #include "core/formats/polygon_soup.h"
 
@@ -64,8 +65,9 @@ class TriangleCounter {
 // Sizes within `limits` and consistent, faces of three corners or more (of any number in a file),
 // coordinates, indices in range. INVALID_ARGUMENT names the first offender in the caller's arrays:
 // "mesh.arrays.positions[22] is nan, must be finite". (Readers refuse such things themselves, for
-// they know the line; of a file only its size is left to be said here.) O(n), allocates nothing.
-[[nodiscard]] absl::Status CheckSoup(const PolygonSoup& soup, const MeshLimits& limits);
+// they know the line; of a file only its size is left to be said here.) O(n), in parallel.
+[[nodiscard]] absl::Status CheckSoup(const PolygonSoup& soup, const MeshLimits& limits,
+                                     const ThreadPool& pool = ThreadPool(1));
 
 }  // namespace capfit::formats
 

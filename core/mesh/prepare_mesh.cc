@@ -344,13 +344,9 @@ absl::StatusOr<PreparedMesh> PrepareMesh(const formats::PolygonSoup& soup,
                                          const formats::MeshLimits& limits, const ThreadPool& pool,
                                          const FitObserver& observer,
                                          std::span<const char> is_left_out) {
-  absl::Status checked;
-  std::vector<Eigen::Vector3d> decimals;
-  pool.ForEach(2, [&](std::size_t half) {
-    if (half == 0) checked = formats::CheckSoup(soup, limits);
-    if (half == 1) decimals = formats::RecoverDecimalsOfFloats(soup.positions);
-  });
-  CAPFIT_RETURN_IF_ERROR(checked);
+  CAPFIT_RETURN_IF_ERROR(formats::CheckSoup(soup, limits, pool));
+  const std::vector<Eigen::Vector3d> decimals =
+      formats::RecoverDecimalsOfFloats(soup.positions, pool);
   const std::vector<Eigen::Vector3d>& positions = decimals.empty() ? soup.positions : decimals;
   return MeshMender(soup, is_left_out, positions, pool, observer).Run();
 }

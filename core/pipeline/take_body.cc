@@ -41,7 +41,7 @@ class BodyTaker {
   absl::StatusOr<TakenBody> Run() {
     observer_.OnStage(Stage::kMesh, 0.0);
     // One part is checked where it is mended.
-    if (!IsOnePart()) CAPFIT_RETURN_IF_ERROR(formats::CheckSoup(soup_, {}));
+    if (!IsOnePart()) CAPFIT_RETURN_IF_ERROR(formats::CheckSoup(soup_, {}, pool_));
     CAPFIT_ASSIGN_OR_RETURN(const TakenMesh taken, TakeMesh());
     observer_.OnStage(Stage::kBody, 0.0);
     absl::StatusOr<TakenBody> understood = Understand(taken);
