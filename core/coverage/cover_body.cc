@@ -129,7 +129,8 @@ class Coverer {
     report_.max_vertex_distance_m = MaxVertexDistance();
     // Tightening has measured it already.
     if (!(report_.volume_m3 > 0.0) || options_.keeps_swallowed) report_.volume_m3 = Volume();
-    report_.certified_gap_m = CertifiedGap(target_, AtVertices(), capsule::Solids(set_), KnownGap(),
+    report_.certified_gap_m = CertifiedGap(target_, AtVertices(), capsule::Solids(set_),
+                                           std::max(KnownGap(), report_.max_vertex_distance_m),
                                            0.05 * options_.max_gap_m, pool_);
     // Growing ends with a proof for every triangle, which may be sharper by the tolerance.
     report_.certified_gap_m = std::min(report_.certified_gap_m, MaxGap());
@@ -313,14 +314,7 @@ class Coverer {
   }
 
   double MaxVertexDistance() {
-    const std::vector<geometry::TaperedCapsule> shapes = capsule::Solids(set_);
-    const tighten::UnionDistances& at = AtVertices();
-    double most = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < at.distance_m.size(); ++i) {
-      if (at.distance_m[i] < most - kGridAccuracyM) continue;
-      most = std::max(most, shapes[at.solid[i]].SignedDistance(target_.points_m[i]));
-    }
-    return most;
+    return coverage::MaxVertexDistance(target_, AtVertices(), capsule::Solids(set_), pool_);
   }
 
   const tighten::CoverTarget& target_;

@@ -179,6 +179,15 @@ class NearbyTriangles {
   std::vector<AtVertex> at_;
 };
 
+struct Largest {
+  double value;
+
+  Largest& operator+=(const Largest& other) {
+    value = std::max(value, other.value);
+    return *this;
+  }
+};
+
 bool HasCornerOutside(const mesh::Triangle& t, const tighten::UnionDistances& at, double limit_m) {
   return std::max({at.distance_m[t[0]], at.distance_m[t[1]], at.distance_m[t[2]]}) > limit_m;
 }
@@ -318,17 +327,29 @@ double CertifiedGap(const tighten::CoverTarget& target, const capsule::Primitive
   const tighten::PointGrid grid(target.points_m);
   const tighten::UnionDistances at_vertices = InCallersOrder(
       grid, grid.DistancesTo(solids, -std::numeric_limits<double>::infinity(), pool), pool);
-  return CertifiedGap(target, at_vertices, solids, 0.0, tolerance_m, pool);
+  return CertifiedGap(target, at_vertices, solids,
+                      MaxVertexDistance(target, at_vertices, solids, pool), tolerance_m, pool);
+}
+
+double MaxVertexDistance(const tighten::CoverTarget& target,
+                         const tighten::UnionDistances& at_vertices,
+                         const std::vector<TaperedCapsule>& solids, const ThreadPool& pool) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const auto most_of = [&](std::size_t begin, std::size_t end) {
+    Largest most{kNone};
+    for (std::size_t v = begin; v < end; ++v) {
+      if (at_vertices.distance_m[v] < most.value - kGridAccuracy) continue;
+      most += {solids[at_vertices.solid[v]].SignedDistance(target.points_m[v])};
+    }
+    return most;
+  };
+  return SumOverChunks(pool, target.points_m.size(), Largest{kNone}, most_of).value;
 }
 
 double CertifiedGap(const tighten::CoverTarget& target, const tighten::UnionDistances& at_vertices,
                     const std::vector<TaperedCapsule>& solids, double at_least_m,
                     double tolerance_m, const ThreadPool& pool) {
   double gap = std::max(0.0, at_least_m);
-  for (std::size_t v = 0; v < target.points_m.size(); ++v) {
-    if (at_vertices.distance_m[v] <= -kGridAccuracy) continue;
-    gap = std::max(gap, solids[at_vertices.solid[v]].SignedDistance(target.points_m[v]));
-  }
   const NearbyTriangles nearby(target, at_vertices, pool);
   const std::size_t count = target.triangles.size();
   std::vector<double> gaps((count + kChunk - 1) / kChunk, gap);

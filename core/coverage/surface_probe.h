@@ -40,9 +40,16 @@ struct Unproved {
                                          const std::vector<geometry::TaperedCapsule>& solids,
                                          double asked_m, double max_gap_m, const ThreadPool& pool);
 
+// The largest signed distance of the target's points from the union, to the last digit where
+// `at_vertices` tell them to a micrometre. -infinity without points.
+[[nodiscard]] double MaxVertexDistance(const tighten::CoverTarget& target,
+                                       const tighten::UnionDistances& at_vertices,
+                                       const std::vector<geometry::TaperedCapsule>& solids,
+                                       const ThreadPool& pool);
+
 // The CertifiedGap of cover_body.h where the distances of the target's points are known already.
-// The more of the gap is known as well (`at_least_m`: the triangles stick out as far somewhere),
-// the fewer triangles have to be looked at closely.
+// `at_least_m`: the triangles stick out as far somewhere, and no point of the target further. The
+// more it is, the fewer triangles have to be looked at closely.
 [[nodiscard]] double CertifiedGap(const tighten::CoverTarget& target,
                                   const tighten::UnionDistances& at_vertices,
                                   const std::vector<geometry::TaperedCapsule>& solids,

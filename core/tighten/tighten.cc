@@ -55,8 +55,8 @@ class Tightener {
   void Step(double trust_m, double penalty, const TightenPhase& phase, std::uint64_t seed) {
     shapes_ = capsule::Solids(set_);
     PenaltyProgram program;
-    // They touch different members. The rows come first: this thread, which takes them, goes on with
-    // them, and it is slow to fetch much that another one wrote.
+    // They touch different members. The rows come first: this thread, which takes them, goes on
+    // with them, and it is slow to fetch much that another one wrote.
     pool_.ForEach(2, [&](std::size_t half) {
       if (half == 0) AddPointRows(kDepthOfInterest * trust_m, phase.row_spacing * size_, program);
       if (half == 1) AddVolume(seed, program);
