@@ -1,6 +1,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,10 +16,19 @@ namespace {
 
 using PointsByPart = std::array<std::vector<Eigen::Vector3d>, body::kPartCount>;
 
-PointsByPart GroupByPart(const body::Body& body) {
+// Of head, hands and feet, as far as they are selected.
+PointsByPart PointsOfEnds(const body::Body& body, const body::PartSelection& parts) {
+  std::array<std::vector<Eigen::Vector3d>*, body::kSegmentCount> place{};
   PointsByPart points;
-  for (std::size_t v = 0; v < body.vertex_segments.size(); ++v) {
-    points[Index(body::PartOf(body.vertex_segments[v]))].push_back(body.mesh.vertices()[v]);
+  for (std::size_t s = 0; s < place.size(); ++s) {
+    const body::Part part = body::PartOf(static_cast<body::Segment>(s));
+    const bool is_end = static_cast<int>(part) >= body::kChainCount;
+    if (is_end && parts.Includes(part)) place[s] = &points[Index(part)];
+  }
+  const std::span<const Eigen::Vector3d> vertices = body.mesh.vertices();
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    std::vector<Eigen::Vector3d>* const own = place[Index(body.vertex_segments[v])];
+    if (own != nullptr) own->push_back(vertices[v]);
   }
   return points;
 }
@@ -39,7 +50,8 @@ std::vector<std::vector<Eigen::Vector3d>> Stretches(const std::vector<Eigen::Vec
   if (count == 1) return {points};
   const Eigen::Matrix3d in_plane = Eigen::Matrix3d::Identity() - normal * normal.transpose();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) middle += p / static_cast<double>(points.size());
+  for (const Eigen::Vector3d& p : points) middle += p;
+  middle /= static_cast<double>(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& p : points) spread += (p - middle) * (p - middle).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(in_plane * spread * in_plane);
@@ -122,12 +134,12 @@ int EndBalls::Of(body::Part part) const {
 PrimitiveSet MakeEndBalls(const body::Body& body, const body::PartSelection& parts,
                           const EndBalls& balls) {
   PrimitiveSet set;
-  const PointsByPart points = GroupByPart(body);
+  const PointsByPart points = PointsOfEnds(body, parts);
   for (int index = body::kChainCount; index < body::kPartCount; ++index) {
     const body::Part part = static_cast<body::Part>(index);
     const auto& own = points[Index(part)];
     const auto& others = points[Index(body::MirrorPart(part))];
-    if (!parts.Includes(part) || own.empty()) continue;
+    if (own.empty()) continue;
     if (!body.is_symmetric || others.empty()) {
       AddAlone(part, own, balls.Of(part), set);
     } else if (body::MirrorPart(part) == part) {
