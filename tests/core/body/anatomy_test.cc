@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/body/body.h"
 
@@ -24,6 +27,28 @@ TEST(Anatomy, LandmarkNamesLeadBackAndMirrorTwiceIsNothing) {
   }
   EXPECT_EQ(names.size(), static_cast<std::size_t>(kLandmarkCount));
   EXPECT_FALSE(LandmarkFromName("left_nose"));
+}
+
+TEST(Anatomy, PartsAmongSegmentsAreThoseOfEachSegment) {
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const std::vector<Segment> segments(3, static_cast<Segment>(s));
+    const std::array<bool, kPartCount> has_part = PartsAmong(segments);
+    for (int p = 0; p < kPartCount; ++p) {
+      EXPECT_EQ(has_part[p], static_cast<Part>(p) == PartOf(segments[0])) << s << ", " << p;
+    }
+  }
+  EXPECT_EQ(PartsAmong({}), (std::array<bool, kPartCount>{}));
+}
+
+TEST(Anatomy, SelectionsLeaveOutPartsThatAreThere) {
+  const std::vector<Segment> segments = {Segment::kTorso, Segment::kNeck, Segment::kLeftFoot};
+  PartSelection parts = {false, false, false, false, false, false};
+  EXPECT_FALSE(LeavesOutSome({}, parts));
+  parts.torso = true;
+  EXPECT_TRUE(LeavesOutSome(segments, parts));
+  EXPECT_FALSE(LeavesOutSome(std::span(segments).first(2), parts));
+  parts.feet = true;
+  EXPECT_FALSE(LeavesOutSome(segments, parts));
 }
 
 TEST(Anatomy, PartsMirrorBySide) {

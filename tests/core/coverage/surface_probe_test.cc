@@ -60,6 +60,34 @@ double Furthest(const tighten::CoverTarget& target, const capsule::PrimitiveSet&
   return furthest;
 }
 
+TEST(SurfaceProbeTest, TheFarthestVertexIsThatOfAllChunks) {
+  Random random(17);
+  tighten::CoverTarget target;
+  for (int i = 0; i < 10'000; ++i) {
+    target.points_m.own().emplace_back(random.NextIn(-1, 1), random.NextIn(-1, 1),
+                                       random.NextIn(-1, 1));
+  }
+  const Tent tent(0.6);
+  const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(tent.set);
+  const tighten::PointGrid grid(target.points_m);
+  for (const bool holds_all : {false, true}) {
+    std::vector<geometry::TaperedCapsule> larger = solids;
+    const geometry::Sphere ball{{0, 0, 0}, 2.0};
+    if (holds_all) larger.emplace_back(ball, ball);
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& p : target.points_m) {
+      double distance = std::numeric_limits<double>::infinity();
+      for (const auto& solid : larger) distance = std::min(distance, solid.SignedDistance(p));
+      most = std::max(most, distance);
+    }
+    const tighten::UnionDistances at =
+        InCallersOrder(grid, grid.DistancesTo(larger, -10.0, Alone()), Alone());
+    const double found = MaxVertexDistance(target, at, larger, Alone());
+    EXPECT_NEAR(found, most, 1e-12) << holds_all;
+    EXPECT_EQ(MaxVertexDistance(target, at, larger, ThreadPool(2)), found);
+  }
+}
+
 // The middle of the long side is 1 / sqrt(2) from the nearest corner.
 TEST(SurfaceProbeTest, TheCertifiedGapOfATentIsWhatItIs) {
   for (const double radius : {0.2, 0.5, 0.7}) {
