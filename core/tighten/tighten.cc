@@ -176,6 +176,10 @@ class Tightener {
       std::vector<Rows> found((blocks + kBlocksAtOnce - 1) / kBlocksAtOnce);
       pool_.ForChunks(blocks, kBlocksAtOnce, [&](std::size_t begin, std::size_t end) {
         Rows& rows = found[begin / kBlocksAtOnce];
+        if (spacing_m <= 0.0) {  // nearly all of the points may ask for one
+          const std::vector<PointGrid::Block>& all = points.points.blocks();
+          rows.rows.reserve(all[end - 1].end - all[begin].begin);
+        }
         for (std::size_t b = begin; b < end; ++b) {
           if (spacing_m > 0.0) {
             AddDemanding(points, shapes, distances, b, depth_m, spacing_m, rows);
@@ -184,6 +188,9 @@ class Tightener {
           }
         }
       });
+      std::size_t count = program.rows.size();
+      for (const Rows& rows : found) count += rows.rows.size();
+      program.rows.reserve(count);
       for (const Rows& rows : found) {
         program.rows.insert(program.rows.end(), rows.rows.begin(), rows.rows.end());
         near_weight_ += rows.near_weight;
