@@ -23,8 +23,7 @@ constexpr double kCoverageToleranceM = 1e-9;
 // (three circles leave a single one for all the front of a hip).
 constexpr double kSplitAllowance = 1.25;
 
-// Settings of drafts. Over 19 bodies at six resolutions and 22 to 150 primitives, tightened from
-// drafts, E_r is the same to half a per cent on average as from the best circles.
+// Settings of drafts.
 constexpr int kDraftPoints = 50;
 constexpr int kDraftIterations = 2;
 

@@ -7,7 +7,6 @@ namespace capfit::pipeline {
 namespace {
 
 constexpr int kFewPrimitives = 48;
-constexpr int kDraftsServe = 150;  // primitives
 
 bool IsUniform(const FitOptions& options) {
   return ProfileOf(options) == capsule::CapsuleProfile::kUniformRadius;
@@ -32,8 +31,7 @@ bool ComparesWithPaper(const FitOptions& options) {
 }
 
 bool DraftsServe(const FitOptions& options) {
-  return options.fit == FitMode::kEnclose && !options.grows_only && !options.polygon_error &&
-         TotalBudget(options).UsualPrimitives() <= kDraftsServe;
+  return options.fit == FitMode::kEnclose && !options.grows_only && !options.polygon_error;
 }
 
 bool HasShape(const FitOptions& options) {
