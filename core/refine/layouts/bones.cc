@@ -93,10 +93,11 @@ std::pair<std::optional<Vec3>, std::optional<Vec3>> EndsOf(const Joints& j, Bone
 class Skin {
  public:
   explicit Skin(std::span<const Vec3> vertices) {
-    const auto stride = static_cast<Eigen::Index>(1 + vertices.size() / kSkinSamples);
-    const auto size = static_cast<Eigen::Index>(vertices.size());
-    const Eigen::Map<const Eigen::Matrix3Xd> all(vertices.data()->data(), 3, size);
-    samples_m_ = all(Eigen::all, Eigen::seq(0, size - 1, stride)).transpose();
+    const std::size_t stride = 1 + vertices.size() / kSkinSamples;
+    samples_m_.resize(static_cast<Eigen::Index>((vertices.size() + stride - 1) / stride), 3);
+    for (Eigen::Index i = 0; i < samples_m_.rows(); ++i) {
+      samples_m_.row(i) = vertices[static_cast<std::size_t>(i) * stride].transpose().array();
+    }
   }
 
   [[nodiscard]] double DistanceFrom(const Vec3& point) const {
