@@ -128,7 +128,8 @@ class Coverer {
     if (meter_.IsCancelled()) return NothingProved();
     meter_.Expect(1.0, 1);
     if (options_.keeps_swallowed) ShowSwallowed();
-    report_.max_vertex_distance_m = MaxVertexDistance();
+    report_.max_vertex_distance_m =
+        MaxVertexDistance(target_, AtVertices(), capsule::Solids(set_), pool_);
     // Tightening has measured it already.
     if (!(report_.volume_m3 > 0.0) || options_.keeps_swallowed) report_.volume_m3 = Volume();
     report_.certified_gap_m = CertifiedGap(target_, AtVertices(), capsule::Solids(set_),
@@ -314,10 +315,6 @@ class Coverer {
     }
     for (const Eigen::Vector3d& point : between_) demands.push_back({point, AllowedBetween()});
     return demands;
-  }
-
-  double MaxVertexDistance() {
-    return coverage::MaxVertexDistance(target_, AtVertices(), capsule::Solids(set_), pool_);
   }
 
   const tighten::CoverTarget& target_;

@@ -190,7 +190,10 @@ class Tightener {
       });
       std::size_t count = program.rows.size();
       for (const Rows& rows : found) count += rows.rows.size();
-      program.rows.reserve(count);
+      // At once, and never by a little only: there may be many poses.
+      if (count > program.rows.capacity()) {
+        program.rows.reserve(std::max(count, 2 * program.rows.capacity()));
+      }
       for (const Rows& rows : found) {
         program.rows.insert(program.rows.end(), rows.rows.begin(), rows.rows.end());
         near_weight_ += rows.near_weight;
