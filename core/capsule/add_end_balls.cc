@@ -1,4 +1,4 @@
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include "core/base/enum_index.h"
 #include "core/capsule/build_primitives.h"
 #include "core/capsule/mirrored_set.h"
+#include "core/capsule/point_clusters.h"
 #include "core/geometry/smallest_enclosing.h"
 
 namespace capfit::capsule {
@@ -43,31 +44,6 @@ double RadiusAround(const Eigen::Vector3d& center, const std::vector<Eigen::Vect
   return radius;
 }
 
-// The points by stretches of equal length of their longest extent; with a normal, of that within
-// the plane across it. Stretches without points are left out.
-std::vector<std::vector<Eigen::Vector3d>> Stretches(const std::vector<Eigen::Vector3d>& points,
-                                                    int count, const Eigen::Vector3d& normal) {
-  if (count == 1) return {points};
-  const Eigen::Matrix3d in_plane = Eigen::Matrix3d::Identity() - normal * normal.transpose();
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) middle += p;
-  middle /= static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : points) spread += (p - middle) * (p - middle).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(in_plane * spread * in_plane);
-  const Eigen::Vector3d longest = axes.eigenvectors().col(2);
-  std::vector<double> places;
-  for (const Eigen::Vector3d& p : points) places.push_back(longest.dot(p));
-  const auto [low, high] = std::minmax_element(places.begin(), places.end());
-  std::vector<std::vector<Eigen::Vector3d>> stretches(count);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double share = *high > *low ? (places[i] - *low) / (*high - *low) : 0.0;
-    stretches[std::min(static_cast<int>(share * count), count - 1)].push_back(points[i]);
-  }
-  std::erase_if(stretches, [](const auto& stretch) { return stretch.empty(); });
-  return stretches;
-}
-
 void Add(body::Part part, int mirror, const geometry::Sphere& ball, PrimitiveSet& set) {
   set.spheres.push_back(ball);
   set.origins.push_back({part, -1, mirror});
@@ -75,8 +51,8 @@ void Add(body::Part part, int mirror, const geometry::Sphere& ball, PrimitiveSet
 
 void AddAlone(body::Part part, const std::vector<Eigen::Vector3d>& points, int count,
               PrimitiveSet& set) {
-  for (const auto& stretch : Stretches(points, count, Eigen::Vector3d::Zero())) {
-    Add(part, -1, geometry::SmallestEnclosingBall(stretch), set);
+  for (const auto& cluster : ClustersOf(points, count, Eigen::Vector3d::Zero())) {
+    Add(part, -1, geometry::SmallestEnclosingBall(cluster), set);
   }
 }
 
@@ -85,10 +61,10 @@ void AddCentred(body::Part part, std::vector<Eigen::Vector3d> points, int count,
                 PrimitiveSet& set) {
   const std::size_t own = points.size();
   for (std::size_t i = 0; i < own; ++i) points.push_back(Mirrored(points[i]));
-  for (const auto& stretch : Stretches(points, count, Eigen::Vector3d::UnitX())) {
-    geometry::Sphere ball = geometry::SmallestEnclosingBall(stretch);
+  for (const auto& cluster : ClustersOf(points, count, Eigen::Vector3d::UnitX())) {
+    geometry::Sphere ball = geometry::SmallestEnclosingBall(cluster);
     ball.center_m.x() = 0.0;  // so it is but for rounding
-    ball.radius_m = RadiusAround(ball.center_m, stretch);
+    ball.radius_m = RadiusAround(ball.center_m, cluster);
     Add(part, static_cast<int>(set.spheres.size()), ball, set);
   }
 }
@@ -98,8 +74,8 @@ void AddCentred(body::Part part, std::vector<Eigen::Vector3d> points, int count,
 void AddPairs(body::Part part, std::vector<Eigen::Vector3d> points,
               const std::vector<Eigen::Vector3d>& others, int count, PrimitiveSet& set) {
   for (const Eigen::Vector3d& p : others) points.push_back(Mirrored(p));
-  for (const auto& stretch : Stretches(points, count, Eigen::Vector3d::Zero())) {
-    const geometry::Sphere ball = geometry::SmallestEnclosingBall(stretch);
+  for (const auto& cluster : ClustersOf(points, count, Eigen::Vector3d::Zero())) {
+    const geometry::Sphere ball = geometry::SmallestEnclosingBall(cluster);
     const int index = static_cast<int>(set.spheres.size());
     Add(part, index + 1, ball, set);
     Add(body::MirrorPart(part), index, MirrorImage(ball), set);
@@ -112,6 +88,18 @@ std::vector<int> SpheresOfPart(const MirroredSet& set, body::Part part) {
     if (set.part(i) == part) spheres.push_back(i);
   }
   return spheres;
+}
+
+// By capsules between the nearest, from the first on (Prim 1957).
+void JoinAsTree(const std::vector<int>& balls, MirroredSet& set) {
+  std::vector<int> joined = {balls.front()};
+  std::vector<int> open(balls.begin() + 1, balls.end());
+  while (!open.empty()) {
+    const auto [from, to] = LeastGap(set.spheres(), joined, open);
+    set.AddCapsule(from, to);
+    joined.push_back(to);
+    std::erase(open, to);
+  }
 }
 
 }  // namespace
@@ -181,7 +169,7 @@ void LinkEndBalls(PrimitiveSet& set) {
     const body::Part part = static_cast<body::Part>(index);
     const std::vector<int> balls = SpheresOfPart(linked, part);
     if (balls.empty() || !linked.IsRepresentative(balls.front())) continue;
-    for (std::size_t i = 1; i < balls.size(); ++i) linked.AddCapsule(balls[i - 1], balls[i]);
+    JoinAsTree(balls, linked);
     const CapsuleEnds best =
         LeastGap(linked.spheres(), balls, SpheresOfPart(linked, ChainAt(part)));
     if (best[0] >= 0) linked.AddCapsule(best[0], best[1]);

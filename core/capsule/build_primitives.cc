@@ -193,7 +193,8 @@ CapsuleEnds LeastGap(std::span<const Sphere> spheres, std::span<const int> from,
   for (const int i : from) {
     for (const int j : to) {
       const Sphere& other = spheres[j];
-      const double gap = (spheres[i].center_m - other.center_m).norm() - other.radius_m;
+      const double gap =
+          (spheres[i].center_m - other.center_m).norm() - spheres[i].radius_m - other.radius_m;
       if (gap >= least - kGapTieM) continue;
       least = gap;
       best = {i, j};

@@ -33,17 +33,17 @@ struct EndBalls {
 
 // A set of the smallest enclosing ball of each selected head, hand and foot that the body has,
 // around the vertices of that segment; where more than one is asked for (not in the paper), of
-// stretches of equal length of its longest extent, in order. On a symmetric body hands and feet are
-// exact images of each other, each around both sides' vertices, and the head's balls are centred.
-// O(vertices).
+// compact clusters of them (point_clusters.h): a palm and fingers, not slices of a hand. On a
+// symmetric body hands and feet are exact images of each other, each around both sides' vertices,
+// and the head's balls are centred. O(vertices).
 [[nodiscard]] PrimitiveSet MakeEndBalls(const body::Body& body, const body::PartSelection& parts,
                                         const EndBalls& balls);
 
 // Adds spheres, behind those of the set.
 void AddBalls(const PrimitiveSet& balls, PrimitiveSet& set);
 
-// One of `from` and one of `to`, indices of spheres: the first pair with the least gap between the
-// centre of the one and the surface of the other. {-1, -1} where there are none.
+// One of `from` and one of `to`, indices of spheres: the first pair with the least gap between
+// their surfaces, which is negative where they overlap. {-1, -1} where there are none.
 [[nodiscard]] CapsuleEnds LeastGap(std::span<const geometry::Sphere> spheres,
                                    std::span<const int> from, std::span<const int> to);
 
@@ -51,9 +51,9 @@ void AddBalls(const PrimitiveSet& balls, PrimitiveSet& set);
 [[nodiscard]] body::Part ChainAt(body::Part ball);
 
 // A capsule from each head, hand and foot to the sphere of its chain that leaves the least gap to
-// one of its balls, and to that one's image, and one between neighbouring balls (not in the paper):
-// the balls need not reach round the whole part then. For sets whose spheres are moved and sized
-// together; where they only grow it would enclose more for nothing.
+// one of its balls, and to that one's image, and the tree of capsules with the least gaps between
+// its balls (not in the paper): the balls need not reach round the whole part then. For sets whose
+// spheres are moved and sized together; where they only grow it would enclose more for nothing.
 void LinkEndBalls(PrimitiveSet& set);
 
 // Removes capsules that one other capsule covers, then those that the union of the others covers.

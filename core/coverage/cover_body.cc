@@ -46,14 +46,24 @@ constexpr tighten::TightenPhase kThoroughLoosening{.steps = 24,
                                                    .last_penalty = 12.0,
                                                    .solve_to = {.centrality = 1e-4}};
 // Ten steps lead nearly as far when the first ones may be twice as long: 2 to 7 % more E_r. Fewer
-// or longer ones save little: eight cost up to 2 % of E_r. Larger sets take kStepsOfMany: 3 % less
-// E_r from 167 primitives on for a twentieth of a fit's time.
+// or longer ones save little: eight cost up to 2 % of E_r.
 constexpr tighten::TightenPhase kQuickLoosening{.steps = 10,
                                                 .first_trust = 0.025,
                                                 .last_trust = 0.003,
                                                 .first_penalty = 1.4,
                                                 .last_penalty = 12.0,
                                                 .solve_to = {.centrality = 3e-4}};
+// Of more than kFewPrimitives. Four steps more take 3 % of E_r for a twentieth of a fit's time.
+// With as low a price to begin with, small solids come loose from what they came to hold and find
+// another place by chance: 1 to 2 % more E_r above 200 primitives, and a tenth more scatter between
+// budgets that are alike.
+constexpr tighten::TightenPhase kLooseningOfMany{.steps = 14,
+                                                 .first_trust = 0.021,
+                                                 .last_trust = 0.003,
+                                                 .first_penalty = 2.4,
+                                                 .last_penalty = 12.0,
+                                                 .solve_to = {.centrality = 3e-4}};
+constexpr int kFewPrimitives = 150;
 // A step each, relative to the body's size; before each but the first what sticks out between
 // vertices is looked for anew. (Nine steps with three such looks, as many as they were, lead to the
 // same E_r. So do programmes solved to a gap, or not as near to the central path's end, but where
@@ -65,8 +75,6 @@ constexpr std::array kTightTrusts = {0.004, 0.0028, 0.002, 0.0014, 0.001};
 // After a quick loosening of kFewPrimitives at most: the other steps would win 1 % of E_r at 64
 // primitives for a twentieth of a fit's time. Of more and smaller solids more sticks out.
 constexpr std::array kQuickTightTrusts = {0.008, 0.004, 0.0015};
-constexpr int kFewPrimitives = 150;
-constexpr int kStepsOfMany = 14;  // of a quick loosening of more
 constexpr tighten::TightenPhase kTightStep{.steps = 1,
                                            .first_penalty = 0.4,
                                            .last_penalty = 0.4,
@@ -194,9 +202,7 @@ class Coverer {
 
   void Tighten() {
     if (Loosens(options_) && !meter_.IsCancelled()) {
-      const bool is_quick = options_.loosening == Loosening::kQuick;
-      tighten::TightenPhase phase = is_quick ? kQuickLoosening : kThoroughLoosening;
-      if (is_quick && set_.primitive_count() > kFewPrimitives) phase.steps = kStepsOfMany;
+      const tighten::TightenPhase& phase = LooseningPhase();
       meter_.Expect(kLooseUntil, std::int64_t{phase.steps} * set_.primitive_count());
       RunPhase(phase, {{ground_.sparse.points, AllowedAtVertices(), ground_.sparse.weights}},
                /*seed=*/1);
@@ -215,6 +221,11 @@ class Coverer {
       if (IsMeasured()) vertices.at_first = &at_points_;
       RunPhase(step, {vertices, {between, AllowedBetween()}}, 101 + i);
     }
+  }
+
+  [[nodiscard]] const tighten::TightenPhase& LooseningPhase() const {
+    if (options_.loosening == Loosening::kThorough) return kThoroughLoosening;
+    return set_.primitive_count() > kFewPrimitives ? kLooseningOfMany : kQuickLoosening;
   }
 
   [[nodiscard]] std::span<const double> TightTrusts() const {

@@ -107,8 +107,8 @@ TEST(AddEndBallsTest, OnlyWhatIsAskedForIndicesGoOnFromTheSet) {
   EXPECT_EQ(set.origins[1].mirror, 1);
 }
 
-// Of each stretch of the longest extent: here two boxes beside each other.
-TEST(AddEndBallsTest, SeveralAreInARowAlongThePart) {
+// Of each cluster: here two boxes beside each other.
+TEST(AddEndBallsTest, SeveralAreAroundClustersOfThePart) {
   const body::Body body = BoxBody({{Segment::kHead, {0.0, 1.5, 0.0}},
                                    {Segment::kHead, {0.0, 1.9, 0.1}},
                                    {Segment::kLeftFoot, {0.2, 0.1, 0.0}},
@@ -195,6 +195,26 @@ TEST(LinkEndBallsTest, ARowIsJoinedAndHangsOnWhatIsNearest) {
   LinkEndBalls(set);
   std::sort(set.capsules.begin(), set.capsules.end());
   const std::vector<CapsuleEnds> expected = {{1, 4}, {2, 3}, {3, 4}};
+  EXPECT_EQ(set.capsules, expected);
+}
+
+// A palm with two fingers: the second one hangs on the palm, not on the first one's tip.
+TEST(LinkEndBallsTest, BallsAreJoinedAsATreeOfTheNearest) {
+  PrimitiveSet set;
+  const auto add = [&](double x, double y, double radius_m) {
+    set.spheres.push_back({{x, y, 0.0}, radius_m});
+  };
+  add(-0.02, 0.2, 0.01);  // a finger's tip
+  add(0.12, 0.2, 0.01);   // the other's
+  add(0.0, 0.1, 0.01);
+  add(0.05, 0.0, 0.05);  // the palm
+  add(0.1, 0.1, 0.01);
+  add(0.05, -0.1, 0.04);  // of the arm
+  set.origins.assign(5, {Part::kLeftHand, -1, -1});
+  set.origins.push_back({Part::kLeftArm, -1, -1});
+  LinkEndBalls(set);
+  std::sort(set.capsules.begin(), set.capsules.end());
+  const std::vector<CapsuleEnds> expected = {{0, 2}, {1, 4}, {2, 3}, {3, 4}, {3, 5}};
   EXPECT_EQ(set.capsules, expected);
 }
 
