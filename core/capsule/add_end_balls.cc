@@ -10,7 +10,6 @@
 #include "core/capsule/build_primitives.h"
 #include "core/capsule/mirrored_set.h"
 #include "core/capsule/point_clusters.h"
-#include "core/geometry/smallest_enclosing.h"
 
 namespace capfit::capsule {
 namespace {
@@ -52,7 +51,7 @@ void Add(body::Part part, int mirror, const geometry::Sphere& ball, PrimitiveSet
 void AddAlone(body::Part part, const std::vector<Eigen::Vector3d>& points, int count,
               PrimitiveSet& set) {
   for (const auto& cluster : ClustersOf(points, count, Eigen::Vector3d::Zero())) {
-    Add(part, -1, geometry::SmallestEnclosingBall(cluster), set);
+    Add(part, -1, cluster.ball, set);
   }
 }
 
@@ -62,9 +61,8 @@ void AddCentred(body::Part part, std::vector<Eigen::Vector3d> points, int count,
   const std::size_t own = points.size();
   for (std::size_t i = 0; i < own; ++i) points.push_back(Mirrored(points[i]));
   for (const auto& cluster : ClustersOf(points, count, Eigen::Vector3d::UnitX())) {
-    geometry::Sphere ball = geometry::SmallestEnclosingBall(cluster);
-    ball.center_m.x() = 0.0;  // so it is but for rounding
-    ball.radius_m = RadiusAround(ball.center_m, cluster);
+    geometry::Sphere ball = cluster.ball;
+    ball.radius_m = RadiusAround(ball.center_m, cluster.points_m);
     Add(part, static_cast<int>(set.spheres.size()), ball, set);
   }
 }
@@ -75,10 +73,9 @@ void AddPairs(body::Part part, std::vector<Eigen::Vector3d> points,
               const std::vector<Eigen::Vector3d>& others, int count, PrimitiveSet& set) {
   for (const Eigen::Vector3d& p : others) points.push_back(Mirrored(p));
   for (const auto& cluster : ClustersOf(points, count, Eigen::Vector3d::Zero())) {
-    const geometry::Sphere ball = geometry::SmallestEnclosingBall(cluster);
     const int index = static_cast<int>(set.spheres.size());
-    Add(part, index + 1, ball, set);
-    Add(body::MirrorPart(part), index, MirrorImage(ball), set);
+    Add(part, index + 1, cluster.ball, set);
+    Add(body::MirrorPart(part), index, MirrorImage(cluster.ball), set);
   }
 }
 

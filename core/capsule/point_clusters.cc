@@ -13,11 +13,6 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-struct PointCluster {
-  Points points;
-  geometry::Sphere ball;  // smallest enclosing; its centre moved to the plane
-};
-
 std::size_t NearestCluster(const Eigen::Vector3d& point, std::span<const PointCluster> clusters) {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -61,12 +56,12 @@ class ClusterSearch {
     const Eigen::Vector3d axis = LongestExtent(cluster);
     double least = std::numeric_limits<double>::infinity();
     double most = -least;
-    for (const Eigen::Vector3d& p : cluster.points) {
+    for (const Eigen::Vector3d& p : cluster.points_m) {
       least = std::min(least, axis.dot(p));
       most = std::max(most, axis.dot(p));
     }
     std::pair<Points, Points> halves;
-    for (const Eigen::Vector3d& p : cluster.points) {
+    for (const Eigen::Vector3d& p : cluster.points_m) {
       (axis.dot(p) < 0.5 * (least + most) ? halves.first : halves.second).push_back(p);
     }
     return halves;
@@ -75,7 +70,7 @@ class ClusterSearch {
   // Of the most spread. (From one furthest point to the other E_r ends 1.5 % higher.)
   Eigen::Vector3d LongestExtent(const PointCluster& cluster) const {
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const Eigen::Vector3d& p : cluster.points) {
+    for (const Eigen::Vector3d& p : cluster.points_m) {
       const Eigen::Vector3d arm = p - cluster.ball.center_m;
       spread += arm * arm.transpose();
     }
@@ -99,14 +94,10 @@ class ClusterSearch {
 
 }  // namespace
 
-std::vector<Points> ClustersOf(std::span<const Eigen::Vector3d> points_m, int count,
-                               const Eigen::Vector3d& normal) {
-  std::vector<Points> clusters;
-  if (points_m.empty()) return clusters;
-  for (PointCluster& cluster : ClusterSearch(normal).Find(points_m, count)) {
-    clusters.push_back(std::move(cluster.points));
-  }
-  return clusters;
+std::vector<PointCluster> ClustersOf(std::span<const Eigen::Vector3d> points_m, int count,
+                                     const Eigen::Vector3d& normal) {
+  if (points_m.empty()) return {};
+  return ClusterSearch(normal).Find(points_m, count);
 }
 
 }  // namespace capfit::capsule

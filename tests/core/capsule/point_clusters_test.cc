@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/geometry/smallest_enclosing.h"
 
 namespace capfit::capsule {
 namespace {
@@ -40,15 +38,9 @@ Points Hand() {
   return points;
 }
 
-std::vector<geometry::Sphere> BallsOf(const std::vector<Points>& clusters) {
-  std::vector<geometry::Sphere> balls;
-  for (const Points& cluster : clusters) balls.push_back(geometry::SmallestEnclosingBall(cluster));
-  return balls;
-}
-
-double LargestRadius(const std::vector<Points>& clusters) {
+double LargestRadius(const std::vector<PointCluster>& clusters) {
   double radius = 0.0;
-  for (const auto& ball : BallsOf(clusters)) radius = std::max(radius, ball.radius_m);
+  for (const PointCluster& cluster : clusters) radius = std::max(radius, cluster.ball.radius_m);
   return radius;
 }
 
@@ -59,10 +51,13 @@ bool IsLess(const Vec3& a, const Vec3& b) {
 TEST(ClustersOfTest, EveryPointIsInOne) {
   Points hand = Hand();
   for (const int count : {1, 2, 5, 8}) {
-    const std::vector<Points> clusters = ClustersOf(hand, count, kNoPlane);
+    const std::vector<PointCluster> clusters = ClustersOf(hand, count, kNoPlane);
     EXPECT_EQ(static_cast<int>(clusters.size()), count);
     Points all;
-    for (const Points& cluster : clusters) all.insert(all.end(), cluster.begin(), cluster.end());
+    for (const auto& [points, ball] : clusters) {
+      all.insert(all.end(), points.begin(), points.end());
+      for (const Vec3& p : points) EXPECT_LE((p - ball.center_m).norm(), ball.radius_m + 1e-12);
+    }
     std::sort(all.begin(), all.end(), IsLess);
     std::sort(hand.begin(), hand.end(), IsLess);
     EXPECT_EQ(all, hand);
@@ -71,11 +66,11 @@ TEST(ClustersOfTest, EveryPointIsInOne) {
 
 // Eight slices along the hand would each have balls as wide as its four fingers.
 TEST(ClustersOfTest, FingersLieBesideEachOther) {
-  const std::vector<Points> clusters = ClustersOf(Hand(), 8, kNoPlane);
+  const std::vector<PointCluster> clusters = ClustersOf(Hand(), 8, kNoPlane);
   EXPECT_LT(LargestRadius(clusters), 0.036);
   int thumbs = 0;
-  for (const Points& cluster : clusters) {
-    thumbs += std::all_of(cluster.begin(), cluster.end(), [](const Vec3& p) { return p.x() < 0; });
+  for (const auto& [points, ball] : clusters) {
+    thumbs += std::all_of(points.begin(), points.end(), [](const Vec3& p) { return p.x() < 0; });
   }
   EXPECT_GE(thumbs, 1);
 }
@@ -85,18 +80,20 @@ TEST(ClustersOfTest, PointsCloseTogetherDrawNoCentreToThem) {
   Points points = PointsIn({0.0, 0.0, 0.0}, {1.0, 0.1, 0.1}, 500, 3);
   const Points dense = PointsIn({0.0, 0.0, 0.0}, {0.05, 0.1, 0.1}, 2000, 4);
   points.insert(points.end(), dense.begin(), dense.end());
-  std::vector<geometry::Sphere> balls = BallsOf(ClustersOf(points, 2, kNoPlane));
-  ASSERT_EQ(balls.size(), 2u);
-  if (balls[0].center_m.x() > balls[1].center_m.x()) std::swap(balls[0], balls[1]);
-  EXPECT_NEAR(balls[0].center_m.x(), 0.25, 0.02);
-  EXPECT_NEAR(balls[1].center_m.x(), 0.75, 0.02);
+  const std::vector<PointCluster> clusters = ClustersOf(points, 2, kNoPlane);
+  ASSERT_EQ(clusters.size(), 2u);
+  std::vector<double> centers = {clusters[0].ball.center_m.x(), clusters[1].ball.center_m.x()};
+  std::sort(centers.begin(), centers.end());
+  EXPECT_NEAR(centers[0], 0.25, 0.02);
+  EXPECT_NEAR(centers[1], 0.75, 0.02);
 }
 
 TEST(ClustersOfTest, InAPlaneNothingIsPartedAcrossIt) {
   const Points wide = PointsIn({-1.0, 0.0, 0.0}, {1.0, 0.5, 0.1}, 500, 3);
-  for (const Points& cluster : ClustersOf(wide, 2, Vec3::UnitX())) {
+  for (const auto& [points, ball] : ClustersOf(wide, 2, Vec3::UnitX())) {
+    EXPECT_EQ(ball.center_m.x(), 0.0);
     const auto [left, right] = std::minmax_element(
-        cluster.begin(), cluster.end(), [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
+        points.begin(), points.end(), [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
     EXPECT_LT(left->x(), -0.9);
     EXPECT_GT(right->x(), 0.9);
   }
@@ -105,9 +102,9 @@ TEST(ClustersOfTest, InAPlaneNothingIsPartedAcrossIt) {
 TEST(ClustersOfTest, FewDistinctPointsGiveFewClusters) {
   EXPECT_TRUE(ClustersOf({}, 3, kNoPlane).empty());
   const Points twice = {Vec3::Zero(), Vec3::Zero(), Vec3::UnitY(), Vec3::UnitY()};
-  const std::vector<Points> clusters = ClustersOf(twice, 5, kNoPlane);
+  const std::vector<PointCluster> clusters = ClustersOf(twice, 5, kNoPlane);
   ASSERT_EQ(clusters.size(), 2u);
-  EXPECT_EQ(clusters[0].size(), 2u);
+  EXPECT_EQ(clusters[0].points_m.size(), 2u);
 }
 
 }  // namespace
