@@ -35,7 +35,7 @@ struct EndBalls {
 // around the vertices of that segment; where more than one is asked for (not in the paper), of
 // compact clusters of them (point_clusters.h): a palm and fingers, not slices of a hand. On a
 // symmetric body hands and feet are exact images of each other, each around both sides' vertices,
-// and the head's balls are centred. O(vertices).
+// and the head's balls are centred. O(vertices * balls).
 [[nodiscard]] PrimitiveSet MakeEndBalls(const body::Body& body, const body::PartSelection& parts,
                                         const EndBalls& balls);
 
