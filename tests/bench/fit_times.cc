@@ -1,7 +1,10 @@
 // Median time of each stage of a fit, for several numbers of threads in the same run.
 //
 //   fit_times BODY... [--primitives 64...] [--quality paper|balanced|tight] [--fit enclose|best]
-//             [--threads 1 2] [--runs 9] [--parts all|chains]
+//             [--threads 1 2] [--runs 9] [--parts all|chains] [--side-by-side]
+//
+// --side-by-side: what the machine gives to as many one-threaded fits at once, in the same rounds;
+// what one fit gains from its threads is to be held against that.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -9,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "CLI/CLI.hpp"
@@ -53,28 +57,63 @@ struct Task {
   FitOptions options;
   std::vector<int> threads;
   int runs;
+  bool has_side_by_side;
 };
+
+absl::StatusOr<FitResult> FitOn(int threads, const capfit::formats::PolygonSoup& soup,
+                                const FitOptions& options) {
+  const capfit::ThreadPool pool(threads);
+  capfit::NullObserver observer;
+  return capfit::pipeline::Fit(soup, options, pool, observer);
+}
+
+// One-threaded fits begun together, as many as threads; how long the last of them took, in ms.
+double SideBySideMs(int fits, const capfit::formats::PolygonSoup& soup, const FitOptions& options) {
+  std::vector<double> ms(fits, 0.0);
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < fits; ++i) {
+      threads.emplace_back([&, i] {
+        if (const auto result = FitOn(1, soup, options); result.ok()) ms[i] = 1e3 * result->seconds;
+      });
+    }
+  }
+  return *std::max_element(ms.begin(), ms.end());
+}
+
+void PrintSideBySide(int threads, const std::vector<FitResult>& alone, std::vector<double> ms) {
+  std::vector<double> alone_ms;
+  for (const FitResult& result : alone) alone_ms.push_back(1e3 * result.seconds);
+  const double each_ms = Median(std::move(ms));
+  std::printf("%d fits side by side, a thread each: %.1f ms each, %.2f times the work of one\n",
+              threads, each_ms, threads * Median(std::move(alone_ms)) / each_ms);
+}
 
 bool Run(const std::string& body, const Task& task) {
   const capfit::formats::PolygonSoup soup = Read(body);
   std::vector<std::vector<FitResult>> results(task.threads.size());
+  std::vector<double> side_by_side_ms;
   const int warm_up = task.runs > 1 ? 1 : 0;
   for (int run = 0; run < task.runs + warm_up; ++run) {
     for (std::size_t t = 0; t < task.threads.size(); ++t) {
-      const capfit::ThreadPool pool(task.threads[t]);
-      capfit::NullObserver observer;
-      auto result = capfit::pipeline::Fit(soup, task.options, pool, observer);
+      auto result = FitOn(task.threads[t], soup, task.options);
       if (!result.ok()) {
         std::fprintf(stderr, "%s\n", result.status().ToString().c_str());
         return false;
       }
       if (run >= warm_up) results[t].push_back(*std::move(result));
     }
+    if (task.has_side_by_side && run >= warm_up) {
+      side_by_side_ms.push_back(SideBySideMs(task.threads.back(), soup, task.options));
+    }
   }
   const std::string name = std::filesystem::path(body).stem().string();
   for (std::size_t t = 0; t < task.threads.size(); ++t) {
     std::printf("%-42s %5d %2d", name.c_str(), *task.options.max_primitives, task.threads[t]);
     Print(results[t]);
+  }
+  if (task.has_side_by_side) {
+    PrintSideBySide(task.threads.back(), results.front(), std::move(side_by_side_ms));
   }
   return true;
 }
@@ -89,7 +128,7 @@ int main(int argc, char** argv) {
   std::string fit = "enclose";
   std::string parts = "all";
   std::vector<int> primitives = {64};
-  Task task{{}, {1, 2}, 9};
+  Task task{{}, {1, 2}, 9, false};
   app.add_option("bodies", bodies, "mesh files")->required();
   app.add_option("--primitives", primitives);
   app.add_option("--quality", quality)->check(CLI::IsMember({"paper", "balanced", "tight"}));
@@ -97,6 +136,7 @@ int main(int argc, char** argv) {
   app.add_option("--parts", parts)->check(CLI::IsMember({"all", "chains"}));
   app.add_option("--threads", task.threads);
   app.add_option("--runs", task.runs);
+  app.add_flag("--side-by-side", task.has_side_by_side, "needs --threads that begin with 1");
   app.add_flag("--grow-only", task.options.grows_only);
   CLI11_PARSE(app, argc, argv);
   if (parts == "all") task.options.parts = {true, true, true, true, true, true};
