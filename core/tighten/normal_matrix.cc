@@ -1,7 +1,7 @@
 #include "core/tighten/normal_matrix.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace capfit::tighten {
@@ -14,6 +14,27 @@ void Insert(std::vector<int>& sorted, int value) {
 
 void Remove(std::vector<int>& sorted, int value) {
   sorted.erase(std::lower_bound(sorted.begin(), sorted.end(), value));
+}
+
+// Of the lower triangle L of a = L L', of which the lower half is read. Unrolled: Eigen's own for any
+// size take three times as long.
+Eigen::Matrix4d InverseOfFactor(const Eigen::Matrix4d& a) {
+  Eigen::Matrix4d factor = a;
+  Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();
+  for (int k = 0; k < 4; ++k) {
+    for (int j = 0; j < k; ++j) {
+      for (int i = k; i < 4; ++i) factor(i, k) -= factor(i, j) * factor(k, j);
+    }
+    const double one_over = 1.0 / std::sqrt(factor(k, k));
+    for (int i = k; i < 4; ++i) factor(i, k) *= one_over;
+    inverse(k, k) = one_over;
+    for (int j = 0; j < k; ++j) {
+      double sum = 0.0;
+      for (int i = j; i < k; ++i) sum += factor(k, i) * inverse(i, j);
+      inverse(k, j) = -sum * one_over;
+    }
+  }
+  return inverse;
 }
 
 }  // namespace
@@ -93,8 +114,7 @@ void NormalMatrix::Reset(const Eigen::VectorXd& diagonal) {
 void NormalMatrix::Factorise() {
   auto target = targets_.begin();
   for (std::size_t column = 0; column < inverses_.size(); ++column) {
-    const Eigen::LLT<Eigen::Matrix4d> factor(blocks_[column]);
-    inverses_[column] = factor.matrixL().solve(Eigen::Matrix4d::Identity());
+    inverses_[column] = InverseOfFactor(blocks_[column]);
     const std::size_t first = inverses_.size() + begin_[column];
     const std::size_t last = inverses_.size() + begin_[column + 1];
     for (std::size_t a = first; a < last; ++a) {

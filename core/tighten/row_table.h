@@ -5,89 +5,156 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
-#include "core/tighten/normal_matrix.h"
+#include "core/base/short_loops.h"
 #include "core/tighten/penalty_program.h"
 
 namespace capfit::tighten {
-
-// The programme's rows, those of one group of variables together, in the order in which they come.
-// O(rows + groups of variables^2).
-[[nodiscard]] std::vector<std::size_t> RowsByGroup(const PenaltyProgram& program);
 
 // Rows in a lane of doubles and of floats, one vector register each.
 inline constexpr Eigen::Index kDoublesInLane = 4;
 inline constexpr Eigen::Index kFloatsInLane = 8;
 
-// Rows that touch the same variables, [begin, end) in the solver's order, a whole number of lanes.
+// Which row of a programme.
+struct RowPlace {
+  std::uint32_t batch = 0;
+  std::uint32_t row = 0;
+};
+
+// Rows that touch the same variables, [begin, end) of the table, a whole number of lanes.
 struct RowGroup {
   Eigen::Index begin = 0;
   Eigen::Index end = 0;
   int first_a = 0;
   int first_b = -1;
-  // Its blocks of the normal matrix; the last where there is a second.
-  NormalMatrix::Place a, b, across;
+  std::size_t first_in_order = 0;  // and as many more as are not there to fill up the last lane
+  std::size_t count = 0;
 };
 
-// The rows with their coefficients apart, group by group, in doubles or floats. Groups are filled
-// up to whole lanes with rows that never bind.
+// Groups that one thread takes at a time, [begin, end).
+struct RowPart {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+// Which row goes where.
+struct RowLayout {
+  std::vector<RowPlace> order;  // group by group; in a group as the rows come in the programme
+  std::vector<RowGroup> groups;
+  std::vector<RowPart> parts;  // about as many rows in each; the same for any number of threads
+  Eigen::Index size = 0;       // of the table
+};
+
+// `lane`: what groups are filled up to. O(rows + groups of variables^2).
+[[nodiscard]] RowLayout LayOutRows(const PenaltyProgram& program, Eigen::Index lane);
+
+// What is kept of a row beside its coefficients and its weight, which lie apart, as the solver goes
+// through those alone many times.
+enum class RowNumber {
+  kValue,
+  kPenalty,
+  kT,  // the rest is the solver's own
+  kS,
+  kRow,
+  kInverseRow,
+  kInverseSlack,
+  kSTarget,
+  kShift,
+  kDt,
+  kDs,
+  kDrow,
+  kCount,
+};
+
+// So many rows as one vector register takes, to be read and written. Their numbers lie together, so
+// that two addresses lead to all of them.
 template <typename Real>
-struct RowTable {
-  using Array = Eigen::Array<Real, Eigen::Dynamic, 1>;
-  static constexpr Eigen::Index kLane = sizeof(Real) == 8 ? kDoublesInLane : kFloatsInLane;
-  using Lane = Eigen::Array<Real, kLane, 1>;
+class RowLane {
+ public:
+  static constexpr Eigen::Index kRows = sizeof(Real) == 8 ? kDoublesInLane : kFloatsInLane;
+  using Lane = Eigen::Array<Real, kRows, 1>;
   using Lanes = std::array<Lane, 8>;  // one for each coefficient of a row
+  using Place = Eigen::Map<Lane>;
 
-  // `lane`: what groups are filled up to, a multiple of kLane.
-  RowTable(const PenaltyProgram& program, Eigen::Index lane) : lane_(lane) {
-    const std::vector<PenaltyRow>& rows = program.rows;
-    const std::vector<std::size_t> order = RowsByGroup(program);
-    std::size_t most_groups = 1;
-    for (std::size_t i = 1; i < order.size(); ++i) {
-      most_groups += rows[order[i]].first != rows[order[i - 1]].first ? 1 : 0;
-    }
-    const auto most = static_cast<Eigen::Index>(rows.size() + lane * most_groups);
-    coefficients.setZero(most, 8);
-    value = Array::Constant(most, -static_cast<Real>((program.upper - program.lower).maxCoeff()));
-    penalty = Array::Ones(most);
-    for (const std::size_t i : order) Append(rows[i]);
-    CloseGroup();
-    count = next_;
-  }
+  static constexpr Eigen::Index kWeights = 9;  // coefficients and weight
 
-  // The same rows, whose groups fill up lanes of this table too.
-  template <typename Other>
-  explicit RowTable(const RowTable<Other>& other)
-      : groups(other.groups),
-        coefficients(other.coefficients.template cast<Real>()),
-        value(other.value.template cast<Real>()),
-        penalty(other.penalty.template cast<Real>()),
-        count(other.count) {}
+  RowLane(Real* weights, Real* numbers) : weights_(weights), numbers_(numbers) {}
 
-  // The lane from row k on, here and of coefficient c.
-  static auto At(Array& array, Eigen::Index k) { return array.template segment<kLane>(k); }
-  static Lane At(const Array& array, Eigen::Index k) { return array.template segment<kLane>(k); }
-  Lane Coefficient(Eigen::Index k, Eigen::Index c) const {
-    return coefficients.col(c).template segment<kLane>(k);
-  }
+  Place coefficient(Eigen::Index c) const { return Place(weights_ + c * kRows); }
+  Place weight() const { return coefficient(8); }
+  Place value() const { return At(RowNumber::kValue); }
+  Place penalty() const { return At(RowNumber::kPenalty); }
+  Place t() const { return At(RowNumber::kT); }
+  Place s() const { return At(RowNumber::kS); }
+  Place row() const { return At(RowNumber::kRow); }
+  Place inverse_row() const { return At(RowNumber::kInverseRow); }
+  Place inverse_slack() const { return At(RowNumber::kInverseSlack); }
+  Place s_target() const { return At(RowNumber::kSTarget); }
+  Place shift() const { return At(RowNumber::kShift); }
+  Place dt() const { return At(RowNumber::kDt); }
+  Place ds() const { return At(RowNumber::kDs); }
+  Place drow() const { return At(RowNumber::kDrow); }
 
-  // Rows times their weights, added up lane by lane, and then what belongs to each variable.
-  void AddWeighted(Eigen::Index k, const Lane& weight, Lanes& sums) const {
-    for (Eigen::Index c = 0; c < 8; ++c) {
-      sums[c] += weight * Coefficient(k, c);
-    }
-  }
-  static void Scatter(const RowGroup& group, const Lanes& sums, Eigen::VectorXd& to) {
-    for (int c = 0; c < 4; ++c) {
-      to[group.first_a + c] += sums[c].sum();
-      if (group.first_b >= 0) to[group.first_b + c] += sums[4 + c].sum();
-    }
+  // Adds the rows times their weights.
+  void AddWeighted(const Lane& weight, Lanes& sums) const {
+    for (Eigen::Index c = 0; c < 8; ++c) sums[c] += weight * coefficient(c);
   }
   static Lanes NoLanes() {
     Lanes lanes;
     lanes.fill(Lane::Zero());
     return lanes;
+  }
+
+  // Of the rows with the variables that they touch.
+  Lane Product(const std::array<Real, 8>& own) const {
+    Lane product = Lane::Zero();
+    for (Eigen::Index c = 0; c < 8; ++c) product += own[c] * coefficient(c);
+    return product;
+  }
+
+ private:
+  Place At(RowNumber number) const {
+    return Place(numbers_ + static_cast<Eigen::Index>(number) * kRows);
+  }
+
+  Real* weights_;
+  Real* numbers_;
+};
+
+// The rows with their coefficients apart, group by group, in doubles or floats. Groups are filled
+// up to whole lanes with rows that never bind. Keeps its memory from programme to programme, so that
+// the system need not hand it out and clear it each time.
+template <typename Real>
+class RowTable {
+ public:
+  static constexpr Eigen::Index kLane = RowLane<Real>::kRows;
+
+  // `layout`: for lanes that are a multiple of kLane; must outlive its use here. What the solver
+  // keeps has no value yet.
+  void Take(const PenaltyProgram& program, const RowLayout& layout, ShortLoops& loops) {
+    layout_ = &layout;
+    if (numbers_.size() < layout.size * kNumbers) {
+      numbers_.resize(layout.size * kNumbers);
+      weights_.resize(layout.size * RowLane<Real>::kWeights);
+    }
+    const auto never = -static_cast<Real>((program.upper - program.lower).maxCoeff());
+    loops.ForEach(layout.parts.size(), [&](std::size_t p) {
+      for (const RowGroup& group : GroupsOf(p)) Fill(program, group, never);
+    });
+  }
+
+  [[nodiscard]] const RowLayout& layout() const { return *layout_; }
+  [[nodiscard]] std::span<const RowGroup> GroupsOf(std::size_t part) const {
+    const RowPart& groups = layout_->parts[part];
+    return std::span(layout_->groups).subspan(groups.begin, groups.end - groups.begin);
+  }
+
+  // The lane from row k on.
+  [[nodiscard]] RowLane<Real> LaneAt(Eigen::Index k) {
+    return {weights_.data() + k * RowLane<Real>::kWeights, numbers_.data() + k * kNumbers};
   }
 
   // Of the variables that a group's rows touch.
@@ -100,43 +167,34 @@ struct RowTable {
     return own;
   }
 
-  Lane Product(Eigen::Index k, const std::array<Real, 8>& own) const {
-    Lane product = Lane::Zero();
-    for (Eigen::Index c = 0; c < 8; ++c) {
-      product += own[c] * Coefficient(k, c);
-    }
-    return product;
-  }
-
-  std::vector<RowGroup> groups;
-  Eigen::Array<Real, Eigen::Dynamic, 8> coefficients;
-  Array value, penalty;
-  Eigen::Index count = 0;  // of rows in use
-
  private:
-  void Append(const PenaltyRow& row) {
-    if (groups.empty() || groups.back().first_a != row.first[0] ||
-        groups.back().first_b != row.first[1]) {
-      CloseGroup();
-      groups.push_back({next_, next_, row.first[0], row.first[1], {}, {}, {}});
+  static constexpr auto kNumbers = static_cast<Eigen::Index>(RowNumber::kCount);
+
+  void Fill(const PenaltyProgram& program, const RowGroup& group, Real never) {
+    Eigen::Index k = group.begin;
+    for (std::size_t i = 0; i < group.count; ++i, ++k) {
+      const RowPlace& place = layout_->order[group.first_in_order + i];
+      const RowBatch& batch = program.batches[place.batch];
+      const PenaltyRow& row = batch.rows[place.row];
+      const RowLane<Real> lane = LaneAt(k - k % kLane);
+      for (Eigen::Index c = 0; c < 8; ++c) {
+        lane.coefficient(c)[k % kLane] = static_cast<Real>(row.coefficients[c]);
+      }
+      lane.value()[k % kLane] = static_cast<Real>(row.value);
+      lane.penalty()[k % kLane] = static_cast<Real>(row.penalty * batch.penalty_factor);
     }
-    for (Eigen::Index c = 0; c < 8; ++c) {
-      coefficients(next_, c) = static_cast<Real>(row.coefficients[c]);
+    for (; k < group.end; ++k) {
+      const RowLane<Real> lane = LaneAt(k - k % kLane);
+      for (Eigen::Index c = 0; c < 8; ++c) lane.coefficient(c)[k % kLane] = 0;
+      lane.value()[k % kLane] = never;
+      // As its neighbour, so that they converge like it.
+      lane.penalty()[k % kLane] = LaneAt((k - 1) - (k - 1) % kLane).penalty()[(k - 1) % kLane];
     }
-    value[next_] = static_cast<Real>(row.value);
-    penalty[next_] = static_cast<Real>(row.penalty);
-    ++next_;
   }
 
-  void CloseGroup() {
-    if (groups.empty()) return;
-    // The rows that fill up cost as much as their neighbours, so that they converge like these.
-    while (next_ % lane_ != 0) penalty[next_] = penalty[next_ - 1], ++next_;
-    groups.back().end = next_;
-  }
-
-  Eigen::Index lane_ = kLane;
-  Eigen::Index next_ = 0;
+  Eigen::Array<Real, Eigen::Dynamic, 1> weights_;
+  Eigen::Array<Real, Eigen::Dynamic, 1> numbers_;
+  const RowLayout* layout_ = nullptr;
 };
 
 }  // namespace capfit::tighten

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/tighten/penalty_program.h"
@@ -50,11 +51,12 @@ class Tightener {
         pool_(pool),
         backlog_(backlog),
         set_(set),
-        variables_(set) {}
+        variables_(set),
+        solver_(pool) {}
 
   void Step(double trust_m, double penalty, const TightenPhase& phase, std::uint64_t seed) {
     shapes_ = capsule::Solids(set_);
-    PenaltyProgram program;
+    PenaltyProgram& program = program_;
     // They touch different members. The rows come first: this thread, which takes them, goes on
     // with them, and it is slow to fetch much that another one wrote.
     pool_.ForEach(2, [&](std::size_t half) {
@@ -69,7 +71,7 @@ class Tightener {
       AddSteepnessRows(program);
     }
     Eigen::VectorXd change;
-    const auto solve = [&] { change = Solve(program, phase.solve_to); };
+    const auto solve = [&] { change = solver_.Solve(program, phase.solve_to); };
     if (backlog_ != nullptr) {
       backlog_->Beside(solve);
     } else {
@@ -156,14 +158,9 @@ class Tightener {
     return capsule::Solids(carried);
   }
 
-  // What a chunk of blocks asks for.
-  struct Rows {
-    std::vector<PenaltyRow> rows;
-    double near_weight = 0.0;  // of the points near the surface
-  };
-
   void AddPointRows(double depth_m, double spacing_m, PenaltyProgram& program) {
     near_weight_ = 0.0;
+    batches_ = 0;
     if (shapes_.empty()) return;
     for (const PointsToHold& points : points_) {
       const std::vector<TaperedCapsule> shapes =
@@ -173,55 +170,54 @@ class Tightener {
       if (!is_known) measured = points.points.DistancesTo(shapes, -depth_m, pool_);
       const UnionDistances& distances = is_known ? *points.at_first : measured;
       const std::size_t blocks = points.points.blocks().size();
-      std::vector<Rows> found((blocks + kBlocksAtOnce - 1) / kBlocksAtOnce);
+      const std::size_t chunks = (blocks + kBlocksAtOnce - 1) / kBlocksAtOnce;
+      const std::size_t first = std::exchange(batches_, batches_ + chunks);
+      if (program.batches.size() < batches_) program.batches.resize(batches_);
+      std::vector<double> near_weights(chunks, 0.0);
       pool_.ForChunks(blocks, kBlocksAtOnce, [&](std::size_t begin, std::size_t end) {
-        Rows& rows = found[begin / kBlocksAtOnce];
+        const std::size_t chunk = begin / kBlocksAtOnce;
+        std::vector<PenaltyRow>& rows = program.batches[first + chunk].rows;
+        rows.clear();
         if (spacing_m <= 0.0) {  // nearly all of the points may ask for one
           const std::vector<PointGrid::Block>& all = points.points.blocks();
-          rows.rows.reserve(all[end - 1].end - all[begin].begin);
+          rows.reserve(all[end - 1].end - all[begin].begin);
         }
         for (std::size_t b = begin; b < end; ++b) {
           if (spacing_m > 0.0) {
             AddDemanding(points, shapes, distances, b, depth_m, spacing_m, rows);
           } else {
-            AddAll(points, shapes, distances, b, depth_m, rows);
+            near_weights[chunk] += AddAll(points, shapes, distances, b, depth_m, rows);
           }
         }
       });
-      std::size_t count = program.rows.size();
-      for (const Rows& rows : found) count += rows.rows.size();
-      // At once, and never by a little only: there may be many poses.
-      if (count > program.rows.capacity()) {
-        program.rows.reserve(std::max(count, 2 * program.rows.capacity()));
-      }
-      for (const Rows& rows : found) {
-        program.rows.insert(program.rows.end(), rows.rows.begin(), rows.rows.end());
-        near_weight_ += rows.near_weight;
-      }
+      for (const double weight : near_weights) near_weight_ += weight;
     }
   }
 
   // All points near the surface: a choice among them could fall out differently for vertices that
   // differ by rounding alone. For the same reason those just near enough count for nothing yet
   // where weights are added up; as rows they do not bind.
-  void AddAll(const PointsToHold& points, const std::vector<TaperedCapsule>& shapes,
-              const UnionDistances& distances, std::size_t b, double depth_m, Rows& rows) const {
+  double AddAll(const PointsToHold& points, const std::vector<TaperedCapsule>& shapes,
+                const UnionDistances& distances, std::size_t b, double depth_m,
+                std::vector<PenaltyRow>& rows) const {
+    double near_weight = 0.0;
     const PointGrid::Block& block = points.points.blocks()[b];
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
       const double excess = distances.distance_m[i] - points.allowed_m;
       if (excess <= -depth_m) continue;
       const double ramp = std::min(1.0, 2.0 * (1.0 + excess / depth_m));
       const double weight = points.weights.empty() ? 1.0 : points.weights[points.points.order()[i]];
-      rows.near_weight += ramp * weight;
-      rows.rows.push_back(PointRow(points, shapes, i, distances.solid[i], weight));
+      near_weight += ramp * weight;
+      rows.push_back(PointRow(points, shapes, i, distances.solid[i], weight));
     }
+    return near_weight;
   }
 
   // Of the points of a cell that are nearest to the same solid, or to its image, the one furthest
   // out.
   void AddDemanding(const PointsToHold& points, const std::vector<TaperedCapsule>& shapes,
                     const UnionDistances& distances, std::size_t b, double depth_m,
-                    double spacing_m, Rows& rows) const {
+                    double spacing_m, std::vector<PenaltyRow>& rows) const {
     std::array<std::uint64_t, PointGrid::kMaxBlock> cells;   // keys
     std::array<std::uint32_t, PointGrid::kMaxBlock> chosen;  // point of each
     std::size_t count = 0;
@@ -240,7 +236,7 @@ class Tightener {
       }
     }
     for (std::size_t c = 0; c < count; ++c) {
-      rows.rows.push_back(PointRow(points, shapes, chosen[c], distances.solid[chosen[c]], 1.0));
+      rows.push_back(PointRow(points, shapes, chosen[c], distances.solid[chosen[c]], 1.0));
     }
   }
 
@@ -262,11 +258,13 @@ class Tightener {
   void SetPenalties(double penalty, PenaltyProgram& program) const {
     const bool is_weighted = !points_.empty() && !points_.front().weights.empty();
     const double each = penalty * growth_rate_ / (is_weighted ? near_weight_ : 1.0);
-    for (PenaltyRow& row : program.rows) row.penalty *= each;
+    program.batches.resize(batches_);
+    for (RowBatch& batch : program.batches) batch.penalty_factor = each;
   }
 
   // |r_a - r_b| <= kMaxSin * length. Where that is broken already it must not get worse.
   void AddSteepnessRows(PenaltyProgram& program) const {
+    std::vector<PenaltyRow>& rows = program.batches.emplace_back().rows;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       const capsule::CapsuleEnds& solid = variables_.solids()[k];
       if (solid[0] == solid[1]) continue;
@@ -276,21 +274,22 @@ class Tightener {
       if (excess < -kSteepnessReach * size_) continue;
       Eigen::Vector4d by_a;
       by_a << kMaxSin * shape.axis(), difference >= 0.0 ? 1.0 : -1.0;
-      program.rows.push_back(
+      rows.push_back(
           RowOf(solid, by_a, -by_a, std::min(excess, 0.0), kSteepnessPenalty / size_));
     }
   }
 
   // |r_a - r_b| <= 0, a row for each sign.
   void AddUniformRows(PenaltyProgram& program) const {
+    std::vector<PenaltyRow>& rows = program.batches.emplace_back().rows;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       const capsule::CapsuleEnds& solid = variables_.solids()[k];
       if (solid[0] == solid[1]) continue;
       const double difference = shapes_[k].a().radius_m - shapes_[k].b().radius_m;
       const Eigen::Vector4d radius(0.0, 0.0, 0.0, 1.0);
       const double penalty = kSteepnessPenalty / size_;
-      program.rows.push_back(RowOf(solid, radius, -radius, difference, penalty));
-      program.rows.push_back(RowOf(solid, -radius, radius, -difference, penalty));
+      rows.push_back(RowOf(solid, radius, -radius, difference, penalty));
+      rows.push_back(RowOf(solid, -radius, radius, -difference, penalty));
     }
   }
 
@@ -302,6 +301,9 @@ class Tightener {
   Backlog* backlog_;
   capsule::PrimitiveSet& set_;
   SetVariables variables_;
+  PenaltySolver solver_;
+  PenaltyProgram program_;    // of the last step: its memory serves again
+  std::size_t batches_ = 0;   // of rows, for points
   std::vector<TaperedCapsule> shapes_;
   double growth_rate_ = 0.0;  // relative volume that one metre of growth everywhere adds
   double volume_ = 0.0;       // of the union when the phase began: the unit of the objective

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "core/base/random.h"
@@ -18,12 +20,20 @@ PenaltyProgram Free(int variables, double curvature) {
   program.hessian = Eigen::VectorXd::Constant(variables, curvature);
   program.lower = Eigen::VectorXd::Constant(variables, -1.0);
   program.upper = Eigen::VectorXd::Constant(variables, 1.0);
+  program.batches.emplace_back();
   return program;
+}
+
+std::vector<PenaltyRow>& Rows(PenaltyProgram& program) { return program.batches.front().rows; }
+
+Eigen::VectorXd Solve(const PenaltyProgram& program, const SolveTo& to) {
+  const ThreadPool pool(1);
+  return PenaltySolver(pool).Solve(program, to);
 }
 
 double Objective(const PenaltyProgram& program, const Eigen::VectorXd& d) {
   double value = program.gradient.dot(d) + 0.5 * d.dot(program.hessian.cwiseProduct(d));
-  for (const PenaltyRow& row : program.rows) {
+  for (const PenaltyRow& row : program.batches.front().rows) {
     double excess = row.value;
     for (int k = 0; k < 8; ++k) {
       const int first = row.first[k / 4];
@@ -53,16 +63,18 @@ TEST(PenaltyProgramTest, ARowHoldsWhenItsPenaltyIsWorthIt) {
     row.coefficients[3] = -1.0;
     row.value = -0.3;
     row.penalty = penalty;
-    program.rows.push_back(row);
+    Rows(program).push_back(row);
     EXPECT_NEAR(Solve(program, {.relative_gap = 1e-6})[3], penalty > 1.0 ? -0.3 : -1.0, 1e-3);
   }
 }
 
-PenaltyProgram RandomProgram(Random& random) {
+constexpr std::size_t kRows = 40;
+
+PenaltyProgram RandomProgram(Random& random, std::size_t rows = kRows) {
   const int groups = 2 + static_cast<int>(random.NextBelow(6));
   PenaltyProgram program = Free(4 * groups, random.NextIn(0.01, 1.0));
   for (double& g : program.gradient) g = random.NextIn(-1, 1);
-  for (int k = 0; k < 40; ++k) {
+  for (std::size_t k = 0; k < rows; ++k) {
     PenaltyRow row;
     row.first[0] = 4 * static_cast<int>(random.NextBelow(static_cast<std::uint64_t>(groups)));
     row.first[1] = 4 * static_cast<int>(random.NextBelow(static_cast<std::uint64_t>(groups)));
@@ -70,7 +82,7 @@ PenaltyProgram RandomProgram(Random& random) {
     for (double& c : row.coefficients) c = random.NextIn(-1, 1);
     row.value = random.NextIn(-1.0, 0.5);
     row.penalty = random.NextIn(0.05, 3.0);
-    program.rows.push_back(row);
+    Rows(program).push_back(row);
   }
   return program;
 }
@@ -134,7 +146,7 @@ TEST(PenaltyProgramTest, FewIterationsFollowSmallChangesOfTheRows) {
   for (int round = 0; round < 100; ++round) {
     PenaltyProgram program = RandomProgram(random);
     const Eigen::VectorXd before = Solve(program, {.most_iterations = 6});
-    for (PenaltyRow& row : program.rows) row.value += random.NextIn(-1e-6, 1e-6);
+    for (PenaltyRow& row : Rows(program)) row.value += random.NextIn(-1e-6, 1e-6);
     const Eigen::VectorXd after = Solve(program, {.most_iterations = 6});
     EXPECT_LT((after - before).cwiseAbs().maxCoeff(), 1e-3);
   }
@@ -147,7 +159,7 @@ TEST(PenaltyProgramTest, APointOfTheCentralPathIsReachedAndKept) {
     const PenaltyProgram program = RandomProgram(random);
     const double least = Objective(program, Solve(program, {.relative_gap = 1e-7}));
     const double most = 2.0 * program.gradient.cwiseAbs().maxCoeff();  // bounds are 2 apart
-    const auto products = 2.0 * static_cast<double>(program.rows.size() + program.gradient.size());
+    const auto products = 2.0 * static_cast<double>(kRows + program.gradient.size());
     for (const double share : {1e-2, 1e-4}) {
       const Eigen::VectorXd d = Solve(program, {.most_iterations = 24, .centrality = share});
       const Eigen::VectorXd on = Solve(program, {.most_iterations = 60, .centrality = share});
@@ -164,17 +176,56 @@ TEST(PenaltyProgramTest, APointOfTheCentralPathFollowsTheRowsSmoothly) {
   for (int round = 0; round < 100; ++round) {
     PenaltyProgram program = RandomProgram(random);
     std::vector<double> changes;
-    for (std::size_t i = 0; i < program.rows.size(); ++i) {
+    for (std::size_t i = 0; i < kRows; ++i) {
       changes.push_back(random.NextIn(-1e-5, 1e-5));
     }
     std::array<Eigen::VectorXd, 3> at;
     for (Eigen::VectorXd& d : at) {
       d = Solve(program, {.centrality = 1e-3});
-      for (std::size_t i = 0; i < changes.size(); ++i) program.rows[i].value += changes[i];
+      for (std::size_t i = 0; i < changes.size(); ++i) Rows(program)[i].value += changes[i];
     }
     const double change = (at[2] - at[0]).cwiseAbs().maxCoeff();
     EXPECT_LT((at[2] - 2.0 * at[1] + at[0]).cwiseAbs().maxCoeff(), 0.01 * change + 1e-10);
   }
+}
+
+// Of several parts, which other threads may take.
+TEST(PenaltyProgramTest, AnyNumberOfThreadsGivesTheSameBits) {
+  Random random(67);
+  const ThreadPool one(1);
+  const ThreadPool two(2);
+  const ThreadPool seven(7);
+  for (int round = 0; round < 10; ++round) {
+    const PenaltyProgram program = RandomProgram(random, 3000);
+    for (const SolveTo& to : {SolveTo{}, SolveTo{.relative_gap = 0.03}, SolveTo{.centrality = 1e-3}}) {
+      const Eigen::VectorXd expected = PenaltySolver(one).Solve(program, to);
+      EXPECT_EQ(PenaltySolver(two).Solve(program, to), expected);
+      EXPECT_EQ(PenaltySolver(seven).Solve(program, to), expected);
+    }
+  }
+}
+
+TEST(PenaltyProgramTest, ASolverForgetsTheProgrammesBefore) {
+  Random random(68);
+  const ThreadPool pool(1);
+  PenaltySolver again(pool);
+  for (int round = 0; round < 60; ++round) {
+    const PenaltyProgram program = RandomProgram(random, 1 + random.NextBelow(400));
+    const SolveTo to{.centrality = round % 2 == 0 ? 1e-3 : 0.0};
+    EXPECT_EQ(again.Solve(program, to), PenaltySolver(pool).Solve(program, to));
+  }
+}
+
+TEST(PenaltyProgramTest, BatchesAreRowsOneAfterTheOther) {
+  Random random(69);
+  PenaltyProgram program = RandomProgram(random);
+  const Eigen::VectorXd expected = Solve(program, {.centrality = 1e-3});
+  RowBatch& first = program.batches.front();
+  RowBatch rest{{first.rows.begin() + 17, first.rows.end()}, 0.5};
+  for (PenaltyRow& row : rest.rows) row.penalty *= 2.0;
+  first.rows.resize(17);
+  program.batches.insert(program.batches.end(), {RowBatch{}, std::move(rest)});
+  EXPECT_EQ(Solve(program, {.centrality = 1e-3}), expected);
 }
 
 }  // namespace
