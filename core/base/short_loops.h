@@ -12,11 +12,11 @@
 
 namespace capfit {
 
-// To hand a loop over to the pool's threads takes longer than a short loop does. Here they are asked
-// once, for all loops of a piece of work: those that come stay until its end, and wait for the next
-// loop by watching for it. One that nobody else helps with costs as much as a plain loop. Nobody is
-// waited for but for the step that it is at: whoever comes late, or is kept from running by other
-// programs, holds up no more.
+// To hand a loop over to the pool's threads takes longer than a short loop does. Here they are
+// asked once, for all loops of a piece of work: those that come stay until its end, and wait for
+// the next loop by watching for it. One that nobody else helps with costs as much as a plain loop.
+// Nobody is waited for but for the step that it is at: whoever comes late, or is kept from running
+// by other programs, holds up no more.
 class ShortLoops {
  public:
   // Calls work(loops) on one thread, this or another, and lets threads of the pool that are idle

@@ -63,8 +63,8 @@ class InteriorPoint {
   // programme as well, but the search for sets ends with 1 % more E_r at 48 to 128 primitives.)
   static constexpr double kOfAWhole = 0.99;
   // First complementarity, relative to the most that a variable can win, and the least slack that
-  // rows start with, relative to the trust region's width. On the way to a point of the central path
-  // half of the slack saves two iterations of eleven; twice of it costs two.
+  // rows start with, relative to the trust region's width. On the way to a point of the central
+  // path half of the slack saves two iterations of eleven; twice of it costs two.
   static constexpr double kFirstShare = 0.1;
   static constexpr double kFirstShareToCentre = 0.005;
   static constexpr double kFirstSlack = 0.25;
@@ -73,8 +73,8 @@ class InteriorPoint {
   static constexpr double kCentring = 0.01;
   // It is reached when complementarity is so near to its own after a whole step: of those each
   // doubles the digits that are right. Floats do not get much nearer; with 1e-4 and one iteration
-  // less three bodies of ten move by more than a hundredth of a millimetre when vertices are rounded
-  // to floats, with 1e-5 one.
+  // less three bodies of ten move by more than a hundredth of a millimetre when vertices are
+  // rounded to floats, with 1e-5 one.
   static constexpr double kAtCentre = 1e-5;
   // Iterations in doubles from there: after one, the last digits are still those of floats.
   static constexpr int kPolishing = 2;
@@ -100,9 +100,7 @@ class InteriorPoint {
     loops_.ForEach(sums_.size(), visit);
   }
 
-  std::span<const RowGroup> GroupsOf(std::size_t part) const {
-    return rows_.GroupsOf(part);
-  }
+  std::span<const RowGroup> GroupsOf(std::size_t part) const { return rows_.GroupsOf(part); }
 
   // For each group of a part add(group, its lanes of sums), one for each of its variables.
   template <typename Add>
@@ -279,8 +277,7 @@ class InteriorPoint {
   }
 
   template <Eigen::Index kColumns, typename Rows>
-  void PutTwoRows(const RowGroup& group, Eigen::Index left, Eigen::Index right,
-                  Rows&& rows) const {
+  void PutTwoRows(const RowGroup& group, Eigen::Index left, Eigen::Index right, Rows&& rows) const {
     std::array<Lane, kColumns> upper;
     std::array<Lane, kColumns> lower;
     upper.fill(Lane::Zero());
@@ -341,8 +338,7 @@ class InteriorPoint {
       low_target -= predicted->d.array() * predicted->low;
       high_target += predicted->d.array() * predicted->high;
     }
-    return Direction(low_target, high_target, kOfTheWay,
-                     predicted != nullptr ? kOfAWhole : 1.0);
+    return Direction(low_target, high_target, kOfTheWay, predicted != nullptr ? kOfAWhole : 1.0);
   }
 
   // Solves for targets of the complementarity products: what each should change by. The step is

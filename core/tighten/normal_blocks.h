@@ -13,8 +13,8 @@
 namespace capfit::tighten {
 
 // What each group of rows adds to the matrix, to be set by any thread, and the matrix itself. It
-// finds its places and its order of elimination once for all programmes that tie the same variables,
-// as those of successive steps mostly do.
+// finds its places and its order of elimination once for all programmes that tie the same
+// variables, as those of successive steps mostly do.
 class NormalBlocks {
  public:
   // The last two where the group touches two groups of variables.

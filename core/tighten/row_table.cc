@@ -5,9 +5,11 @@
 namespace capfit::tighten {
 namespace {
 
-// Rows of a part at least: fewer are done sooner than another thread takes them up.
-constexpr Eigen::Index kRowsInPart = 256;
-constexpr Eigen::Index kMostRowParts = 8;
+// Rows of a part at least: fewer are done sooner than another thread takes them up. (The search
+// solves programmes of a thousand or two, several side by side; those of a single set have up to
+// ten times as many.)
+constexpr Eigen::Index kRowsInPart = 512;
+constexpr Eigen::Index kMostRowParts = 4;
 
 std::vector<RowPart> PartsOf(std::span<const RowGroup> groups, Eigen::Index rows) {
   const Eigen::Index count = std::clamp<Eigen::Index>(rows / kRowsInPart, 1, kMostRowParts);
@@ -42,8 +44,9 @@ RowLayout LayOutRows(const PenaltyProgram& program, Eigen::Index lane) {
     if (count == 0) continue;
     next[key] = static_cast<std::uint32_t>(sorted);
     const Eigen::Index end = layout.size + (count + lane - 1) / lane * lane;
+    const auto b = static_cast<int>(key % width);
     layout.groups.push_back({layout.size, end, static_cast<int>(key / width * 4),
-                             static_cast<int>(key % width * 4 - 4), sorted, count});
+                             b == 0 ? -1 : 4 * (b - 1), sorted, count});
     layout.size = end;
     sorted += count;
   }

@@ -125,8 +125,8 @@ class RowLane {
 };
 
 // The rows with their coefficients apart, group by group, in doubles or floats. Groups are filled
-// up to whole lanes with rows that never bind. Keeps its memory from programme to programme, so that
-// the system need not hand it out and clear it each time.
+// up to whole lanes with rows that never bind. Keeps its memory from programme to programme, so
+// that the system need not hand it out and clear it each time.
 template <typename Real>
 class RowTable {
  public:

@@ -274,8 +274,7 @@ class Tightener {
       if (excess < -kSteepnessReach * size_) continue;
       Eigen::Vector4d by_a;
       by_a << kMaxSin * shape.axis(), difference >= 0.0 ? 1.0 : -1.0;
-      rows.push_back(
-          RowOf(solid, by_a, -by_a, std::min(excess, 0.0), kSteepnessPenalty / size_));
+      rows.push_back(RowOf(solid, by_a, -by_a, std::min(excess, 0.0), kSteepnessPenalty / size_));
     }
   }
 
@@ -302,8 +301,8 @@ class Tightener {
   capsule::PrimitiveSet& set_;
   SetVariables variables_;
   PenaltySolver solver_;
-  PenaltyProgram program_;    // of the last step: its memory serves again
-  std::size_t batches_ = 0;   // of rows, for points
+  PenaltyProgram program_;   // of the last step: its memory serves again
+  std::size_t batches_ = 0;  // of rows, for points
   std::vector<TaperedCapsule> shapes_;
   double growth_rate_ = 0.0;  // relative volume that one metre of growth everywhere adds
   double volume_ = 0.0;       // of the union when the phase began: the unit of the objective

@@ -41,7 +41,7 @@ constexpr int kLastSteps = 8;
 constexpr double kLastLooseness = 1.0;
 constexpr int kFineStepsAlone = 4;
 constexpr int kHungSteps = 8;      // for a layout that is kept
-constexpr int kHungFineSteps = 4;  // coverage takes in what these leave out
+constexpr int kHungFineSteps = 6;  // coverage takes in what these leave out
 // Of an enclosing search: rounds of giving up and spending anew, one for so many primitives (where
 // there are more of them, more can be placed better; of few a round costs little), and how much of
 // the time it takes.
@@ -62,7 +62,7 @@ constexpr double kSparedAlone = 0.8;    // of the budget: up to so much spared, 
 // cut body with 1000 primitives two fifths were empty.) Up to it E_r is 1 to 2 % less without.
 constexpr int kLeastHollow = 500;
 constexpr int kWithinPrimitives = 128;
-constexpr double kHungShapeFound = 0.45;  // of its time, as measured
+constexpr double kHungShapeFound = 0.35;  // of its time, as measured
 
 // Between the points of the enclosing search.
 struct Spacings {

@@ -197,7 +197,8 @@ TEST(PenaltyProgramTest, AnyNumberOfThreadsGivesTheSameBits) {
   const ThreadPool seven(7);
   for (int round = 0; round < 10; ++round) {
     const PenaltyProgram program = RandomProgram(random, 3000);
-    for (const SolveTo& to : {SolveTo{}, SolveTo{.relative_gap = 0.03}, SolveTo{.centrality = 1e-3}}) {
+    for (const SolveTo& to :
+         {SolveTo{}, SolveTo{.relative_gap = 0.03}, SolveTo{.centrality = 1e-3}}) {
       const Eigen::VectorXd expected = PenaltySolver(one).Solve(program, to);
       EXPECT_EQ(PenaltySolver(two).Solve(program, to), expected);
       EXPECT_EQ(PenaltySolver(seven).Solve(program, to), expected);
