@@ -56,22 +56,21 @@ class Tightener {
 
   void Step(double trust_m, double penalty, const TightenPhase& phase, std::uint64_t seed) {
     shapes_ = capsule::Solids(set_);
-    PenaltyProgram& program = program_;
-    // They touch different members. The rows come first: this thread, which takes them, goes on
-    // with them, and it is slow to fetch much that another one wrote.
+    // They touch different members of the programme. The rows come first: this thread, which takes
+    // them, goes on with them, and it is slow to fetch much that another one wrote.
     pool_.ForEach(2, [&](std::size_t half) {
-      if (half == 0) AddPointRows(kDepthOfInterest * trust_m, phase.row_spacing * size_, program);
-      if (half == 1) AddVolume(seed, program);
+      if (half == 0) AddPointRows(kDepthOfInterest * trust_m, phase.row_spacing * size_);
+      if (half == 1) AddVolume(seed);
     });
-    AddBounds(trust_m, phase.fixed_centers ? kFixed * trust_m : trust_m, program);
-    SetPenalties(penalty, program);
+    AddBounds(trust_m, phase.fixed_centers ? kFixed * trust_m : trust_m);
+    SetPenalties(penalty);
     if (phase.uniform_radius) {
-      AddUniformRows(program);
+      AddUniformRows();
     } else {
-      AddSteepnessRows(program);
+      AddSteepnessRows();
     }
     Eigen::VectorXd change;
-    const auto solve = [&] { change = solver_.Solve(program, phase.solve_to); };
+    const auto solve = [&] { change = solver_.Solve(program_, phase.solve_to); };
     if (backlog_ != nullptr) {
       backlog_->Beside(solve);
     } else {
@@ -84,33 +83,33 @@ class Tightener {
  private:
   // Linear: the volume's gradient. Quadratic: a sphere that grows, or slides off, exposes more of
   // itself; half its exposed area over its radius is what that costs per square of the step.
-  void AddVolume(std::uint64_t seed, PenaltyProgram& program) {
+  void AddVolume(std::uint64_t seed) {
     const VolumeGradient gradient =
         UnionVolumeGradient(set_, variables_, kSampleSpacing * size_, seed, pool_);
     if (volume_ == 0.0) volume_ = std::max(gradient.volume_m3, 1e-6 * size_ * size_ * size_);
     growth_rate_ = std::max(gradient.area_m2 / volume_, 1e-6 / size_);
-    program.gradient = Eigen::VectorXd::Zero(variables_.count());
-    program.hessian =
+    program_.gradient = Eigen::VectorXd::Zero(variables_.count());
+    program_.hessian =
         Eigen::VectorXd::Constant(variables_.count(), kIdleCurvature / (size_ * size_));
     for (int i = 0; i < static_cast<int>(set_.spheres.size()); ++i) {
       const Eigen::Vector4d by_sphere = gradient.by_sphere[i] / volume_;
       const int first = variables_.of(i).first;
-      program.gradient.segment<4>(first) += variables_.ToVariables(i, by_sphere);
-      program.hessian.segment<4>(first).array() +=
+      program_.gradient.segment<4>(first) += variables_.ToVariables(i, by_sphere);
+      program_.hessian.segment<4>(first).array() +=
           0.5 * by_sphere.w() / std::max(set_.spheres[i].radius_m, kLeastRadius * size_);
     }
   }
 
-  void AddBounds(double trust_m, double center_trust_m, PenaltyProgram& program) const {
-    program.upper = Eigen::VectorXd::Constant(variables_.count(), center_trust_m);
+  void AddBounds(double trust_m, double center_trust_m) {
+    program_.upper = Eigen::VectorXd::Constant(variables_.count(), center_trust_m);
     for (const int i : variables_.representatives()) {
-      program.upper[variables_.of(i).first + 3] = trust_m;
+      program_.upper[variables_.of(i).first + 3] = trust_m;
     }
-    program.lower = -program.upper;
+    program_.lower = -program_.upper;
     for (const int i : variables_.representatives()) {
       const double radius = set_.spheres[i].radius_m;
       const double room = std::max(radius - kLeastRadius * size_, 1e-3 * std::min(trust_m, radius));
-      double& lower = program.lower[variables_.of(i).first + 3];
+      double& lower = program_.lower[variables_.of(i).first + 3];
       lower = std::max(lower, -room);
     }
   }
@@ -158,7 +157,7 @@ class Tightener {
     return capsule::Solids(carried);
   }
 
-  void AddPointRows(double depth_m, double spacing_m, PenaltyProgram& program) {
+  void AddPointRows(double depth_m, double spacing_m) {
     near_weight_ = 0.0;
     batches_ = 0;
     if (shapes_.empty()) return;
@@ -172,11 +171,11 @@ class Tightener {
       const std::size_t blocks = points.points.blocks().size();
       const std::size_t chunks = (blocks + kBlocksAtOnce - 1) / kBlocksAtOnce;
       const std::size_t first = std::exchange(batches_, batches_ + chunks);
-      if (program.batches.size() < batches_) program.batches.resize(batches_);
+      if (program_.batches.size() < batches_) program_.batches.resize(batches_);
       std::vector<double> near_weights(chunks, 0.0);
       pool_.ForChunks(blocks, kBlocksAtOnce, [&](std::size_t begin, std::size_t end) {
         const std::size_t chunk = begin / kBlocksAtOnce;
-        std::vector<PenaltyRow>& rows = program.batches[first + chunk].rows;
+        std::vector<PenaltyRow>& rows = program_.batches[first + chunk].rows;
         rows.clear();
         if (spacing_m <= 0.0) {  // nearly all of the points may ask for one
           const std::vector<PointGrid::Block>& all = points.points.blocks();
@@ -255,16 +254,16 @@ class Tightener {
   // Together the rows weigh `penalty` times as much as the volume does when the whole surface
   // moves: so it means the same for any number of points, and below 1 everything would shrink to
   // nothing.
-  void SetPenalties(double penalty, PenaltyProgram& program) const {
+  void SetPenalties(double penalty) {
     const bool is_weighted = !points_.empty() && !points_.front().weights.empty();
     const double each = penalty * growth_rate_ / (is_weighted ? near_weight_ : 1.0);
-    program.batches.resize(batches_);
-    for (RowBatch& batch : program.batches) batch.penalty_factor = each;
+    program_.batches.resize(batches_);
+    for (RowBatch& batch : program_.batches) batch.penalty_factor = each;
   }
 
   // |r_a - r_b| <= kMaxSin * length. Where that is broken already it must not get worse.
-  void AddSteepnessRows(PenaltyProgram& program) const {
-    std::vector<PenaltyRow>& rows = program.batches.emplace_back().rows;
+  void AddSteepnessRows() {
+    std::vector<PenaltyRow>& rows = program_.batches.emplace_back().rows;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       const capsule::CapsuleEnds& solid = variables_.solids()[k];
       if (solid[0] == solid[1]) continue;
@@ -279,8 +278,8 @@ class Tightener {
   }
 
   // |r_a - r_b| <= 0, a row for each sign.
-  void AddUniformRows(PenaltyProgram& program) const {
-    std::vector<PenaltyRow>& rows = program.batches.emplace_back().rows;
+  void AddUniformRows() {
+    std::vector<PenaltyRow>& rows = program_.batches.emplace_back().rows;
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       const capsule::CapsuleEnds& solid = variables_.solids()[k];
       if (solid[0] == solid[1]) continue;

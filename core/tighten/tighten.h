@@ -76,7 +76,7 @@ struct PointsToHold {
 // on the points smoothly but where the nearest solid of one changes. Costs 3 ms a step for ten
 // thousand points and some fifty solids; stops early when cancelled. Adds the set's primitives to
 // the meter in each step. The result is not feasible by itself: at the last trust region's accuracy
-// only. The programmes are solved on one thread; a backlog is done beside that.
+// only. The programmes are solved on this thread and on idle ones, which do a backlog first.
 void Tighten(std::span<const PointsToHold> points, double body_size_m, const TightenPhase& phase,
              std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
              capsule::PrimitiveSet& set, Backlog* backlog = nullptr);
