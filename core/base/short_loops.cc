@@ -10,10 +10,10 @@
 namespace capfit {
 namespace {
 
-// So often a thread looks before it lets others have its core: some hundred microseconds.
+// So often a thread looks before it does: some hundred microseconds.
 constexpr int kLooks = 4000;
 
-// Waits a little longer each time that it is called.
+// Waits for a moment; once it has waited long, it lets others have the core.
 class Patience {
  public:
   void Wait() {

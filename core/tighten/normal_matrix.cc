@@ -16,8 +16,8 @@ void Remove(std::vector<int>& sorted, int value) {
   sorted.erase(std::lower_bound(sorted.begin(), sorted.end(), value));
 }
 
-// Of the lower triangle L of a = L L', of which the lower half is read. Unrolled: Eigen's own for
-// any size take three times as long.
+// Of the lower triangle L of a = L L', of which the lower half is read. In loops of known length,
+// which Eigen's own are not: they are called for any size.
 Eigen::Matrix4d InverseOfFactor(const Eigen::Matrix4d& a) {
   Eigen::Matrix4d factor = a;
   Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();

@@ -12,8 +12,6 @@ namespace {
 
 // Programmes that may be left so far from solved are reckoned in floats, twice as many at a time.
 constexpr double kFloatGap = 0.01;
-// More would mostly wait for each other.
-constexpr int kMostSolverThreads = 4;
 
 }  // namespace
 
@@ -31,10 +29,10 @@ PenaltySolver::~PenaltySolver() = default;
 Eigen::VectorXd PenaltySolver::Solve(const PenaltyProgram& program, const SolveTo& to) {
   const bool is_to_centre = to.centrality > 0.0;
   const bool is_in_floats = is_to_centre || to.relative_gap >= kFloatGap;
+  const RowLayout layout = LayOutRows(program, is_in_floats ? kFloatsInLane : kDoublesInLane);
   Eigen::VectorXd d;
-  ShortLoops::Run(pool_, kMostSolverThreads, [&](ShortLoops& loops) {
+  ShortLoops::Run(pool_, static_cast<int>(layout.parts.size()), [&](ShortLoops& loops) {
     auto& [normal, floats, doubles] = *memory_;
-    const RowLayout layout = LayOutRows(program, is_in_floats ? kFloatsInLane : kDoublesInLane);
     normal.Take(program.gradient.size(), layout);
     if (is_in_floats) {
       floats.Take(program, layout, loops);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <vector>
 
@@ -50,10 +51,11 @@ INSTANTIATE_TEST_SUITE_P(Threads, ShortLoopsTest, testing::Values(1, 2, 7));
 // Another thread comes at some time, and then takes the last steps.
 TEST(ShortLoopsTest, IdleThreadsHelp) {
   const ThreadPool pool(2);
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   std::atomic<bool> is_done = false;
   ShortLoops::Run(pool, 2, [&](ShortLoops& loops) {
     // Until two steps were at work at the same time.
-    while (!is_done) {
+    while (!is_done && std::chrono::steady_clock::now() < until) {
       std::atomic<int> there = 0;
       loops.ForEach(2, [&](std::size_t i) {
         ++there;
