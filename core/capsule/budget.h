@@ -46,6 +46,13 @@ struct Budget {
   [[nodiscard]] int UsualPrimitives() const {
     return std::min({MostPrimitives(), 2 * max_spheres, 2 * max_capsules + 1});
   }
+  // As many primitives of whatever kind. Where spheres and capsules are limited apart and one limit
+  // is much lower than the other, this budget itself: then that one is what a set has to be made
+  // for.
+  [[nodiscard]] Budget OfAnyKind() const {
+    const int usual = UsualPrimitives();
+    return MostPrimitives() <= usual + 1 ? Budget{usual, kNoLimit, kNoLimit} : *this;
+  }
   // How many times a capsule may be cut in two: each is a sphere and a capsule more.
   [[nodiscard]] int Cuts() const {
     return std::min({max_spheres, max_capsules, max_primitives / 2});

@@ -30,6 +30,14 @@ std::vector<Edit> NearTies(const capsule::MirroredSet& graph) {
 
 }  // namespace
 
+capsule::PrimitiveCount CountWith(const capsule::MirroredSet& graph, const Edit& addition) {
+  capsule::PrimitiveCount count = graph.count();
+  const int added = HasImage(graph, addition) ? 2 : 1;
+  count.capsules += added;
+  if (addition.kind == EditKind::kLeaf) count.spheres += added;
+  return count;
+}
+
 std::vector<Removal> RemovalsOf(const capsule::MirroredSet& graph, const GraphWorth& worth) {
   std::vector<Removal> removals;
   for (int e = 0; e < graph.capsule_count(); ++e) {
@@ -95,8 +103,7 @@ std::vector<Edit> RankedAdditions(const EnclosingTask& task, const capsule::Mirr
   const std::vector<double> gains = task.GainsOf(loose, additions, pool);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < additions.size(); ++k) {
-    const int cost =
-        (additions[k].kind == EditKind::kLeaf ? 2 : 1) * (HasImage(loose, additions[k]) ? 2 : 1);
+    const int cost = CountWith(loose, additions[k]).total() - loose.primitive_count();
     if (gains[k] > 0.0) order.emplace_back(gains[k] / cost, k);
   }
   std::stable_sort(order.begin(), order.end(),

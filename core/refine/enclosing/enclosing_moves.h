@@ -38,6 +38,10 @@ class SparedGraph {
   std::vector<char> is_touched_;  // by sphere of the graph before
 };
 
+// What the graph has with a tie or leaf more, and its image.
+[[nodiscard]] capsule::PrimitiveCount CountWith(const capsule::MirroredSet& graph,
+                                                const Edit& addition);
+
 // Ties between near spheres, and leaves at the points that stick out most, which win at once in a
 // loosened graph (see EnclosingTask::Loosen); what wins most for a primitive first.
 [[nodiscard]] std::vector<Edit> RankedAdditions(const EnclosingTask& task,

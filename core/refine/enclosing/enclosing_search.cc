@@ -63,7 +63,8 @@ class Search {
          const RenewalPlan& plan, double until, const ThreadPool& pool, WorkMeter& meter)
       : rough_(rough),
         task_(task),
-        budget_(budget),
+        final_budget_(budget),
+        budget_(plan.BudgetOfRound(0, budget)),
         plan_(plan),
         primitives_(budget.MostPrimitives()),
         until_(until),
@@ -73,8 +74,10 @@ class Search {
   std::vector<capsule::MirroredSet> Run(const std::vector<capsule::MirroredSet>& starts) {
     std::vector<Attempt> kept = BestStarts(starts);
     for (int round = 0; round < plan_.rounds && !meter_.IsCancelled(); ++round) {
+      budget_ = plan_.BudgetOfRound(round, final_budget_);
       Renew(round, kept);
     }
+    Spare(kept.front().graph);  // if no renewed one fits
     Tie(kept.front());
     std::vector<capsule::MirroredSet> graphs;
     for (Attempt& attempt : kept) graphs.push_back(std::move(attempt.graph));
@@ -172,20 +175,24 @@ class Search {
       const int spared =
           static_cast<int>(std::max(kSparedShare * excess, kLeastSpared * graph.primitive_count()));
       const int target = std::max(0, excess - std::max(1, spared));
-      // Capsules may stay as they are where there are only too many spheres.
-      const bool only_spheres = graph.primitive_count() <= budget_.max_primitives &&
-                                graph.capsule_count() <= budget_.max_capsules;
-      if (!GiveUp(
-              rough_, [&](const auto& g) { return budget_.Excess(g.count()) - target; },
-              only_spheres ? Spared::kSpheres : Spared::kAny, graph)) {
-        return;
-      }
+      if (!GiveUpExcess(rough_, target, graph)) return;
       rough_.FindShape(kSparingSteps, 1.0, /*seed=*/3, pool_, meter_, graph);
       Simplify(graph);
     }
   }
 
   enum class Spared { kAny, kSpheres };
+
+  // Gives up what is least missed until no more than `left` is too much; false where nothing may go
+  // any more.
+  bool GiveUpExcess(const EnclosingTask& task, int left, capsule::MirroredSet& graph) const {
+    // Capsules may stay as they are where there are only too many spheres.
+    const bool only_spheres = graph.primitive_count() <= budget_.max_primitives &&
+                              graph.capsule_count() <= budget_.max_capsules;
+    return GiveUp(
+        task, [&](const auto& g) { return budget_.Excess(g.count()) - left; },
+        only_spheres ? Spared::kSpheres : Spared::kAny, graph);
+  }
 
   // Gives up what is least missed until nothing is too much; false where nothing may go any more.
   // Half of what is too much goes by what each was missed at first, the rest after another look.
@@ -238,10 +245,9 @@ class Search {
       const bool is_leaf = tie.kind == EditKind::kLeaf;
       if (is_tied[tie.first] || (!is_leaf && is_tied[tie.second])) continue;
       EditedGraph edited = Apply(graph, tie);
-      if (!edited.possible || edited.graph.primitive_count() > target ||
-          !budget_.Allows(edited.graph.count())) {
-        break;
-      }
+      if (!edited.possible || edited.graph.primitive_count() > target) break;
+      // Where the spheres are used up, later ones may be ties.
+      if (!budget_.Allows(edited.graph.count())) continue;
       graph = std::move(edited.graph);
       for (const int v : {tie.first, is_leaf ? tie.first : tie.second}) {
         is_tied[v] = 1;
@@ -256,6 +262,7 @@ class Search {
     capsule::MirroredSet graph = from;
     const auto given_up = static_cast<int>(renewal.given_up * from.primitive_count());
     const int kept = from.primitive_count() - given_up;
+    GiveUpExcess(task_, 0, graph);  // `from` may be of a round that was less bound
     GiveUp(
         task_, [kept](const auto& g) { return g.primitive_count() - kept; }, Spared::kAny, graph);
     Extend(primitives_, static_cast<int>(renewal.tie_share * given_up), seed, graph);
@@ -316,6 +323,7 @@ class Search {
       capsule::MirroredSet loose = best.graph;
       task_.Loosen(kLooseSteps, seed_, pool_, meter_, loose);
       std::vector<Edit> ties = RankedAdditions(task_, loose, pool_);
+      std::erase_if(ties, [&](const Edit& tie) { return !budget_.Allows(CountWith(loose, tie)); });
       ties.resize(std::min(ties.size(), kTies));
       std::vector<Attempt> attempts(ties.size());
       meter_.ExpectShare(kTieRound, until_,
@@ -328,7 +336,8 @@ class Search {
 
   const EnclosingTask& rough_;  // to begin with
   const EnclosingTask& task_;
-  const capsule::Budget& budget_;
+  const capsule::Budget& final_budget_;
+  capsule::Budget budget_;  // of the rounds at hand
   const RenewalPlan& plan_;
   int primitives_;  // at most
   double until_;    // what the meter shows at the end

@@ -47,9 +47,9 @@ constexpr int kHungFineSteps = 6;  // coverage takes in what these leave out
 // the time it takes.
 constexpr int kPrimitivesPerRound = 50;
 constexpr int kFewOfEnclosing = 60;
-constexpr RenewalPlan kRenewalsOfFew = {.rounds = 3, .kept = 6};
+constexpr RenewalPlan kRenewalsOfFew = {.rounds = 3, .kept = 6, .free_rounds = 1};
 constexpr int kSomeOfEnclosing = 80;
-constexpr RenewalPlan kRenewalsOfSome = {.rounds = 3, .kept = 2};
+constexpr RenewalPlan kRenewalsOfSome = {.rounds = 3, .kept = 2, .free_rounds = 1};
 constexpr int kLeastRounds = 2;
 constexpr int kMostRounds = 6;
 constexpr int kQuickRounds = 1;
@@ -90,10 +90,11 @@ int MostSparedBeside(int primitives) { return primitives / 2; }
 // Standard layouts that fill the budget or have little to spare. They were chosen for how well they
 // serve many bodies, and a short search seldom comes to them by itself.
 std::vector<capsule::MirroredSet> StandardStarts(const body::Body& body,
-                                                 const RefineOptions& options, int primitives) {
+                                                 const RefineOptions& options,
+                                                 const capsule::Budget& budget, int primitives) {
   std::vector<capsule::MirroredSet> starts;
   for (const KeptLayout& layout : StandardLayouts()) {
-    const bool fills = options.budget.Excess(layout.count()) <= MostSparedBeside(primitives) &&
+    const bool fills = budget.Excess(layout.count()) <= MostSparedBeside(primitives) &&
                        static_cast<double>(layout.count().total()) >= kFillingShare * primitives;
     if (!fills || layout.parts() != options.parts) continue;
     absl::StatusOr<capsule::MirroredSet> graph = HangLayout(layout, body);
@@ -114,16 +115,17 @@ void KeepSparedAlone(const capsule::Budget& budget, int primitives,
 
 // What the enclosing search starts from.
 std::vector<capsule::MirroredSet> StartsOf(const body::Body& body, const RefineOptions& options,
-                                           int primitives, const ThreadPool& pool) {
-  std::vector<capsule::MirroredSet> standard = StandardStarts(body, options, primitives);
+                                           const capsule::Budget& budget, int primitives,
+                                           const ThreadPool& pool) {
+  std::vector<capsule::MirroredSet> standard = StandardStarts(body, options, budget, primitives);
   // What is spared in a larger layout leaves a better one than growth finds, but takes long and is
   // no better than a standard layout.
   std::vector<capsule::MirroredSet> starts = StartingGraphs(
-      FitKind::kEnclose, body, options.parts, options.budget,
+      FitKind::kEnclose, body, options.parts, budget,
       {.least_spared = static_cast<int>(kLeastExcess * primitives),
        .most_spared = standard.empty() ? capsule::kNoLimit : MostSparedBeside(primitives)},
       pool);
-  if (primitives > kSomeOfEnclosing) KeepSparedAlone(options.budget, primitives, starts);
+  if (primitives > kSomeOfEnclosing) KeepSparedAlone(budget, primitives, starts);
   std::move(standard.begin(), standard.end(), std::back_inserter(starts));
   return starts;
 }
@@ -145,6 +147,7 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
                                    const RefineOptions& options, const ThreadPool& pool,
                                    WorkMeter& meter) {
   const int primitives = options.budget.UsualPrimitives();
+  const RenewalPlan plan = RenewalsFor(options.thorough, primitives);
   const Spacings spacings = SpacingsFor(primitives);
   const std::vector<Eigen::Vector3d> inside_m = PointsWithin(body, options, primitives, pool);
   // Each thins the points out on one thread, for some milliseconds on large meshes.
@@ -154,13 +157,12 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
   std::vector<capsule::MirroredSet> starts;
   pool.ForEach(spacings.rough > spacings.usual ? 4 : 3, [&](std::size_t i) {
     if (i == 0) {
-      starts = StartsOf(body, options, primitives, pool);
+      starts = StartsOf(body, options, plan.BudgetOfRound(0, options.budget), primitives, pool);
       return;
     }
     const auto& [task, spacing] = task_of[i - 1];
     task->emplace(target, body.is_symmetric, options.tolerance_m, spacing, inside_m);
   });
-  const RenewalPlan plan = RenewalsFor(options.thorough, primitives);
   std::vector<capsule::MirroredSet> graphs = FindEnclosingGraphs(
       rough ? *rough : *usual, *usual, options.budget, plan, starts, kSearched, pool, meter);
   const bool is_loosened_last = options.thorough && !options.will_move &&

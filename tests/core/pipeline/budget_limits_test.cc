@@ -3,15 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <span>
 #include <string>
 
 #include "core/base/status.h"
 #include "core/body/find_body.h"
+#include "core/formats/read_mesh.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
 #include "core/pipeline/engines.h"
 #include "core/pipeline/fit.h"
 #include "core/pipeline/plan.h"
+#include "tests/support/bodies.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -70,6 +73,46 @@ TEST(TotalBudget, SpheresAloneBoundTheCapsules) {
   EXPECT_EQ(BudgetOf(options).max_capsules, 64);
   options.max_capsules = 500;
   EXPECT_EQ(BudgetOf(options).max_capsules, 500);
+}
+
+FitOptions ThirtyTwoAndThirtyTwo() {
+  FitOptions options;
+  options.quality = Quality::kTight;
+  options.parts = {true, true, true, true, true, true};
+  options.max_spheres = 32;
+  options.max_capsules = 32;
+  return options;
+}
+
+// What cloth engines allow. Whether three capsules of 64 primitives stay unused is a matter of the
+// search, and cost a tenth of the error at some resolutions.
+TEST(SpheresAndCapsules, ServeOneWomanAtEveryResolution) {
+  CAPFIT_REQUIRE_BODIES();
+  for (const char* const file :
+       {"female_average_rest.obj", "scale/female_average_tri_05k.ply",
+        "scale/female_average_tri_10k.ply", "scale/female_average_tri_25k.ply",
+        "scale/female_average_tri_064k.ply"}) {
+    const std::string bytes = test_support::ReadFile(test_support::BodiesFolder() / file);
+    const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)));
+    ASSERT_TRUE(soup.ok()) << soup.status();
+    NullObserver observer;
+    const auto result = Fit(*soup, ThirtyTwoAndThirtyTwo(), ThreadPool(2), observer);
+    ASSERT_TRUE(result.ok()) << result.status();
+    EXPECT_LE(result->primitives.spheres.size(), 32u);
+    EXPECT_LE(result->primitives.capsules.size(), 32u);
+    EXPECT_GE(result->metrics.n_p, 62) << file;
+    EXPECT_LE(result->metrics.E_r, 0.34) << file;
+  }
+}
+
+// Where the spheres are used up first, ties between them are what is left to be won.
+TEST(SpheresAndCapsules, CapsulesAreSpentWhenSpheresAreUsedUp) {
+  FitOptions options = ThirtyTwoAndThirtyTwo();
+  options.max_spheres = options.max_capsules = 64;
+  const capsule::PrimitiveSet set = SetOf(options);
+  EXPECT_EQ(set.spheres.size(), 64u);
+  EXPECT_LE(set.capsules.size(), 64u);
+  EXPECT_GE(set.capsules.size(), 56u);
 }
 
 TEST(ContractLimits, HoldForCapsulesThatShareNoSpheres) {

@@ -12,6 +12,7 @@
 #include "core/mannequin/mannequin.h"
 #include "core/pipeline/fit.h"
 #include "core/refine/layouts/standard_layouts.h"
+#include "tests/support/avatars.h"
 #include "tests/support/bodies.h"
 
 namespace capfit::pipeline {
@@ -105,22 +106,38 @@ TEST(Layout, ExcludesABudgetAndEnginesThatCannotKeepIt) {
   EXPECT_EQ(FieldOf(ValidateOptions(options)), "layout.spheres");
 }
 
-// Over all real bodies: graph and names, nothing outside, E_r beside the free fit.
+// Whole bodies, and avatars where they are.
+std::vector<std::filesystem::path> BodiesAndAvatars() {
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& path : test_support::BodyFiles()) {
+    if (path.string().find("no_hands") == std::string::npos) files.push_back(path);
+  }
+  const std::filesystem::path avatars = test_support::AvatarsFolder();
+  if (avatars.empty()) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(avatars)) {
+    if (entry.path().extension() == ".glb") files.push_back(entry.path());
+  }
+  return files;
+}
+
+// Graph and names, nothing outside, E_r beside the free fit. What one body's free fit comes to is
+// the search's luck, so the median is that of all.
 TEST(Layout, StandardServesAllBodies) {
   CAPFIT_REQUIRE_BODIES();
+  FitOptions free;
+  free.quality = Quality::kTight;
+  free.parts = Standard().parts();
+  free.max_spheres = free.max_capsules = 32;
   std::vector<double> ratios;
-  for (const std::filesystem::path& path : test_support::BodyFiles()) {
-    if (path.string().find("no_hands") != std::string::npos) continue;
-    const std::string bytes = test_support::ReadFile(path);
-    const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)));
-    const auto kept = FitOn(*soup, Keeping(Standard()));
-    ASSERT_TRUE(kept.ok()) << path << kept.status();
+  for (const std::filesystem::path& path : BodiesAndAvatars()) {
     SCOPED_TRACE(path.filename().string());
+    const std::string bytes = test_support::ReadFile(path);
+    const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)),
+                                        formats::FormatFromFileName(path.string()));
+    ASSERT_TRUE(soup.ok()) << soup.status();
+    const auto kept = FitOn(*soup, Keeping(Standard()));
+    ASSERT_TRUE(kept.ok()) << kept.status();
     ExpectKept(*kept, Standard());
-    FitOptions free;
-    free.quality = Quality::kTight;
-    free.parts = Standard().parts();
-    free.max_spheres = free.max_capsules = 32;
     const auto best = FitOn(*soup, free);
     ASSERT_TRUE(best.ok()) << best.status();
     ratios.push_back(kept->metrics.E_r / best->metrics.E_r);

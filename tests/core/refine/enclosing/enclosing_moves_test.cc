@@ -60,6 +60,23 @@ TEST(EnclosingMovesTest, AdditionsAreRankedByWhatTheyWinForAPrimitive) {
   EXPECT_EQ(near[0].kind, EditKind::kLink);
 }
 
+TEST(EnclosingMovesTest, CountsWhatAnAdditionBringsWithItsImage) {
+  for (const bool symmetric : {false, true}) {
+    const capsule::MirroredSet graph = LeggedGraph(symmetric);
+    // Chest and belly are on the mid-plane, hip 2 and foot are not.
+    Edit leaf = EditOf(EditKind::kLeaf, 2);
+    leaf.center_m = {0.3, 0.8, 0.0};
+    leaf.radius_m = 0.02;
+    for (const Edit& edit : {EditOf(EditKind::kLink, 0, 2), leaf}) {
+      const EditedGraph edited = Apply(graph, edit);
+      ASSERT_TRUE(edited.possible);
+      const capsule::PrimitiveCount count = CountWith(graph, edit);
+      EXPECT_EQ(count.spheres, edited.graph.sphere_count());
+      EXPECT_EQ(count.capsules, edited.graph.capsule_count());
+    }
+  }
+}
+
 TEST(EnclosingMovesTest, WhatOthersCoverIsLeastMissed) {
   capsule::MirroredSet graph = Beads(3);
   graph.AddCapsule(0, 1);

@@ -15,6 +15,8 @@ namespace {
 constexpr RenewalPlan kNone = {.rounds = 0};
 constexpr RenewalPlan kOfOne = {.rounds = 4};
 constexpr RenewalPlan kOfSeveral = {.rounds = 3, .kept = 5};
+constexpr RenewalPlan kFreeAtFirst = {.rounds = 3, .kept = 5, .free_rounds = 1};
+constexpr RenewalPlan kFreeToTheEnd = {.rounds = 2, .free_rounds = 2};
 
 std::vector<capsule::MirroredSet> FindAll(const capsule::Budget& budget,
                                           const std::vector<capsule::MirroredSet>& starts,
@@ -42,10 +44,11 @@ double TakenIn(capsule::MirroredSet graph) {
 
 TEST(EnclosingSearchTest, KeepsToEveryLimit) {
   constexpr int kNo = capsule::kNoLimit;
-  for (const capsule::Budget& budget : {capsule::Budget{3, kNo, kNo}, capsule::Budget{8, kNo, kNo},
-                                        capsule::Budget{kNo, 4, 2}, capsule::Budget{kNo, 3, 10}}) {
+  for (const capsule::Budget& budget :
+       {capsule::Budget{3, kNo, kNo}, capsule::Budget{8, kNo, kNo}, capsule::Budget{kNo, 4, 2},
+        capsule::Budget{kNo, 3, 10}, capsule::Budget{kNo, 3, 3}, capsule::Budget{kNo, 4, 3}}) {
     // One start below and one above it.
-    for (const RenewalPlan& plan : {kNone, kOfOne, kOfSeveral}) {
+    for (const RenewalPlan& plan : {kNone, kOfOne, kOfSeveral, kFreeAtFirst, kFreeToTheEnd}) {
       const capsule::MirroredSet graph = Find(budget, {Chain(2), Chain(7)}, 1, plan);
       EXPECT_TRUE(budget.Allows(graph.count()));
       EXPECT_GT(graph.sphere_count(), 0);
