@@ -283,7 +283,9 @@ void AddAnimateCommand(CLI::App& app, int& exit_code) {
                    "Radii of each frame: little-endian float32, frames x spheres, or {\"frames\": "
                    "[[r, ...], ...]} in a file that ends in .json")
       ->type_name("FILE");
-  command->add_option("--threads", arguments->threads, "Threads; 0: one per core")
+  command
+      ->add_option("--threads", arguments->threads,
+                   "Threads; 0: one per core, within a container's quota")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->callback([arguments, &exit_code] {

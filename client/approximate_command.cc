@@ -174,7 +174,9 @@ void AddPlaceFlags(CLI::App& command, ApproximateArguments& arguments) {
       command.add_flag("--local", arguments.is_local, "Fit in this process, without a server")
           ->excludes(server);
   CLI::Option* const threads =
-      command.add_option("--threads", arguments.threads, "With --local: threads; 0: one per core")
+      command
+          .add_option("--threads", arguments.threads,
+                      "With --local: threads; 0: one per core, within a container's quota")
           ->check(CLI::Range(0, 256))
           ->capture_default_str();
   CLI::Option* const motion = command.add_option(

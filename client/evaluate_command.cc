@@ -80,7 +80,9 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code) {
   AddPartsFlag(*command, arguments->parts);
   command->get_option("--parts")->description(
       "Parts that the set is meant to cover [those that RESULT was asked for]");
-  command->add_option("--threads", arguments->threads, "Threads; 0: one per core")
+  command
+      ->add_option("--threads", arguments->threads,
+                   "Threads; 0: one per core, within a container's quota")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->add_flag("--json", arguments->as_json,

@@ -219,7 +219,9 @@ std::optional<int> ParseFlags(int argc, const char* const* argv, ServerConfig& c
                  "HOST[:PORT] to listen on, without a port 50051; port 0: any free one")
       ->transform(address);
   app.add_option("--port-file", config.port_file, "File to write the chosen port to");
-  app.add_option("--threads", config.threads, "Threads that compute; 0: one per core")
+  app.add_option("--threads", config.threads,
+                 "Threads that compute; 0: one per core, or as many as a container's quota of "
+                 "processors allows")
       ->check(CLI::Range(0, 256));
   std::int64_t max_upload_mb = config.upload.max_bytes / kMebibyte;
   AddSecurity(app, config);

@@ -12,13 +12,12 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/available_cores.h"
+
 namespace capfit {
 namespace {
 
-int EffectiveThreads(int threads) {
-  if (threads > 0) return threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
+int EffectiveThreads(int threads) { return threads > 0 ? threads : AvailableCores(); }
 
 // The chunks of a loop, dealt among the threads: each begins with the same part of an array in loop
 // after loop, which its own cache still holds, and helps the others when it is done.

@@ -14,7 +14,8 @@ namespace capfit {
 // combine them in index order, then the number of threads never changes a bit.
 class ThreadPool {
  public:
-  // `threads` >= 1 take part, the calling thread included; 0: one per core.
+  // `threads` >= 1 take part, the calling thread included; 0: one per core
+  // that the process may keep busy (AvailableCores).
   explicit ThreadPool(int threads = 0);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
