@@ -5,9 +5,9 @@
 //   node check_mujoco.mjs FOLDER
 import { readFileSync } from 'node:fs';
 import loadMujoco from 'mujoco-js';
-import { check, distance, finish, near } from '../gltf/files.mjs';
+import { check, distance, finish, near, signedDistance } from '../gltf/files.mjs';
 import {
-  add, compose, directions, dot, jointMoves, reach, signedDistance, surfacePoints, uprightSolids,
+  add, compose, directions, dot, jointMoves, reach, surfacePoints, uprightSolids,
 } from './geometry.mjs';
 
 const TOLERANCE = 1e-6;

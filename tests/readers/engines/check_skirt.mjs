@@ -4,9 +4,9 @@
 //
 //   node check_skirt.mjs FOLDER [FRAMES.json]     writes some frames for a picture
 import { writeFileSync } from 'node:fs';
-import { check, finish, readJson } from '../gltf/files.mjs';
+import { check, distance, finish, readJson, signedDistance } from '../gltf/files.mjs';
 import {
-  add, between, multiply, rotate, signedDistance, subtract, turnAboutX, uprightSolids,
+  add, multiply, rotate, subtract, turnAboutX, uprightSolids,
 } from './geometry.mjs';
 import { addBody, makeWorld, moveBody } from './jolt_world.mjs';
 import { COLUMNS, FACES, ROWS, STEPS, VERTEX_RADIUS, addSkirt, skirtPoints } from './skirt.mjs';
@@ -71,7 +71,7 @@ function posedEnds(angle) {
 function withBall(ends) {
   const [a, b = a] = ends;
   const center = add(a.center, b.center).map((x) => x / 2);
-  return { ends, center, radius: between(a.center, center) + Math.max(a.radius, b.radius) };
+  return { ends, center, radius: distance(a.center, center) + Math.max(a.radius, b.radius) };
 }
 // Of all vertices: how deep the worst is inside, and how many touch.
 function measure(points, posed) {
@@ -81,7 +81,7 @@ function measure(points, posed) {
   for (const point of points) {
     let nearest = Infinity;
     for (const { ends, center, radius } of balls) {
-      if (between(point, center) - radius >= nearest) continue;
+      if (distance(point, center) - radius >= nearest) continue;
       nearest = Math.min(nearest, signedDistance(ends, point));
     }
     least = Math.min(least, nearest);
@@ -93,7 +93,7 @@ function worstStretch(points) {
   let worst = 0;
   for (const [a, b, c] of FACES) {
     for (const [i, j] of [[a, b], [b, c], [c, a]]) {
-      worst = Math.max(worst, between(points[i], points[j]) / between(skirt.sewn[i], skirt.sewn[j]));
+      worst = Math.max(worst, distance(points[i], points[j]) / distance(skirt.sewn[i], skirt.sewn[j]));
     }
   }
   return worst;

@@ -1,5 +1,5 @@
 // Points, quaternions (x, y, z, w) and the solids of a set, as the checks of this folder need them.
-import { expectedSolids, readJson } from '../gltf/files.mjs';
+import { expectedSolids, readJson, signedDistance } from '../gltf/files.mjs';
 
 export const add = (a, b) => a.map((x, i) => x + b[i]);
 export const subtract = (a, b) => a.map((x, i) => x - b[i]);
@@ -43,32 +43,6 @@ export function jointMoves(folder) {
 
 // The frame of a joint as the files of shapes have it; of -1 the one that all is in.
 export const jointOf = (file, index) => (index < 0 ? AT_REST : file.joints[index]);
-
-// (Math.hypot takes ten times as long.)
-const norm = (v) => Math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-export function between(a, b) {
-  const x = a[0] - b[0];
-  const y = a[1] - b[1];
-  const z = a[2] - b[2];
-  return Math.sqrt(x * x + y * y + z * z);
-}
-
-// The exact signed distance from a point to the hull of one sphere or two, negative inside.
-export function signedDistance(ends, p) {
-  const [a, b] = ends;
-  if (!b) return between(p, a.center) - a.radius;
-  const axis = subtract(b.center, a.center);
-  const length = norm(axis);
-  const sine = (a.radius - b.radius) / length;
-  const cosine = Math.sqrt(1 - sine * sine);
-  const from = subtract(p, a.center);
-  const along = dot(from, axis) / length;
-  const across = Math.sqrt(Math.max(0, dot(from, from) - along * along));
-  const slant = cosine * along - sine * across;
-  if (slant <= 0) return norm(from) - a.radius;
-  if (slant >= cosine * length) return between(p, b.center) - b.radius;
-  return cosine * across + sine * along - a.radius;
-}
 
 // How far a solid of one sphere or two reaches in a direction of length 1.
 export const reach = (ends, direction) =>

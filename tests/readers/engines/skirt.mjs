@@ -1,5 +1,5 @@
 // A skirt of 8,000 vertices around the hips of a body, hung to be simulated by Jolt.
-import { signedDistance } from './geometry.mjs';
+import { signedDistance } from '../gltf/files.mjs';
 import { Jolt } from './jolt_world.mjs';
 
 export const COLUMNS = 125;
@@ -12,15 +12,15 @@ export const STEPS = 2;
 const ITERATIONS = 5;
 const VERTEX_MASS = 1.25e-4; // one kilogram in all
 
-// Where a ray from the body's axis at this height leaves the solids that it starts in.
+// Where a ray from the body's axis leaves the last of the solids.
 function outerRadius(solids, center, height, angle) {
   const at = (r) =>
     [center[0] + r * Math.cos(angle), height, center[1] + r * Math.sin(angle)];
-  let outer = 0;
-  for (let r = 0; r < 0.4; r += 0.002) {
-    if (solids.some((s) => signedDistance(s.ends, at(r)) < 0)) outer = r;
-  }
-  return outer + 0.002;
+  const isInside = (p) => solids.some((s) => signedDistance(s.ends, p) < 0);
+  const STEP = 0.002;
+  let steps = 200;
+  while (steps > 0 && !isInside(at(steps * STEP))) steps -= 1;
+  return (steps + 1) * STEP;
 }
 
 // Rows of points from the waist down: each as far out as the body is there, and as the row above.

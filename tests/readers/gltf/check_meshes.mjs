@@ -4,8 +4,8 @@
 import { readFileSync } from 'node:fs';
 import validator from 'gltf-validator';
 import { OBJLoader } from 'three/addons/loaders/OBJLoader.js';
-import { check, expectedSolids, finish, near, readJson } from './files.mjs';
-import { signedDistance, surfacePoints } from './hulls.mjs';
+import { check, expectedSolids, finish, near, readJson, signedDistance } from './files.mjs';
+import { surfacePoints } from './hulls.mjs';
 import { THREE, loadScene } from './three_scene.mjs';
 
 const [stem, expectedPath, kind] = process.argv.slice(2);
@@ -66,12 +66,17 @@ function checkHull(solid, triangles) {
 
 function checkUnion(triangles) {
   const volume = checkClosed('the union', triangles);
-  const off = (p) => Math.min(...solids.map((s) => signedDistance(s.ends, p.toArray())));
+  const off = ({ x, y, z }) => {
+    let least = Infinity;
+    for (const solid of solids) least = Math.min(least, signedDistance(solid.ends, [x, y, z]));
+    return least;
+  };
   const corners = triangles.flat().filter((_, i) => i % 7 === 0);
   const middles = triangles.map(([a, b, c]) => a.clone().add(b).add(c).divideScalar(3));
-  const depth = Math.max(...[...corners, ...middles].map((p) => -off(p)));
+  const ofMiddles = middles.map(off);
+  const depth = -Math.min(...corners.map(off), ...ofMiddles);
   check(depth < 2e-4, `the union's mesh dips into it by ${depth}`);
-  const far = middles.filter((p) => off(p) > 2e-3).length / middles.length;
+  const far = ofMiddles.filter((d) => d > 2e-3).length / middles.length;
   check(far < 0.05, `${far} of the union's faces lie more than 2 mm outside`);
   // The true volume, by evenly strewn points.
   const box = new THREE.Box3().setFromPoints(corners);

@@ -1,24 +1,6 @@
-// Distances to capsules, and whether shapes of other kinds cover them.
-import { distance } from './files.mjs';
+// Points of capsules, and whether shapes of other kinds cover them.
+import { signedDistance } from './files.mjs';
 import { THREE, vector } from './three_scene.mjs';
-
-// Signed distance to the hull of one or two spheres.
-export function signedDistance(ends, p) {
-  if (ends.length === 1) return distance(ends[0].center, p) - ends[0].radius;
-  const [a, b] = ends.map((e) => vector(e.center));
-  const axis = b.clone().sub(a);
-  const length = axis.length();
-  axis.divideScalar(length);
-  const sin = (ends[0].radius - ends[1].radius) / length;
-  const cos = Math.sqrt(1 - sin * sin);
-  const from = vector(p).sub(a);
-  const axial = from.dot(axis);
-  const radial = from.addScaledVector(axis, -axial).length();
-  const slant = cos * axial - sin * radial;
-  if (slant <= 0) return distance(ends[0].center, p) - ends[0].radius;
-  if (slant >= cos * length) return distance(ends[1].center, p) - ends[1].radius;
-  return cos * radial + sin * axial - ends[0].radius;
-}
 
 // Points of the hull's surface: where rays from the axis leave it.
 export function surfacePoints(ends, unit) {
