@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/available_cores.h"
 #include "core/base/status.h"
 #include "grpc/health/v1/health.pb.h"
 #include "server/caller_check.h"
@@ -48,6 +49,18 @@ AdmissionLimits LimitsOf(const ServerConfig& config) {
           config.max_concurrent_fits,
           config.client_percent / 100.0,
           config.retry_pushback_ms};
+}
+
+// With numbers for what is left to the server. As many fits as threads serve the most bodies a
+// second; of two one may be short, and need not wait for a long one.
+ServerConfig Resolved(ServerConfig config) {
+  constexpr int kLeastFits = 2;
+  constexpr int kMostFits = 64;
+  if (config.threads == 0) config.threads = AvailableCores();
+  if (config.max_concurrent_fits == 0) {
+    config.max_concurrent_fits = std::clamp(config.threads, kLeastFits, kMostFits);
+  }
+  return config;
 }
 
 // Once per process, before the first server is built.
@@ -146,9 +159,10 @@ struct Server::Parts {
   }
 };
 
-absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config,
+absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& wished,
                                                       FitBackend backend) {
   PrepareProcess();
+  const ServerConfig config = Resolved(wished);
   CAPFIT_ASSIGN_OR_RETURN(CallerCheck callers, CallerCheck::Create(config));
   const auto certificate_expiry = std::make_shared<std::atomic<double>>(0.0);
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();

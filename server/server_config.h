@@ -29,7 +29,7 @@ struct ServerConfig {
   std::string token_file;  // see token_file.h; empty: everyone may call
   ConnectionLimits connection;
   int threads = 0;              // that compute; 0: AvailableCores()
-  int max_concurrent_fits = 2;  // [1, 64]
+  int max_concurrent_fits = 0;  // [1, 64]; 0: as many as threads, at least 2
   int max_queued_fits = 256;    // [0, 10000]: further fits that may wait
   // Of memory for uploads and answers of all calls; [16 MiB, 1 TiB].
   std::int64_t max_held_bytes = 1024LL * 1024 * 1024;

@@ -28,8 +28,8 @@ constexpr formats::MeshLimits kPipelineLimits;
 
 void AddLimits(CLI::App& app, ServerConfig& config, std::int64_t& max_upload_mb) {
   app.add_option("--max-concurrent-fits", config.max_concurrent_fits,
-                 "Fits that run at the same time")
-      ->check(CLI::Range(1, 64));
+                 "Fits that run at the same time; 0: as many as threads, at least 2")
+      ->check(CLI::Range(0, 64));
   app.add_option("--max-queued-fits", config.max_queued_fits,
                  "Further fits that may wait; beyond: RESOURCE_EXHAUSTED")
       ->check(CLI::Range(0, 10'000));

@@ -301,6 +301,26 @@ TEST(Service, InfoListsOnlyWhatIsAccepted) {
   EXPECT_FALSE(info.version().empty());
 }
 
+TEST(Service, RunsAsManyFitsAsItHasThreadsButForOneThatTwoShare) {
+  const auto fits_with = [](int threads, int wished) {
+    ServerConfig config;
+    config.threads = threads;
+    config.max_concurrent_fits = wished;
+    config.listen = "127.0.0.1:0";
+    absl::StatusOr<std::unique_ptr<Server>> server = Server::Start(config, InstantBackend());
+    EXPECT_TRUE(server.ok()) << server.status();
+    grpc::ClientContext context;
+    v1::GetServerInfoResponse info;
+    const auto stub = v1::BodyApproximationService::NewStub((*server)->InProcessChannel());
+    EXPECT_TRUE(stub->GetServerInfo(&context, {}, &info).ok());
+    return info.limits().max_concurrent_fits();
+  };
+  EXPECT_EQ(fits_with(1, 0), 2);
+  EXPECT_EQ(fits_with(5, 0), 5);
+  EXPECT_EQ(fits_with(100, 0), 64);
+  EXPECT_EQ(fits_with(5, 1), 1) << "the operator's word counts";
+}
+
 TEST(Service, DrainingLetsTheRunningCallFinish) {
   Gate gate;
   const auto server = StartServer(WaitingBackend(gate));
