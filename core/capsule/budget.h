@@ -23,6 +23,11 @@ struct Budget {
 
   [[nodiscard]] bool Allows(const PrimitiveCount& count) const { return Excess(count) <= 0; }
 
+  // Whether only all primitives together are limited.
+  [[nodiscard]] bool IsOfAnyKind() const {
+    return max_spheres >= kNoLimit && max_capsules >= kNoLimit;
+  }
+
   // By how many primitives the count is beyond the limit that it breaks most; 0 where it fits.
   [[nodiscard]] int Excess(const PrimitiveCount& count) const {
     return std::max({0, count.total() - max_primitives, count.spheres - max_spheres,

@@ -323,7 +323,12 @@ class Search {
       capsule::MirroredSet loose = best.graph;
       task_.Loosen(kLooseSteps, seed_, pool_, meter_, loose);
       std::vector<Edit> ties = RankedAdditions(task_, loose, pool_);
-      std::erase_if(ties, [&](const Edit& tie) { return !budget_.Allows(CountWith(loose, tie)); });
+      // What wins most may all be of the kind that is used up. (Where only the sum is limited, one
+      // or two are left at most, and what they are spent on wins nothing in the end.)
+      if (!budget_.IsOfAnyKind()) {
+        std::erase_if(ties,
+                      [&](const Edit& tie) { return !budget_.Allows(CountWith(loose, tie)); });
+      }
       ties.resize(std::min(ties.size(), kTies));
       std::vector<Attempt> attempts(ties.size());
       meter_.ExpectShare(kTieRound, until_,
