@@ -7,7 +7,6 @@
 #include <thread>
 #include <vector>
 
-#include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
@@ -43,13 +42,15 @@ double QuotaOfGroup(const fs::path& group) {
   return is_limit ? quota[0] / quota[1] : 0.0;
 }
 
+// The less of two quotas of which either may be 0, none.
+double LesserQuota(double a, double b) { return a > 0.0 && b > 0.0 ? std::min(a, b) : a + b; }
+
 // From the group up to the top of its tree. Within a container the tree begins at the container's
 // own group, whatever the group is called outside.
 double LeastQuota(const fs::path& top, const fs::path& group) {
   double least = 0.0;
   for (fs::path below = group.relative_path();; below = below.parent_path()) {
-    const double quota = QuotaOfGroup(top / below);
-    if (quota > 0.0) least = least > 0.0 ? std::min(least, quota) : quota;
+    least = LesserQuota(least, QuotaOfGroup(top / below));
     if (below.empty()) return least;
   }
 }
@@ -71,8 +72,7 @@ double QuotaOfCores(const fs::path& root) {
       continue;
     for (const fs::path& top : is_unified ? std::vector{mounts, mounts / "unified"}
                                           : std::vector{mounts / parts[1], mounts / "cpu"}) {
-      const double quota = LeastQuota(top, parts[2]);
-      if (quota > 0.0) least = least > 0.0 ? std::min(least, quota) : quota;
+      least = LesserQuota(least, LeastQuota(top, parts[2]));
     }
   }
   return least;
