@@ -45,11 +45,12 @@ double Between(double first, double last, int step, int steps) {
 class Tightener {
  public:
   Tightener(std::span<const PointsToHold> points, double body_size_m, const ThreadPool& pool,
-            capsule::PrimitiveSet& set, Backlog* backlog)
+            capsule::PrimitiveSet& set, Backlog* backlog, const FullCells* full)
       : points_(points),
         size_(body_size_m),
         pool_(pool),
         backlog_(backlog),
+        full_(full),
         set_(set),
         variables_(set),
         solver_(pool) {}
@@ -85,7 +86,7 @@ class Tightener {
   // itself; half its exposed area over its radius is what that costs per square of the step.
   void AddVolume(std::uint64_t seed) {
     const VolumeGradient gradient =
-        UnionVolumeGradient(set_, variables_, kSampleSpacing * size_, seed, pool_);
+        UnionVolumeGradient(set_, variables_, kSampleSpacing * size_, seed, pool_, full_);
     if (volume_ == 0.0) volume_ = std::max(gradient.volume_m3, 1e-6 * size_ * size_ * size_);
     growth_rate_ = std::max(gradient.area_m2 / volume_, 1e-6 / size_);
     program_.gradient = Eigen::VectorXd::Zero(variables_.count());
@@ -96,7 +97,7 @@ class Tightener {
       const int first = variables_.of(i).first;
       program_.gradient.segment<4>(first) += variables_.ToVariables(i, by_sphere);
       program_.hessian.segment<4>(first).array() +=
-          0.5 * by_sphere.w() / std::max(set_.spheres[i].radius_m, kLeastRadius * size_);
+          0.5 * std::abs(by_sphere.w()) / std::max(set_.spheres[i].radius_m, kLeastRadius * size_);
     }
   }
 
@@ -297,6 +298,7 @@ class Tightener {
   double size_;
   const ThreadPool& pool_;
   Backlog* backlog_;
+  const FullCells* full_;
   capsule::PrimitiveSet& set_;
   SetVariables variables_;
   PenaltySolver solver_;
@@ -311,8 +313,8 @@ class Tightener {
 
 void Tighten(std::span<const PointsToHold> points, double body_size_m, const TightenPhase& phase,
              std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
-             capsule::PrimitiveSet& set, Backlog* backlog) {
-  Tightener tightener(points, body_size_m, pool, set, backlog);
+             capsule::PrimitiveSet& set, Backlog* backlog, const FullCells* full) {
+  Tightener tightener(points, body_size_m, pool, set, backlog, full);
   for (int i = 0; i < phase.steps && !meter.IsCancelled(); ++i) {
     const double trust = Between(phase.first_trust, phase.last_trust, i, phase.steps);
     const double penalty = Between(phase.first_penalty, phase.last_penalty, i, phase.steps);

@@ -13,6 +13,7 @@
 #include "core/base/thread_pool.h"
 #include "core/base/work_meter.h"
 #include "core/capsule/primitive_set.h"
+#include "core/tighten/full_cells.h"
 #include "core/tighten/penalty_program.h"
 #include "core/tighten/point_grid.h"
 
@@ -77,9 +78,11 @@ struct PointsToHold {
 // thousand points and some fifty solids; stops early when cancelled. Adds the set's primitives to
 // the meter in each step. The result is not feasible by itself: at the last trust region's accuracy
 // only. The programmes are solved on this thread and on idle ones, which do a backlog first.
+// Full cells are not left empty (see UnionVolumeGradient).
 void Tighten(std::span<const PointsToHold> points, double body_size_m, const TightenPhase& phase,
              std::uint64_t seed, const ThreadPool& pool, const WorkMeter& meter,
-             capsule::PrimitiveSet& set, Backlog* backlog = nullptr);
+             capsule::PrimitiveSet& set, Backlog* backlog = nullptr,
+             const FullCells* full = nullptr);
 
 }  // namespace capfit::tighten
 

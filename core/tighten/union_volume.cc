@@ -41,7 +41,7 @@ struct Share {
 class Sampler {
  public:
   Sampler(const capsule::PrimitiveSet& set, const SetVariables& variables, double spacing_m,
-          std::uint64_t seed)
+          std::uint64_t seed, const FullCells* full)
       : set_(set),
         variables_(variables),
         solids_(variables.solids()),
@@ -51,6 +51,7 @@ class Sampler {
         fade_(kFade * spacing_m),
         half_over_fade_(static_cast<float>(0.5 / fade_)),
         seed_(seed),
+        full_(full),
         places_(FindPlaces()) {
     if (set.spheres.empty()) return;
     for (const Sphere& sphere : set.spheres) origin_ += sphere.center_m;
@@ -347,19 +348,24 @@ class Sampler {
     const Eigen::Array3d offset = from - origin_;
     Eigen::Array4d speed = Eigen::Array4d::Zero();
     Eigen::Array3d flux = Eigen::Array3d::Zero();
+    double seen_area = 0.0;
     for (int i = 0; i < samples.count; ++i) {
       const Eigen::Array3d normal(samples.nx[i], samples.ny[i], samples.nz[i]);
       const Eigen::Array3d point(samples.x[i], samples.y[i], samples.z[i]);
       const double seen = samples.seen[i];
-      speed += seen * Eigen::Array4d(normal.x(), normal.y(), normal.z(), 1.0);
-      flux += seen * normal * (point + offset);
+      if (seen == 0.0) continue;
+      seen_area += seen;
+      const bool is_in_hollow = full_ != nullptr && full_->Holds(from + point.matrix());
+      const double side = is_in_hollow ? -seen : seen;
+      speed += side * Eigen::Array4d(normal.x(), normal.y(), normal.z(), 1.0);
+      flux += side * normal * (point + offset);
     }
     speed *= area;
     flux *= area;
     share.volume += (flux * flow_).sum();
     share.a += (1 - t) * speed.matrix();
     share.b += t * speed.matrix();
-    share.area += speed.w();
+    share.area += area * seen_area;
     samples.count = 0;
   }
 
@@ -372,6 +378,7 @@ class Sampler {
   double fade_;
   float half_over_fade_;
   std::uint64_t seed_;
+  const FullCells* full_;    // or nullptr
   std::vector<int> places_;  // by sphere; equal for those that coincide
   // The volume is the flux of flow_ * (point - origin_) through the surface, whose divergence is 1.
   // It flows along the axis in which the set is thinnest, mostly: what the samples of one solid
@@ -383,8 +390,9 @@ class Sampler {
 }  // namespace
 
 VolumeGradient UnionVolumeGradient(const capsule::PrimitiveSet& set, const SetVariables& variables,
-                                   double spacing_m, std::uint64_t seed, const ThreadPool& pool) {
-  const Sampler sampler(set, variables, spacing_m, seed);
+                                   double spacing_m, std::uint64_t seed, const ThreadPool& pool,
+                                   const FullCells* full) {
+  const Sampler sampler(set, variables, spacing_m, seed, full);
   const std::size_t solids = variables.solids().size();
   std::vector<Share> slants(solids);
   std::vector<Share> caps(set.spheres.size());

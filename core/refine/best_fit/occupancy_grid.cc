@@ -294,6 +294,21 @@ OccupancyGrid CoarserGrid(const OccupancyGrid& grid) {
   return coarse;
 }
 
+tighten::FullCells FullCellsOf(const OccupancyGrid& grid) {
+  tighten::FullCells cells = {.origin_m = grid.origin_m,
+                              .cells_per_m = 1.0f / grid.cell_m,
+                              .nx = grid.nx,
+                              .ny = grid.ny,
+                              .nz = grid.nz,
+                              .folded = grid.folded,
+                              .is_full = {}};
+  cells.is_full.reserve(grid.inside.size());
+  for (const std::uint8_t share : grid.fitted_shares()) {
+    cells.is_full.push_back(share == OccupancyGrid::kFull ? 1 : 0);
+  }
+  return cells;
+}
+
 void SampleCost(const OccupancyGrid& grid, const float* x, const float* y, const float* z,
                 int count, float* cost) {
   for (int first = 0; first < count; first += kAtOnce) {

@@ -9,6 +9,7 @@
 
 #include "core/base/thread_pool.h"
 #include "core/body/body.h"
+#include "core/tighten/full_cells.h"
 
 namespace capfit::refine {
 
@@ -51,6 +52,9 @@ struct OccupancyGrid {
 
 // The grid with cells twice as large, each the mean of eight; nothing for SampleCost.
 [[nodiscard]] OccupancyGrid CoarserGrid(const OccupancyGrid& grid);
+
+// The cells that the body fills as a whole, for what must not leave them empty.
+[[nodiscard]] tighten::FullCells FullCellsOf(const OccupancyGrid& grid);
 
 // What it costs to fill space, at `count` points: +1 in empty space, -1 inside the parts to fit, 0
 // inside the rest of the body; trilinear between cell centres, +1 off the grid. To 1/127.

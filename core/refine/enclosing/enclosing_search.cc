@@ -230,7 +230,8 @@ class Search {
   // Spends up to a number of primitives, the first `ties` of them on ties and leaves, the rest on
   // cuts, and finds the shape of it.
   void Extend(int target, int ties, std::uint64_t seed, capsule::MirroredSet& graph) const {
-    TieBest(std::min({target, graph.primitive_count() + ties, budget_.max_primitives}), seed, graph);
+    TieBest(std::min({target, graph.primitive_count() + ties, budget_.max_primitives}), seed,
+            graph);
     CutLoosest(budget_, target, task_.Weigh(graph).edge_gap, graph);
     task_.FindShape(kGrowthSteps, 1.0, seed, pool_, meter_, graph);
     Simplify(graph);

@@ -45,19 +45,15 @@ constexpr double kApart = 0.03;  // of the worst points, relative to the body's 
 }  // namespace
 
 EnclosingTask::EnclosingTask(const tighten::CoverTarget& target, bool symmetric, double tolerance_m,
-                             double spacing, std::span<const Vec3> inside_m)
-    : EnclosingTask(
-          [&] {
-            ThinnedPoints thinned = ThinnedPointsOf(target, symmetric, spacing);
-            AddPointsInside(inside_m, symmetric, thinned);
-            return thinned;
-          }(),
-          tolerance_m) {}
+                             double spacing, const tighten::FullCells* full)
+    : EnclosingTask(ThinnedPointsOf(target, symmetric, spacing), tolerance_m, full) {}
 
-EnclosingTask::EnclosingTask(ThinnedPoints thinned, double tolerance_m)
+EnclosingTask::EnclosingTask(ThinnedPoints thinned, double tolerance_m,
+                             const tighten::FullCells* full)
     : size_m_(thinned.size_m),
       areas_m2_(std::move(thinned.areas_m2)),
       tolerance_m_(tolerance_m),
+      full_(full),
       grid_(thinned.points_m) {}
 
 void EnclosingTask::Settle(const tighten::TightenPhase& phase, std::uint64_t seed,
@@ -65,7 +61,7 @@ void EnclosingTask::Settle(const tighten::TightenPhase& phase, std::uint64_t see
                            capsule::MirroredSet& graph) const {
   capsule::PrimitiveSet set = graph.set();
   const std::array<tighten::PointsToHold, 1> points = {{{grid_, tolerance_m_, areas_m2_}}};
-  tighten::Tighten(points, size_m_, phase, seed, pool, meter, set);
+  tighten::Tighten(points, size_m_, phase, seed, pool, meter, set, /*backlog=*/nullptr, full_);
   graph.MoveTo(set.spheres);
 }
 
@@ -142,7 +138,8 @@ double EnclosingTask::Value(const capsule::MirroredSet& graph, const ThreadPool&
   const double primitives = std::max(1, graph.primitive_count());
   const double spacing_m = size_m_ * std::clamp(kSampleSpacing / std::sqrt(primitives),
                                                 kLeastSampleSpacing, kMostSampleSpacing);
-  return tighten::UnionVolumeGradient(set, variables, spacing_m, /*seed=*/7, pool).volume_m3 +
+  return tighten::UnionVolumeGradient(set, variables, spacing_m, /*seed=*/7, pool, full_)
+             .volume_m3 +
          kOutsidePrice * outside;
 }
 

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/base/thread_pool.h"
@@ -15,6 +14,7 @@
 #include "core/refine/enclosing/thinned_points.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/tighten/cover_target.h"
+#include "core/tighten/full_cells.h"
 #include "core/tighten/point_grid.h"
 #include "core/tighten/tighten.h"
 
@@ -26,10 +26,10 @@ namespace capfit::refine {
 class EnclosingTask {
  public:
   // `spacing`: between points, relative to the body's size (the square root of its surface area).
-  // `inside_m`: points that must be inside too (see PointsInside). Spheres that are much smaller
-  // than the body is thick would leave it hollow without them: that has less volume.
+  // `full`: what must not be left empty (see tighten::UnionVolumeGradient), or nullptr; must
+  // outlive the task, and may be filled in after it is made.
   EnclosingTask(const tighten::CoverTarget& target, bool symmetric, double tolerance_m,
-                double spacing, std::span<const Eigen::Vector3d> inside_m = {});
+                double spacing, const tighten::FullCells* full = nullptr);
 
   // Moves and grows all spheres for the least volume, with points left out at a price that rises:
   // finds the shape of a set whose spheres are guesses. Small
@@ -52,20 +52,21 @@ class EnclosingTask {
                                             const std::vector<Edit>& additions,
                                             const ThreadPool& pool) const;
 
-  // The union's volume, to some thousandths, and what the points outside will still cost. Cubic
-  // metres.
+  // The union's volume and that of hollows (see the constructor), to some thousandths, and what the
+  // points outside will still cost. Cubic metres.
   [[nodiscard]] double Value(const capsule::MirroredSet& graph, const ThreadPool& pool) const;
 
   [[nodiscard]] GraphWorth Weigh(const capsule::MirroredSet& graph) const;
 
  private:
-  EnclosingTask(ThinnedPoints thinned, double tolerance_m);
+  EnclosingTask(ThinnedPoints thinned, double tolerance_m, const tighten::FullCells* full);
   void Settle(const tighten::TightenPhase& phase, std::uint64_t seed, const ThreadPool& pool,
               const WorkMeter& meter, capsule::MirroredSet& graph) const;
 
   double size_m_ = 0.0;           // of the body, the square root of its surface area
   std::vector<double> areas_m2_;  // that each point stands for, both halves
   double tolerance_m_ = 0.0;      // how far each may stick out
+  const tighten::FullCells* full_;
   tighten::PointGrid grid_;
 };
 

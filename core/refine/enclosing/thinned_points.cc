@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "core/mesh/surface_sums.h"
@@ -15,7 +14,6 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr double kMostCuts = 20.0;  // of an edge whose triangle gets points between its corners
-constexpr double kLarge = 0.5;      // of the largest radius
 constexpr std::size_t kMostBetween = 500'000;  // such points in all
 
 // Adds points inside triangles with an edge longer than `longest_m` and moves area to them from the
@@ -60,33 +58,6 @@ ThinnedPoints ThinnedPointsOf(const tighten::CoverTarget& target, bool symmetric
   thinned.points_m = std::move(sparse.points_m);
   thinned.areas_m2 = std::move(sparse.weights);
   return thinned;
-}
-
-std::vector<Vec3> PointsInside(std::span<const geometry::Sphere> spheres) {
-  double largest_m = 0.0;
-  for (const geometry::Sphere& sphere : spheres) largest_m = std::max(largest_m, sphere.radius_m);
-  std::vector<Vec3> points_m;
-  for (const geometry::Sphere& sphere : spheres) {
-    if (sphere.radius_m < kLarge * largest_m) continue;
-    points_m.push_back(sphere.center_m);
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vec3 out = 0.5 * sphere.radius_m * Vec3::Unit(axis);
-      points_m.push_back(sphere.center_m + out);
-      points_m.push_back(sphere.center_m - out);
-    }
-  }
-  return points_m;
-}
-
-void AddPointsInside(std::span<const Vec3> inside_m, bool symmetric, ThinnedPoints& thinned) {
-  if (inside_m.empty() || thinned.areas_m2.empty()) return;
-  const double area_m2 = std::accumulate(thinned.areas_m2.begin(), thinned.areas_m2.end(), 0.0) /
-                         static_cast<double>(thinned.areas_m2.size());
-  for (Vec3 point_m : inside_m) {
-    if (symmetric) point_m.x() = std::abs(point_m.x());
-    thinned.points_m.push_back(point_m);
-    thinned.areas_m2.push_back(area_m2);
-  }
 }
 
 }  // namespace capfit::refine

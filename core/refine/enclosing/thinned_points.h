@@ -3,10 +3,8 @@
 #define CAPFIT_CORE_REFINE_ENCLOSING_THINNED_POINTS_H_
 
 #include <Eigen/Core>
-#include <span>
 #include <vector>
 
-#include "core/geometry/tapered_capsule.h"
 #include "core/tighten/cover_target.h"
 
 namespace capfit::refine {
@@ -21,14 +19,6 @@ struct ThinnedPoints {
 // Where vertices are further apart, points of the triangles between them too. O(points).
 [[nodiscard]] ThinnedPoints ThinnedPointsOf(const tighten::CoverTarget& target, bool symmetric,
                                             double spacing);
-
-// Points well inside the larger ones of a set of spheres: their centres and, half-way out, six
-// around each.
-[[nodiscard]] std::vector<Eigen::Vector3d> PointsInside(std::span<const geometry::Sphere> spheres);
-
-// Appends points that must be inside too, each with the mean area; folded where symmetric.
-void AddPointsInside(std::span<const Eigen::Vector3d> inside_m, bool symmetric,
-                     ThinnedPoints& thinned);
 
 }  // namespace capfit::refine
 

@@ -97,6 +97,93 @@ TEST(UnionVolumeTest, GradientMatchesDifferencesOfTheVolume) {
   }
 }
 
+// Balls around a hollow, all within a larger ball that should be full.
+struct Shell {
+  capsule::PrimitiveSet set;
+  FullCells full;
+};
+
+Shell BallsAroundAHollow() {
+  Shell shell;
+  constexpr int kBalls = 60;
+  const Eigen::Vector3d middle(0.1, 0.8, 0.0);
+  for (int i = 0; i < kBalls; ++i) {
+    const double z = 1.0 - 2.0 * (i + 0.5) / kBalls;
+    const double r = std::sqrt(1.0 - z * z);
+    const double turn = 2.0 * kPi * i / std::numbers::phi;
+    const Eigen::Vector3d out(r * std::cos(turn), r * std::sin(turn), z);
+    shell.set.spheres.push_back({middle + 0.3 * out, 0.11});
+  }
+  shell.set.origins.resize(kBalls);
+  constexpr int kCells = 64;
+  shell.full = {.origin_m = (middle.array() - 0.32).matrix().cast<float>(),
+                .cells_per_m = 100.0f,
+                .nx = kCells,
+                .ny = kCells,
+                .nz = kCells,
+                .folded = false,
+                .is_full = {}};
+  for (int iy = 0; iy < kCells; ++iy) {
+    for (int ix = 0; ix < kCells; ++ix) {
+      for (int iz = 0; iz < kCells; ++iz) {
+        const Eigen::Vector3d at = (Eigen::Array3d(ix, iy, iz) + 0.5) * 0.01 - 0.32;
+        shell.full.is_full.push_back(at.norm() < 0.3 ? 1 : 0);
+      }
+    }
+  }
+  return shell;
+}
+
+// Of the cells of one edge length whose middles no ball holds.
+double EmptyVolume(const Shell& shell, double radius_m, double step) {
+  const Eigen::Vector3d middle(0.1, 0.8, 0.0);
+  double empty = 0.0;
+  for (double x = -radius_m; x < radius_m; x += step) {
+    for (double y = -radius_m; y < radius_m; y += step) {
+      for (double z = -radius_m; z < radius_m; z += step) {
+        const Eigen::Vector3d at(x, y, z);
+        if (at.norm() > radius_m) continue;
+        const auto holds = [&](const geometry::Sphere& ball) {
+          return (middle + at - ball.center_m).norm() <= ball.radius_m;
+        };
+        if (std::none_of(shell.set.spheres.begin(), shell.set.spheres.end(), holds)) ++empty;
+      }
+    }
+  }
+  return empty * step * step * step;
+}
+
+TEST(UnionVolumeTest, HollowsCountAsWhatIsLeftToFill) {
+  Shell shell = BallsAroundAHollow();
+  const SetVariables variables(shell.set);
+  const auto at = [&](const FullCells* full) {
+    return UnionVolumeGradient(shell.set, variables, 0.004, 1, ThreadPool(2), full);
+  };
+  const VolumeGradient plain = at(nullptr);
+  const VolumeGradient filled = at(&shell.full);
+  const double hollow = EmptyVolume(shell, 0.28, 0.005);
+  ASSERT_GT(hollow, 0.02);
+  EXPECT_NEAR(plain.volume_m3, ColumnVolume(shell.set, 0.004), 0.01 * plain.volume_m3);
+  EXPECT_NEAR(filled.volume_m3, plain.volume_m3 + 2.0 * hollow, 0.01 * filled.volume_m3);
+  EXPECT_EQ(filled.area_m2, plain.area_m2);  // that of the hollow too
+  // A ball that moves inwards fills more of the hollow than it bares behind it.
+  constexpr double kStep = 0.01;  // that samples do not hide the change
+  for (const std::size_t i : {std::size_t{7}, std::size_t{30}, std::size_t{52}}) {
+    const Eigen::Vector3d inwards =
+        (Eigen::Vector3d(0.1, 0.8, 0.0) - shell.set.spheres[i].center_m).normalized();
+    const double slope = filled.by_sphere[i].head<3>().dot(inwards);
+    EXPECT_LT(slope, 0.0);
+    EXPECT_GT(plain.by_sphere[i].head<3>().dot(inwards), slope);
+    const geometry::Sphere before = shell.set.spheres[i];
+    shell.set.spheres[i].center_m = before.center_m + kStep * inwards;
+    const double further = at(&shell.full).volume_m3;
+    shell.set.spheres[i].center_m = before.center_m - kStep * inwards;
+    const double nearer = at(&shell.full).volume_m3;
+    EXPECT_NEAR((further - nearer) / (2.0 * kStep), slope, 0.15 * std::abs(slope)) << i;
+    shell.set.spheres[i] = before;
+  }
+}
+
 // A trunk on the mid-plane, a bar across it and two legs.
 capsule::PrimitiveSet MirroredSet() {
   capsule::PrimitiveSet set;

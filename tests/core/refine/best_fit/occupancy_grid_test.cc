@@ -55,6 +55,18 @@ TEST_P(OccupancyGridTest, ACoarserGridHoldsTheSame) {
   EXPECT_NEAR(GridError(coarse, less, ThreadPool(1)), 1.0 - std::pow(0.8, 3), 0.02);
 }
 
+TEST_P(OccupancyGridTest, FullCellsAreThoseWhollyInside) {
+  const Eigen::Vector3d center(0.0, 0.3, 0.05);
+  const tighten::FullCells full = FullCellsOf(
+      MakeOccupancyGrid(BallBody(center, 0.2), AllParts(), 0.008, GetParam(), ThreadPool(1)));
+  for (const double side : {-1.0, 1.0}) {
+    for (const Eigen::Vector3d& out : {Eigen::Vector3d(1, 0, 0), {0, 1, 0}, {0, 0, -1}}) {
+      EXPECT_TRUE(full.Holds(center + side * 0.185 * out)) << side * out.transpose();
+      EXPECT_FALSE(full.Holds(center + side * 0.205 * out)) << side * out.transpose();
+    }
+  }
+}
+
 TEST_P(OccupancyGridTest, ErrorIsNothingForTheBallItselfAndExactForOthers) {
   const Eigen::Vector3d center(0.0, 0.3, 0.05);
   const OccupancyGrid grid =
