@@ -76,7 +76,9 @@ TEST(AvailableCoresTest, IsWhatThisProcessHas) {
   const int cores = AvailableCores();
   EXPECT_GE(cores, 1);
   const double quota = QuotaOfCores();
-  if (quota > 0.0) EXPECT_LT(cores, quota + 1.0);
+  if (quota > 0.0) {
+    EXPECT_LT(cores, quota + 1.0);
+  }
 }
 
 }  // namespace

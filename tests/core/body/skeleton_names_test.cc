@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(SkeletonNames, TellLeftFromRightAndLeaveTheUnknownAlone) {
   const auto landmarks = ReadRig({Joint("RightForeArm", {1, 2, 3}), Joint("LeftForeArm", {4, 5, 6}),
-                                  Joint("Tail", {7, 8, 9}), Joint("", {})})
+                                  Joint("Tail", {7, 8, 9}), Joint("", Eigen::Vector3d::Zero())})
                              .landmarks;
   ASSERT_EQ(landmarks.size(), 2u);
   EXPECT_EQ(landmarks.at(LandmarkId::kRightElbow), Eigen::Vector3d(1, 2, 3));
