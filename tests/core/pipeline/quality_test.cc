@@ -28,6 +28,13 @@ formats::PolygonSoup Person() {
   return *std::move(soup);
 }
 
+formats::PolygonSoup RealBody(const char* name) {
+  const std::string bytes = test_support::ReadFile(test_support::BodiesFolder() / name);
+  absl::StatusOr<formats::PolygonSoup> soup = formats::ReadMesh(std::as_bytes(std::span(bytes)));
+  EXPECT_TRUE(soup.ok()) << soup.status();
+  return soup.ok() ? *std::move(soup) : formats::PolygonSoup();
+}
+
 FitResult MustFit(const formats::PolygonSoup& soup, FitOptions options, int threads = 2) {
   options.parts = {true, true, true, true, true, true};
   const ThreadPool pool(threads);
@@ -61,11 +68,8 @@ double FurthestVertexOut(const formats::PolygonSoup& soup, const FitResult& resu
 // left it hollow.
 TEST(TightQuality, ManySmallSpheresLeaveNoHollow) {
   CAPFIT_REQUIRE_BODIES();
-  const std::string bytes = test_support::ReadFile(test_support::BodiesFolder() /
-                                                   "male_muscular_tpose_no_hands_feet_head.obj");
-  const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)));
-  ASSERT_TRUE(soup.ok()) << soup.status();
-  const FitResult result = MustFit(*soup, Of(Quality::kTight, FitMode::kEnclose, 800));
+  const formats::PolygonSoup soup = RealBody("male_muscular_tpose_no_hands_feet_head.obj");
+  const FitResult result = MustFit(soup, Of(Quality::kTight, FitMode::kEnclose, 800));
   EXPECT_LT(result.metrics.uncovered, 0.002);
   EXPECT_LT(result.metrics.E_r, 0.1);
 }
@@ -73,12 +77,9 @@ TEST(TightQuality, ManySmallSpheresLeaveNoHollow) {
 // Bodies that differ by less than anybody sees: one of them came out with a tenth of it hollow.
 TEST(TightQuality, NoLastDigitsLeaveAHollow) {
   CAPFIT_REQUIRE_BODIES();
-  const std::string bytes = test_support::ReadFile(test_support::BodiesFolder() /
-                                                   "female_average_rest_no_hands_feet_head.obj");
-  const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)));
-  ASSERT_TRUE(soup.ok()) << soup.status();
+  const formats::PolygonSoup soup = RealBody("female_average_rest_no_hands_feet_head.obj");
   for (const int k : {0, 1, 2}) {
-    formats::PolygonSoup moved = *soup;
+    formats::PolygonSoup moved = soup;
     std::mt19937 random(static_cast<std::uint32_t>(k));
     for (Eigen::Vector3d& vertex : moved.positions) {
       for (double& x : vertex) x *= 1.0 + k * 2e-7 * (random() / 4294967296.0 - 0.5);
