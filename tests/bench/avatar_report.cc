@@ -7,19 +7,17 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "CLI/CLI.hpp"
 #include "core/body/skeleton_names.h"
 #include "core/character/find_character.h"
-#include "core/formats/read_mesh.h"
 #include "core/geometry/tapered_capsule.h"
 #include "core/pipeline/fit.h"
+#include "tests/bench/read_body.h"
 
 namespace {
 
@@ -28,11 +26,6 @@ using capfit::formats::PolygonSoup;
 using capfit::pipeline::FitResult;
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
-
-std::string ReadFile(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 double MsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -168,11 +161,10 @@ void ReportFit(const json& truth, const PolygonSoup& soup, const PolygonSoup& as
 
 void Report(const std::filesystem::path& folder, const std::string& name, const json& truth,
             bool has_rig, bool has_names) {
-  const std::string bytes = ReadFile(folder / (name + ".glb"));
-  auto start = Clock::now();
-  auto soup = capfit::formats::ReadMesh(std::as_bytes(std::span(bytes)));
+  const auto start = Clock::now();
+  auto soup = capfit::bench::ReadBody(folder / (name + ".glb"));
   if (!soup.ok()) {
-    std::printf("%s: %s\n", name.c_str(), soup.status().ToString().c_str());
+    std::printf("%s\n", soup.status().ToString().c_str());
     return;
   }
   const double read_ms = MsSince(start);
@@ -203,7 +195,7 @@ int main(int argc, char** argv) {
   bool no_names = false;
   app.add_flag("--no-names", no_names, "as if parts and materials had no names");
   CLI11_PARSE(app, argc, argv);
-  const json truth = json::parse(ReadFile(folder / "truth.json"));
+  const json truth = json::parse(std::ifstream(folder / "truth.json"));
   for (const auto& [name, entry] : truth.items()) {
     if (name.find(only) != std::string::npos) Report(folder, name, entry, !no_rig, !no_names);
   }

@@ -9,15 +9,11 @@
 #include <malloc.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <span>
-#include <string>
 
 #include "core/body/find_body.h"
-#include "core/formats/read_mesh.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
+#include "tests/bench/read_body.h"
 
 namespace capfit::body {
 namespace {
@@ -32,11 +28,7 @@ formats::PolygonSoup Mannequin(std::int64_t faces) {
 formats::PolygonSoup NamedMesh() {
   const char* const named = std::getenv("CAPFIT_BENCHMARK_MESH");
   if (named == nullptr) return Mannequin(64'000);
-  const std::string path = named;
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)), formats::FormatFromFileName(path));
-  return soup.ok() ? *std::move(soup) : Mannequin(64'000);
+  return bench::ReadBodyOrExit(named);
 }
 
 void CountTriangles(std::int64_t triangles, benchmark::State& state) {

@@ -9,33 +9,21 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "CLI/CLI.hpp"
 #include "absl/status/statusor.h"
+#include "client/option_words.h"
 #include "core/base/large_pages.h"
-#include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
+#include "tests/bench/read_body.h"
 
 namespace {
 
 using capfit::pipeline::FitOptions;
 using capfit::pipeline::FitResult;
-
-capfit::formats::PolygonSoup Read(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  auto soup = capfit::formats::ReadMesh(std::as_bytes(std::span(bytes)));
-  if (!soup.ok()) {
-    std::fprintf(stderr, "%s\n", soup.status().ToString().c_str());
-    std::exit(2);
-  }
-  return *std::move(soup);
-}
 
 double Median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
@@ -91,7 +79,7 @@ void PrintSideBySide(int fits, double alone_ms, double together_ms) {
 }
 
 bool Run(const std::string& body, const Task& task) {
-  const capfit::formats::PolygonSoup soup = Read(body);
+  const capfit::formats::PolygonSoup soup = capfit::bench::ReadBodyOrExit(body);
   std::vector<std::vector<FitResult>> results(task.threads.size());
   std::vector<double> side_by_side_ms;
   const int warm_up = task.runs > 1 ? 1 : 0;
@@ -126,15 +114,16 @@ int main(int argc, char** argv) {
   capfit::UseLargePages();
   CLI::App app{"Median time of each stage of a fit, in milliseconds"};
   std::vector<std::string> bodies;
-  std::string quality = "paper";
-  std::string fit = "enclose";
   std::string parts = "all";
   std::vector<int> primitives = {64};
   Task task{{}, {1, 2}, 9, false};
   app.add_option("bodies", bodies, "mesh files")->required();
   app.add_option("--primitives", primitives);
-  app.add_option("--quality", quality)->check(CLI::IsMember({"paper", "balanced", "tight"}));
-  app.add_option("--fit", fit)->check(CLI::IsMember({"enclose", "best"}));
+  task.options.quality = capfit::pipeline::Quality::kPaper;
+  app.add_option("--quality", task.options.quality)
+      ->transform(CLI::CheckedTransformer(capfit::client::QualityWords()));
+  app.add_option("--fit", task.options.fit)
+      ->transform(CLI::CheckedTransformer(capfit::client::FitModeWords()));
   app.add_option("--parts", parts)->check(CLI::IsMember({"all", "chains"}));
   app.add_option("--threads", task.threads);
   app.add_option("--runs", task.runs);
@@ -146,11 +135,6 @@ int main(int argc, char** argv) {
     return 2;
   }
   if (parts == "all") task.options.parts = {true, true, true, true, true, true};
-  for (int i = 0; i < capfit::pipeline::kQualityCount; ++i) {
-    const auto named = static_cast<capfit::pipeline::Quality>(i);
-    if (quality == QualityName(named)) task.options.quality = named;
-  }
-  if (fit == "best") task.options.fit = capfit::pipeline::FitMode::kBestFit;
 
   std::printf("%-42s %5s %2s", "ms", "n_p", "th");
   for (std::size_t stage = 0; stage < capfit::kStageCount; ++stage) {

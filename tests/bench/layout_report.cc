@@ -7,17 +7,14 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "CLI/CLI.hpp"
-#include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
 #include "core/refine/layouts/standard_layouts.h"
+#include "tests/bench/read_body.h"
 
 namespace {
 
@@ -33,11 +30,9 @@ struct Timed {
 };
 
 std::optional<PolygonSoup> Read(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  auto soup = capfit::formats::ReadMesh(std::as_bytes(std::span(bytes)));
+  auto soup = capfit::bench::ReadBody(path);
   if (!soup.ok()) {
-    std::fprintf(stderr, "%s: %s\n", path.c_str(), soup.status().ToString().c_str());
+    std::fprintf(stderr, "%s\n", soup.status().ToString().c_str());
     return std::nullopt;
   }
   return *std::move(soup);

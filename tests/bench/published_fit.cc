@@ -7,16 +7,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
-#include <span>
 #include <string>
 
 #include "absl/status/statusor.h"
 #include "client/result_json.h"
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
-#include "core/formats/read_mesh.h"
 #include "core/pipeline/fit.h"
+#include "tests/bench/read_body.h"
 
 namespace capfit::bench {
 namespace {
@@ -28,11 +26,7 @@ struct Arguments {
 };
 
 absl::StatusOr<pipeline::FitResult> FitPublished(const Arguments& arguments) {
-  std::ifstream file(arguments.body, std::ios::binary);
-  if (!file) return absl::NotFoundError("cannot read " + arguments.body);
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)),
-                                      formats::FormatFromFileName(arguments.body));
+  const auto soup = ReadBody(arguments.body);
   if (!soup.ok()) return soup.status();
   pipeline::FitOptions options;
   options.max_primitives = arguments.max_primitives;

@@ -13,14 +13,12 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "core/formats/read_mesh.h"
 #include "core/mesh/prepare_mesh.h"
+#include "tests/bench/read_body.h"
 #include "tests/bench/sphere_mesh/fit_sphere_mesh.h"
 
 namespace capfit::bench {
@@ -32,16 +30,6 @@ struct Arguments {
   FitOptions options;
   double sag_mm = 0.0;
 };
-
-absl::StatusOr<mesh::PreparedMesh> ReadBody(const std::string& file_name) {
-  std::ifstream file(file_name, std::ios::binary);
-  if (!file) return absl::NotFoundError("cannot read " + file_name);
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const auto soup =
-      formats::ReadMesh(std::as_bytes(std::span(bytes)), formats::FormatFromFileName(file_name));
-  if (!soup.ok()) return soup.status();
-  return mesh::PrepareMesh(*soup);
-}
 
 bool Write(const std::string& file_name, const std::string& text) {
   std::ofstream file(file_name, std::ios::binary);
@@ -64,7 +52,7 @@ int Run(const Arguments& arguments) {
   const auto since = [](Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
   };
-  const auto body = ReadBody(arguments.body);
+  const auto body = mesh::PrepareMesh(ReadBodyOrExit(arguments.body));
   if (!body.ok()) {
     std::fprintf(stderr, "sphere_mesh: %s\n", body.status().ToString().c_str());
     return 1;
