@@ -118,7 +118,11 @@ Spread FitAll(const std::vector<formats::PolygonSoup>& bodies, int copies,
     std::vector<pipeline::FitResult> fits;
     for (int copy = 0; copy < copies; ++copy) {
       auto fit = pipeline::Fit(Copy(body, copy), options, pool, observer);
-      if (fit.ok()) fits.push_back(*std::move(fit));
+      if (fit.ok()) {
+        fits.push_back(*std::move(fit));
+      } else {
+        std::fprintf(stderr, "copy %d: %s\n", copy, fit.status().ToString().c_str());
+      }
     }
     spread.Add(fits);
   }
