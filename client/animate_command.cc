@@ -23,6 +23,7 @@
 #include "client/picture/result_body.h"
 #include "client/skinning_json.h"
 #include "client/weights_output.h"
+#include "core/base/number_in.h"
 #include "core/base/status.h"
 #include "core/skinning/one_joint.h"
 
@@ -105,8 +106,12 @@ absl::StatusOr<AnyWeights> WeightsOf(const AnimateArguments& arguments, ResultSk
   if (arguments.is_one_joint) return OneJointWeights(skinning, result);
   if (skinning.bones) return *std::move(skinning.bones);
   if (skinning.sparse) return *std::move(skinning.sparse);
-  CAPFIT_ASSIGN_OR_RETURN(skinning::DenseWeights dense, ReadWeights(arguments.weights));
-  return dense;
+  absl::StatusOr<skinning::DenseWeights> dense = ReadWeights(arguments.weights);
+  if (dense.ok()) return *std::move(dense);
+  return absl::Status(
+      dense.status().code(),
+      absl::StrCat(arguments.weights, " has no weights, and those beside it: ",
+                   dense.status().message(), "; fit again with --skinning sparse, dense or bones"));
 }
 
 // That the weights are the body's and the result's.
@@ -236,7 +241,7 @@ void AddSourceFlags(CLI::App& command, AnimateArguments& arguments) {
                       "(3 rows of 4 from the joint's frame to the mesh's)")
           ->type_name("FILE");
   command.add_option("--fps", arguments.fps, "With --clip: frames a second")
-      ->check(CLI::Range(0.01, 10'000.0))
+      ->check(NumberIn(0.01, 10'000.0))
       ->capture_default_str()
       ->needs(clip);
   CLI::Option* const one_joint = command.add_flag(
@@ -246,7 +251,7 @@ void AddSourceFlags(CLI::App& command, AnimateArguments& arguments) {
   command
       .add_option("--capsule-ends", arguments.capsule_ends_output,
                   "With --one-joint: both centres of each capsule on the capsule's one joint, "
-                  "frames x capsules x 2 x 3, in the form of --output")
+                  "frames x (2 * capsules) x 3, in the form of --output")
       ->type_name("FILE")
       ->needs(one_joint);
   frames->excludes(clip)->excludes(joints)->excludes(one_joint);

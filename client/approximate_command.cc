@@ -21,6 +21,7 @@
 #include "client/result_table.h"
 #include "client/server_flags.h"
 #include "client/weights_output.h"
+#include "core/base/number_in.h"
 #include "core/base/status.h"
 #include "core/formats/read_mesh.h"
 #include "core/pipeline/colliders.h"
@@ -194,7 +195,7 @@ void AddPlaceFlags(CLI::App& command, ApproximateArguments& arguments) {
       ->needs(motion)
       ->group("What to fit");
   command.add_option("--fps", arguments.fps, "With a clip: frames a second")
-      ->check(CLI::Range(0.1, 240.0))
+      ->check(NumberIn(0.1, 240.0))
       ->needs(motion)
       ->capture_default_str()
       ->group("What to fit");

@@ -1,11 +1,13 @@
 #include "client/approximate_flags.h"
 
+#include "absl/strings/ascii.h"
 #include "client/landmarks_file.h"
 #include "client/option_words.h"
 #include "client/picture/file_bytes.h"
 #include "client/picture/result_body.h"
 #include "client/picture/result_set.h"
 #include "client/word_option.h"
+#include "core/base/number_in.h"
 #include "core/base/status.h"
 #include "core/pipeline/engines.h"
 #include "core/refine/layouts/standard_layouts.h"
@@ -32,7 +34,10 @@ void AddBudget(CLI::App& command, FitFlags& flags) {
   CLI::Option* const engine =
       command.add_option("--engine", options.engine,
                          "Cloth engine whose limits and capsules hold: " + pipeline::EngineNames());
-  engine->type_name("NAME");
+  engine->type_name("NAME")->transform([](std::string text) {
+    const std::string word = absl::AsciiStrToLower(text);
+    return pipeline::FindEngine(word) != nullptr ? word : text;  // others are refused by name
+  });
   CLI::Option* const layout =
       command.add_option("--layout", flags.layout,
                          "Keep the spheres, names and capsules of a former RESULT.json, or of a "
@@ -64,7 +69,8 @@ body::PartSelection Selection(const std::vector<std::string>& words) {
 
 // A name, or a file.
 absl::Status ReadLayout(const FitFlags& flags, pipeline::FitOptions& options) {
-  if (const refine::KeptLayout* const known = refine::FindStandardLayout(flags.layout)) {
+  if (const refine::KeptLayout* const known =
+          refine::FindStandardLayout(absl::AsciiStrToLower(flags.layout))) {
     options.layout = *known;
     if (flags.parts.empty()) options.parts = known->parts();
     return absl::OkStatus();
@@ -137,7 +143,7 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
   command
       .add_option("--tolerance-mm", flags.tolerance_mm,
                   "How far a vertex may stick out, in millimetres of the body [0, 100]")
-      ->check(CLI::Range(0.0, 1000.0 * pipeline::kMaxToleranceM))
+      ->check(NumberIn(0.0, 1000.0 * pipeline::kMaxToleranceM))
       ->type_name("MM")
       ->capture_default_str()
       ->group(kWhatToFit);
@@ -145,6 +151,7 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
                 "Whether the bust is split in three: female always, male never")
       ->group(kWhatToFit);
   command.add_option("--seed", options.seed, "Seed of the random restarts")
+      ->check(SeedCheck())
       ->capture_default_str()
       ->group(kWhatToFit);
   AddBudget(command, flags);

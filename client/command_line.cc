@@ -56,6 +56,14 @@ int RefuseUsage(const CLI::App& app, const std::vector<std::string>& arguments,
   return kExitUsage;
 }
 
+// A full disk or a closed pipe shows when what was printed leaves the process.
+int AfterPrinting(int exit_code) {
+  const bool is_written = !std::cout.flush().fail() & (std::fflush(stdout) == 0);
+  if ((is_written && std::ferror(stdout) == 0) || exit_code != kExitDone) return exit_code;
+  std::cerr << "capfit: cannot write standard output\n";
+  return kExitUsage;
+}
+
 }  // namespace
 
 int RunCommandLine(const std::vector<std::string>& arguments) {
@@ -71,10 +79,10 @@ int RunCommandLine(const std::vector<std::string>& arguments) {
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // help and version
+    if (error.get_exit_code() == 0) return AfterPrinting(app.exit(error));  // help and version
     return RefuseUsage(app, arguments, Complaint(error));
   }
-  return exit_code;
+  return AfterPrinting(exit_code);
 }
 
 }  // namespace capfit::client

@@ -51,6 +51,10 @@ absl::Status RunEvaluate(const EvaluateArguments& arguments) {
   const ThreadPool pool(arguments.threads);
   CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(arguments.result));
   CAPFIT_ASSIGN_OR_RETURN(const ResultSet result, ParseResultSet(text));
+  if (result.spheres.empty()) {
+    return InvalidField(ErrorReason::kMissing, arguments.result,
+                        "has no spheres, so there is nothing to measure");
+  }
   CAPFIT_ASSIGN_OR_RETURN(const body::Body body, LoadBody(arguments, result, pool));
   const capsule::PrimitiveSet set = InBodyFrame(result, body.body_from_caller);
   metrics::MeasureOptions options;

@@ -20,7 +20,9 @@ std::string ShownType(const CLI::Option& option) {
     std::replace(type.begin(), type.end(), ',', '|');
     return type;
   }
-  return colon == std::string::npos ? type : type.substr(0, colon);
+  // (A colon of ours stands in brackets: "HOST[:PORT]".)
+  const bool is_ours = colon != std::string::npos && colon > 0 && type[colon - 1] == '[';
+  return colon == std::string::npos || is_ours ? type : type.substr(0, colon);
 }
 
 std::string HelpFormat::make_option_opts(const CLI::Option* option) const {

@@ -15,6 +15,7 @@
 #include "client/picture/file_bytes.h"
 #include "client/picture/write_mesh.h"
 #include "client/server_flags.h"
+#include "core/base/number_in.h"
 #include "core/base/status.h"
 #include "core/mannequin/mannequin.h"
 
@@ -81,7 +82,7 @@ absl::Status RunLoadCommand(const LoadArguments& arguments) {
 void AddPlanFlags(CLI::App& command, LoadArguments& arguments) {
   LoadPlan& plan = arguments.plan;
   command.add_option("--duration", plan.seconds, "Seconds within which calls begin")
-      ->check(CLI::Range(0.1, 86'400.0))
+      ->check(NumberIn(0.1, 86'400.0))
       ->capture_default_str()
       ->group(kGroup);
   command.add_option("--clients", plan.clients, "Calls at a time; with --rate at most")
@@ -92,9 +93,10 @@ void AddPlanFlags(CLI::App& command, LoadArguments& arguments) {
       .add_option("--rate", plan.rate,
                   "Calls a second, whatever the answers do (open loop); without it each client "
                   "calls again when it has its answer (closed loop)")
-      ->check(CLI::Range(0.01, 100'000.0))
+      ->check(NumberIn(0.01, 100'000.0))
       ->group(kGroup);
   command.add_option("--order-seed", plan.seed, "Seed of the order of bodies")
+      ->check(SeedCheck())
       ->capture_default_str()
       ->group(kGroup);
   command

@@ -8,6 +8,7 @@
 #include "client/connection.h"
 #include "client/picture/file_bytes.h"
 #include "core/base/host_and_port.h"
+#include "core/base/number_in.h"
 #include "core/base/status.h"
 
 namespace capfit::client {
@@ -29,6 +30,20 @@ absl::Status ReadInto(const std::string& path, std::string& text) {
   if (path.empty()) return absl::OkStatus();
   CAPFIT_ASSIGN_OR_RETURN(text, ReadFileBytes(path));
   return absl::OkStatus();
+}
+
+// gRPC ends the process where a header holds anything else.
+absl::Status CheckToken(const std::string& file, const std::string& token) {
+  const auto wrong = std::find_if(token.begin(), token.end(),
+                                  [](char letter) { return letter < '!' || letter > '~'; });
+  if (token.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(file, ": its first line must be a token"));
+  }
+  if (wrong == token.end()) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      file, ": byte ", wrong - token.begin(), " of the token is ",
+      static_cast<int>(static_cast<unsigned char>(*wrong)),
+      ", must be a printed ASCII character (33 to 126): letters, digits, punctuation"));
 }
 
 }  // namespace
@@ -69,6 +84,9 @@ absl::StatusOr<Security> SecurityOf(const ServerFlags& flags) {
   CAPFIT_RETURN_IF_ERROR(ReadInto(flags.tls_key, security.key));
   CAPFIT_RETURN_IF_ERROR(ReadInto(flags.token_file, security.token));
   security.token.resize(std::min(security.token.size(), security.token.find_first_of("\r\n")));
+  if (!flags.token_file.empty()) {
+    CAPFIT_RETURN_IF_ERROR(CheckToken(flags.token_file, security.token));
+  }
   return security;
 }
 
@@ -79,7 +97,7 @@ absl::StatusOr<BodyClient> ConnectTo(const ServerFlags& flags) {
 
 CLI::Option* AddTimeoutFlag(CLI::App& command, double& seconds, const std::string& help) {
   return command.add_option("--timeout", seconds, help)
-      ->check(CLI::Range(0.001, 86'400.0))
+      ->check(NumberIn(0.001, 86'400.0))
       ->type_name("SECONDS")
       ->capture_default_str();
 }

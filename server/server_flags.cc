@@ -10,6 +10,7 @@
 
 #include "core/base/did_you_mean.h"
 #include "core/base/host_and_port.h"
+#include "core/base/number_in.h"
 #include "core/base/status.h"
 #include "core/base/version.h"
 #include "server/caller_check.h"
@@ -57,18 +58,18 @@ void AddBudgets(CLI::App& app, ServerConfig& config, std::int64_t& max_held_mb,
                  "File whose first line is the password of that Redis");
   app.add_option("--cache-redis-seconds", config.cache_redis_seconds,
                  "A call waits so long for an answer of that Redis, then goes on without it")
-      ->check(CLI::Range(0.01, 60.0));
+      ->check(NumberIn(0.01, 60.0));
   app.add_option("--max-held-mb", max_held_mb,
                  "Memory for uploads and answers of all calls, in MiB; beyond: RESOURCE_EXHAUSTED")
       ->check(CLI::Range(16, 1024 * 1024));
   app.add_option("--max-queued-seconds", config.max_queued_seconds,
                  "No fit comes in that would wait longer, as fits went lately")
-      ->check(CLI::Range(0.0, kDaySeconds));
+      ->check(NumberIn(0.0, kDaySeconds));
   app.add_option("--client-percent", config.client_percent,
                  "How much of the places and of both budgets one client may take")
       ->check(CLI::Range(1, 100));
   const auto add_time = [&](const char* name, double& seconds, const char* help) {
-    app.add_option(name, seconds, help)->check(CLI::Range(0.01, kDaySeconds));
+    app.add_option(name, seconds, help)->check(NumberIn(0.01, kDaySeconds));
   };
   add_time("--upload-idle-seconds", config.upload_idle_seconds,
            "An upload of which nothing came for so long is ended");
@@ -95,11 +96,11 @@ void AddObservation(CLI::App& app, ServerConfig& config) {
 void AddDrain(CLI::App& app, ServerConfig& config) {
   app.add_option("--drain-seconds", config.drain_seconds,
                  "After SIGTERM or SIGINT: running calls may finish within this")
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(NumberIn(0.0, 3600.0));
   app.add_option("--drain-delay-seconds", config.drain_delay_seconds,
                  "After SIGTERM or SIGINT: time between NOT_SERVING and refusing new calls, for "
                  "load balancers to notice")
-      ->check(CLI::Range(0.0, 600.0));
+      ->check(NumberIn(0.0, 600.0));
 }
 
 void AddSecurity(CLI::App& app, ServerConfig& config) {
@@ -124,13 +125,13 @@ void AddConnectionLimits(CLI::App& app, ConnectionLimits& limits) {
       ->check(CLI::Range(1, 10'000));
   app.add_option("--max-connection-age-seconds", limits.max_age_seconds,
                  "Clients connect anew after this, so that new replicas get traffic")
-      ->check(CLI::Range(1.0, 86'400.0));
+      ->check(NumberIn(1.0, 86'400.0));
   app.add_option("--max-connection-age-grace-seconds", limits.max_age_grace_seconds,
                  "Calls that run by then may take this long")
-      ->check(CLI::Range(1.0, 86'400.0));
+      ->check(NumberIn(1.0, 86'400.0));
   app.add_option("--keepalive-seconds", limits.keepalive_seconds,
                  "A quiet connection is asked after this whether the client is still there")
-      ->check(CLI::Range(1.0, 7200.0));
+      ->check(NumberIn(1.0, 7200.0));
 }
 
 // What is done instead of serving.
@@ -178,12 +179,31 @@ int Complain(const std::string& problem) {
   return 1;
 }
 
+absl::Status CheckMetricsAddress(const ServerConfig& config) {
+  const absl::StatusOr<std::string> whole = WithPort(config.metrics_listen, /*lowest_port=*/0);
+  if (!whole.ok()) {
+    return InvalidField(ErrorReason::kOutOfRange, "--metrics-listen",
+                        absl::StrCat("must be HOST:PORT: ", whole.status().message()));
+  }
+  if (*whole == config.metrics_listen) return absl::OkStatus();
+  return InvalidField(
+      ErrorReason::kMissing, "--metrics-listen",
+      absl::StrCat("is '", config.metrics_listen, "', must be HOST:PORT: the port is missing"));
+}
+
+// What was printed, if it was written.
+int AfterPrinting() {
+  if (!std::cout.flush().fail()) return 0;
+  std::cerr << "capfit-server: cannot write standard output\n";
+  return 3;
+}
+
 int Check(const ServerConfig& config) {
   if (const absl::Status status = CheckConfig(config); !status.ok()) {
     return Complain(std::string(status.message()));
   }
   std::cout << "the settings are good\n";
-  return 0;
+  return AfterPrinting();
 }
 
 }  // namespace
@@ -200,6 +220,7 @@ absl::Status CheckConfig(const ServerConfig& config) {
                         "tells everybody who calls: it needs --tls-client-ca, or to listen on the "
                         "loopback only");
   }
+  if (!config.metrics_listen.empty()) CAPFIT_RETURN_IF_ERROR(CheckMetricsAddress(config));
   if (!config.cache_redis.empty()) CAPFIT_RETURN_IF_ERROR(RedisOf(config).status());
   return CallerCheck::Create(config).status();
 }
@@ -253,7 +274,7 @@ std::optional<int> ParseFlags(int argc, const char* const* argv, ServerConfig& c
   config.cache_bytes = cache_mb * kMebibyte;
   if (errands.print) {
     std::cout << app.config_to_str(/*default_also=*/true, /*write_description=*/true);
-    return 0;
+    return AfterPrinting();
   }
   if (errands.check) return Check(config);
   return std::nullopt;

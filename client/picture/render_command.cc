@@ -49,8 +49,7 @@ const std::map<std::string, NamedView>& Views() {
 absl::Status CheckPolygons(const ResultSet& result) {
   if (result.polygons.empty()) {
     return InvalidField(ErrorReason::kMalformedFile, "feature_polygons",
-                        "are not in the result: only `capfit approximate --polygons` with "
-                        "--quality paper writes them");
+                        "are not in the result: `capfit approximate --polygons` writes them");
   }
   for (std::size_t i = 0; i < result.polygons.size(); ++i) {
     const std::size_t points = result.polygons[i].outline.size();

@@ -23,6 +23,7 @@ constexpr double kMaxSin = 0.8;
 constexpr double kFixed = 1e-6;
 // Relative to the body's size, as the settings of a phase are.
 constexpr double kLeastRadius = 0.003;
+constexpr double kLeastFirstRadius = 1e-6;
 constexpr double kSampleSpacing = 0.025;
 constexpr double kSteepnessReach = 0.05;  // capsules this near to the limit get a row
 constexpr double kSteepnessPenalty = 100.0;
@@ -53,7 +54,12 @@ class Tightener {
         full_(full),
         set_(set),
         variables_(set),
-        solver_(pool) {}
+        solver_(pool) {
+    // A sphere that is a point has nothing to give, and a programme needs some room on both sides.
+    for (geometry::Sphere& sphere : set_.spheres) {
+      sphere.radius_m = std::max(sphere.radius_m, kLeastFirstRadius * size_);
+    }
+  }
 
   void Step(double trust_m, double penalty, const TightenPhase& phase, std::uint64_t seed) {
     shapes_ = capsule::Solids(set_);

@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "client/exit_code.h"
 #include "core/base/status.h"
+#include "tests/support/scratch.h"
 
 namespace capfit::client {
 namespace {
@@ -72,7 +75,14 @@ INSTANTIATE_TEST_SUITE_P(
              "--parts: 'wings' is none of all, torso, arms, legs, head, hands, feet"},
         Case{"approximate b.obj -o r.json --max-primitives many",
              "--max-primitives: 'many' is not a number in range"},
-        Case{"approximate b.obj -o r.json --tolerance-mm 101", "--tolerance-mm: Value 101"},
+        Case{"approximate b.obj -o r.json --tolerance-mm 101",
+             "--tolerance-mm: '101' must be a number in [0, 100]"},
+        Case{"approximate b.obj -o r.json --tolerance-mm nan",
+             "--tolerance-mm: 'nan' must be a number in [0, 100]"},
+        Case{"approximate b.obj -o r.json --seed -1",
+             "--seed: '-1' must be a whole number in [0, 18446744073709551615]"},
+        Case{"approximate b.obj -o r.json --seed 18446744073709551616", "must be a whole number"},
+        Case{"load --duration nan", "--duration: 'nan' must be a number in [0.1, 86400]"},
         Case{"approximate b.obj -o r.json --server h:65536",
              "--server: 'h:65536' has port 65536, must be a whole number in [1, 65535]"},
         Case{"approximate b.obj -o r.json --server h:http",
@@ -94,6 +104,28 @@ TEST(CommandLine, OptionsInDegreesAndMetresAreNamedByTheirFlags) {
         RunWords(std::string("mannequin -o - --faces 2000 --arm-angle-deg ") + angle).exit_code, 0)
         << angle;
   }
+}
+
+// gRPC would end the process.
+TEST(CommandLine, ATokenThatNoHeaderMayHoldIsRefused) {
+  const test_support::Scratch scratch;
+  const std::string file = scratch.Path("token");
+  for (const auto& [token, problem] :
+       {std::pair("abc\xc3\xa9\n", "byte 3 of the token is 195, must be a printed ASCII character"),
+        std::pair("\xef\xbb\xbf"
+                  "abc",
+                  "byte 0 of the token is 239"),
+        std::pair("a b\r\n", "byte 1 of the token is 32"),
+        std::pair("\n", "its first line must be a token")}) {
+    std::ofstream(file, std::ios::binary) << token;
+    const Said said = RunWords("info --server 127.0.0.1:1 --token-file " + file);
+    EXPECT_NE(said.exit_code, 0);
+    EXPECT_THAT(said.err, HasSubstr(file + ": " + problem));
+  }
+}
+
+TEST(CommandLine, HelpShowsTypesWhole) {
+  EXPECT_THAT(RunWords("info --help").out, HasSubstr("--server HOST[:PORT]=127.0.0.1:50051"));
 }
 
 TEST(CommandLine, HelpIsInGroups) {

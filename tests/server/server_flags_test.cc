@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/scratch.h"
@@ -115,11 +116,33 @@ TEST(ServerFlags, WhatIsWrongIsNamedWithItsPlace) {
   const std::string wrong = FileOf("threads = 999\n");
   EXPECT_THAT(ErrorOf({"--config", wrong.c_str()}),
               HasSubstr(wrong + ": threads is wrong: Value 999 not in range 0 to 256"));
+  const std::string no_number = FileOf("max-fit-seconds = nan\n");
+  EXPECT_THAT(ErrorOf({"--config", no_number.c_str()}),
+              HasSubstr("max-fit-seconds is wrong: 'nan' must be a number in [0.01, 86400]"));
+  EXPECT_THAT(ErrorOf({"--drain-seconds", "nan"}),
+              HasSubstr("'nan' must be a number in [0, 3600]"));
   EXPECT_THAT(ErrorOf({"--config", "/nowhere"}), HasSubstr("/nowhere cannot be read"));
   EXPECT_THAT(ErrorOf({"--thread", "3"}),
               HasSubstr("'--thread' is no flag; did you mean --threads?"));
   const Variable variable("CAPFIT_LOG_LEVEL", "loud");
   EXPECT_THAT(ErrorOf({}), HasSubstr("CAPFIT_LOG_LEVEL is wrong: loud not in"));
+}
+
+TEST(ServerFlags, TheAddressOfMetricsIsLookedAtWithTheOthers) {
+  ServerConfig config;
+  for (const char* const good : {"", "127.0.0.1:0", "[::1]:9100", "0.0.0.0:9100"}) {
+    config.metrics_listen = good;
+    EXPECT_TRUE(CheckConfig(config).ok()) << good;
+  }
+  for (const auto& [address, problem] :
+       {std::pair("127.0.0.1", "is '127.0.0.1', must be HOST:PORT: the port is missing"),
+        std::pair("127.0.0.1:99999", "has port 99999, must be a whole number in [0, 65535]")}) {
+    config.metrics_listen = address;
+    const absl::Status status = CheckConfig(config);
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << address;
+    EXPECT_THAT(std::string(status.message()), HasSubstr("--metrics-listen"));
+    EXPECT_THAT(std::string(status.message()), HasSubstr(problem));
+  }
 }
 
 TEST(ServerFlags, ThePrintedSettingsAreReadBackTheSame) {

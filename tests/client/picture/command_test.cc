@@ -134,7 +134,7 @@ TEST_F(CommandTest, PolygonsAreDrawnWhereTheResultHasThem) {
   EXPECT_EQ(render("flat.json", "p.png", {}), 2);
   EXPECT_EQ(render("p.json", "p.png", {"--heat"}), 2);
   const std::string errors = testing::internal::GetCapturedStderr();
-  EXPECT_THAT(errors, HasSubstr("only `capfit approximate --polygons`"));
+  EXPECT_THAT(errors, HasSubstr("`capfit approximate --polygons` writes them"));
   EXPECT_THAT(errors, HasSubstr("feature_polygons[0].outline has 2 points"));
   EXPECT_THAT(errors, HasSubstr("not with --heat"));
 }

@@ -60,6 +60,19 @@ TEST(TightenTest, MakesTheSetSmallerAroundThePoints) {
   }
 }
 
+// A circle may come out as a point, and engines take spheres of no size too: the others must not
+// wait for it.
+TEST(TightenTest, ASphereWithoutRadiusHoldsUpNoOther) {
+  TubeBody body = Loose(2);
+  const double before = VolumeOf(body.set);
+  body.set.spheres.push_back({body.set.spheres[0].center_m, 0.0});
+  body.set.origins.push_back({body::Part::kTorso, -1, static_cast<int>(body.set.origins.size())});
+  TightenAll(kAllInside, Alone(), body);
+  EXPECT_LT(VolumeOf(body.set), 0.8 * before);
+  EXPECT_LT(FurthestOut(body), 1e-3);
+  EXPECT_GT(body.set.spheres.back().radius_m, 0.0);
+}
+
 TEST(TightenTest, FixedCentresStayAndUniformRadiiAre) {
   TubeBody body = Loose(4);
   const capsule::PrimitiveSet before = body.set;
