@@ -231,6 +231,8 @@ absl::StatusOr<pipeline::FitResult> FitJob::Compute(FitObserver& observer) {
   // A read that ends because the caller is gone looks like the end of the upload; only the context
   // knows already.
   if (IsOver() || context_.IsCancelled()) return GaveUp();
+  // Of two uploads with the same bytes one may claim other counts: kept results are not for it.
+  CAPFIT_RETURN_IF_ERROR(upload_.CheckComplete());
   const bool has_cache = services_.cache.is_on() || services_.shared_cache.is_on();
   if (!has_cache || WantsFreshFit(context_)) return Fit(observer);
   const std::string key = CacheKey();

@@ -44,6 +44,9 @@ class MeshUpload {
   // Whether all that the header declares has arrived; false as long as it declares nothing.
   [[nodiscard]] bool is_complete() const;
 
+  // That something has arrived, and as much as the header claims. Finish() asks it too.
+  [[nodiscard]] absl::Status CheckComplete() const;
+
   // Whether the header has arrived; `header` is empty before.
   [[nodiscard]] bool has_header() const { return has_header_; }
   [[nodiscard]] const v1::ApproximateBodyHeader& header() const { return header_; }
@@ -79,7 +82,6 @@ class MeshUpload {
   [[nodiscard]] absl::Status AddArrays(const char* field, const v1::MeshArrays& arrays);
   [[nodiscard]] absl::Status CountBytes(const char* field, std::size_t bytes);
   [[nodiscard]] absl::Status CheckArraySizes() const;
-  [[nodiscard]] absl::Status CheckComplete() const;
   // How many corners the faces that have been declared or announced by their sizes take.
   [[nodiscard]] std::uint64_t CornersOfFaces() const;
   [[nodiscard]] const char* positions_field() const;

@@ -81,6 +81,23 @@ TEST(ResultCache, TheSameRequestGetsTheSameBitsWithoutAFit) {
   EXPECT_EQ(fits, 3);
 }
 
+TEST(ResultCache, WhatIsWrongIsRefusedWhateverWasKept) {
+  ServerConfig config;
+  config.cache_bytes = 16 * kMebibyte;
+  const auto server = StartServer(InstantBackend(), config);
+  AnswerTo(*server, {Header(), Chunk()});
+  v1::ApproximateBodyRequest claims = Header();
+  claims.mutable_header()->mutable_mesh()->mutable_arrays()->set_vertex_count(4);
+  v1::ApproximateBodyRequest corners = Chunk();  // without the sizes of their faces
+  v1::MeshArrays& arrays = *corners.mutable_chunk()->mutable_arrays();
+  arrays.mutable_triangle_indices()->Swap(arrays.mutable_face_indices());
+  for (const auto& requests : {std::vector{claims, Chunk()}, std::vector{Header(), corners}}) {
+    Call call(*server);
+    call.Send(requests);
+    EXPECT_EQ(call.Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  }
+}
+
 TEST(ResultCache, WhoWantsAFreshFitGetsOneAndLeavesNoTrace) {
   std::atomic<int> fits{0};
   FitBackend backend = InstantBackend();
