@@ -30,7 +30,7 @@ void AddCommands(CLI::App& app, int& exit_code) {
   app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
   app.require_subcommand(1);
   app.footer(
-      "\"-\" is standard input or output wherever a file is asked for.\n"
+      "\"-\" is standard input or output where one file is read or written.\n"
       "Lists may be separated by blanks or commas, words may be in any case.\n"
       "Exit codes: 0 done; 1 the command line is wrong, or a file cannot be read or written;\n"
       "2 an input or option is refused; 3 the server cannot be reached, is full, took too long or "
@@ -58,8 +58,9 @@ int RefuseUsage(const CLI::App& app, const std::vector<std::string>& arguments,
 
 // A full disk or a closed pipe shows when what was printed leaves the process.
 int AfterPrinting(int exit_code) {
-  const bool is_written = !std::cout.flush().fail() & (std::fflush(stdout) == 0);
-  if ((is_written && std::ferror(stdout) == 0) || exit_code != kExitDone) return exit_code;
+  const bool is_streamed = !std::cout.flush().fail();
+  const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if ((is_streamed && is_written) || exit_code != kExitDone) return exit_code;
   std::cerr << "capfit: cannot write standard output\n";
   return kExitUsage;
 }

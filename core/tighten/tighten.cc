@@ -23,7 +23,7 @@ constexpr double kMaxSin = 0.8;
 constexpr double kFixed = 1e-6;
 // Relative to the body's size, as the settings of a phase are.
 constexpr double kLeastRadius = 0.003;
-constexpr double kLeastFirstRadius = 1e-6;
+constexpr double kLeastFirstRadius = 1e-6;  // that a phase begins with
 constexpr double kSampleSpacing = 0.025;
 constexpr double kSteepnessReach = 0.05;  // capsules this near to the limit get a row
 constexpr double kSteepnessPenalty = 100.0;

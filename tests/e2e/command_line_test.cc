@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <tuple>
 
 #include "tests/client/picture/read_png.h"
 #include "tests/e2e/processes.h"
@@ -129,6 +131,25 @@ TEST_F(CommandLine, EvaluateMeasuresWhatApproximateSaid) {
               result["metrics"]["volume_error"].get<double>(), 1e-9);
   EXPECT_NEAR(metrics["mean_distance_percent"].get<double>(),
               result["metrics"]["mean_distance_percent"].get<double>(), 1e-6);
+}
+
+TEST_F(CommandLine, ASetWithoutSpheresIsNotPerfect) {
+  WriteText(Path("empty.json"), R"({"spheres": [], "capsules": []})");
+  const Outcome outcome = RunCapfit({"evaluate", Body(), Path("empty.json")});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("empty.json has no spheres"));
+}
+
+TEST_F(CommandLine, LostStandardOutputIsAnError) {
+  for (const auto& [program, words, exit_code] :
+       {std::tuple(CAPFIT_CLIENT_PROGRAM, "completion bash", 1),
+        std::tuple(CAPFIT_CLIENT_PROGRAM, "--help", 1),
+        std::tuple(CAPFIT_SERVER_PROGRAM, "--print-config", 3)}) {
+    const Outcome outcome =
+        RunProgram("/bin/sh", {"-c", std::string(program) + " " + words + " >/dev/full"});
+    EXPECT_EQ(outcome.exit_code, exit_code) << program << " " << words;
+    EXPECT_THAT(outcome.err, HasSubstr("cannot write standard output"));
+  }
 }
 
 TEST_F(CommandLine, AnimateMovesTheCentresWithTheBody) {
