@@ -204,13 +204,13 @@ absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const Work
 
 // Every room that follows gets the same numbers in the same order, whatever file and frame the body
 // came in.
-mesh::BodyMesh MeshInBodyFrame(const WorkingCopy& copy, const geometry::Similarity& body_from_copy,
+mesh::BodyMesh MeshInBodyFrame(const WorkingCopy& copy, const WaysToBody& ways,
                                const ThreadPool& pool) {
   std::vector<Eigen::Vector3d> vertices(copy.points.size());
   pool.ForChunks(vertices.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) vertices[i] = body_from_copy.Apply(copy.points[i]);
+    for (std::size_t i = begin; i < end; ++i) vertices[i] = ways.from_copy.Apply(copy.points[i]);
   });
-  return copy.mesh.WithVertices(std::move(vertices), pool);
+  return copy.mesh.Transformed(ways.from_caller, std::move(vertices), pool);
 }
 
 // The caller's axis, with its sign, that is nearest to a direction of the working copy: "-z".
@@ -320,7 +320,7 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
                         "front and back look alike; a left or right landmark would tell them", 0});
   }
   for (Eigen::Vector3d& p : found.coarse.points) p = ways.from_copy.Apply(p);
-  Body body = {MeshInBodyFrame(copy, ways.from_copy, pool),
+  Body body = {MeshInBodyFrame(copy, ways, pool),
                ways.from_caller,
                0.0,
                false,

@@ -12,23 +12,14 @@ using Points = std::vector<Eigen::Vector3d>;
 
 }  // namespace
 
-BodyMesh BodyMesh::Of(std::shared_ptr<const Connections> connections, Points vertices,
-                      const ThreadPool& pool) {
-  BodyMesh mesh;
-  if (!vertices.empty()) mesh.measures_ = Measure(vertices, connections->triangles, pool);
-  mesh.connections_ = std::move(connections);
-  mesh.vertices_ = std::make_shared<const Points>(std::move(vertices));
-  return mesh;
-}
-
 BodyMesh::BodyMesh(Points vertices, std::vector<Triangle> triangles,
                    std::vector<std::int32_t> vertex_of_source, RawVector<HalfEdge> mates,
                    const ThreadPool& pool) {
   if (mates.empty()) mates = FindEdgeMates(triangles, vertices.size(), pool).mate;
-  *this = Of(
-      std::make_shared<const Connections>(Connections{
-          {triangles.begin(), triangles.end()}, std::move(mates), {}, std::move(vertex_of_source)}),
-      std::move(vertices), pool);
+  if (!vertices.empty()) measures_ = Measure(vertices, triangles, pool);
+  connections_ = std::make_shared<const Connections>(Connections{
+      {triangles.begin(), triangles.end()}, std::move(mates), {}, std::move(vertex_of_source)});
+  vertices_ = std::make_shared<const Points>(std::move(vertices));
 }
 
 BodyMesh::BodyMesh(std::span<const Eigen::Vector3d> vertices, CurveOrder order,
@@ -46,14 +37,19 @@ BodyMesh::BodyMesh(std::span<const Eigen::Vector3d> vertices, CurveOrder order,
                   std::move(vertex_of_source)});
 }
 
-BodyMesh BodyMesh::WithVertices(Points vertices, const ThreadPool& pool) const {
-  return Of(connections_, std::move(vertices), pool);
-}
-
 BodyMesh BodyMesh::Transformed(const geometry::Similarity& similarity) const {
   Points moved(vertices_->size());
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = similarity.Apply((*vertices_)[i]);
-  return WithVertices(std::move(moved));
+  return Transformed(similarity, std::move(moved), ThreadPool(1));
+}
+
+BodyMesh BodyMesh::Transformed(const geometry::Similarity& similarity, Points moved,
+                               const ThreadPool& pool) const {
+  BodyMesh mesh;
+  if (!moved.empty()) mesh.measures_ = Moved(measures_, similarity, moved, pool);
+  mesh.connections_ = connections_;
+  mesh.vertices_ = std::make_shared<const Points>(std::move(moved));
+  return mesh;
 }
 
 BodyMesh BodyMesh::InCurveOrder(const ThreadPool& pool, const FitObserver& observer) const {

@@ -66,11 +66,13 @@ class BodyMesh {
   // By which it was put in the order of a curve; nothing where it was not, or was moved since.
   [[nodiscard]] const std::optional<PrincipalFrame>& frame() const { return frame_; }
 
-  // The same mesh with its vertices elsewhere, one for each.
-  [[nodiscard]] BodyMesh WithVertices(std::vector<Eigen::Vector3d> vertices,
-                                      const ThreadPool& pool = ThreadPool(1)) const;
   // The same mesh in another frame.
   [[nodiscard]] BodyMesh Transformed(const geometry::Similarity& similarity) const;
+  // The same, where its vertices there are known already: `moved` are those that `similarity`
+  // gives, but for rounding.
+  [[nodiscard]] BodyMesh Transformed(const geometry::Similarity& similarity,
+                                     std::vector<Eigen::Vector3d> moved,
+                                     const ThreadPool& pool) const;
   // The same mesh with its vertices and triangles in the order of a curve; itself where it is.
   // Without a frame where the observer cancels.
   [[nodiscard]] BodyMesh InCurveOrder(const ThreadPool& pool, const FitObserver& observer) const;
@@ -85,8 +87,6 @@ class BodyMesh {
   };
 
   BodyMesh() = default;
-  static BodyMesh Of(std::shared_ptr<const Connections> connections,
-                     std::vector<Eigen::Vector3d> vertices, const ThreadPool& pool);
 
   std::shared_ptr<const Connections> connections_;
   std::shared_ptr<const std::vector<Eigen::Vector3d>> vertices_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/chunk_sums.h"
+#include "core/base/sort_few.h"
 #include "core/mesh/surface_measures.h"
 
 namespace capfit::mesh {
@@ -182,7 +183,7 @@ class TriangleSorter {
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
       const std::uint32_t first = order_.first_triangle[v];
       const std::uint32_t last = order_.first_triangle[v + 1];
-      std::sort(dealt_.get() + first, dealt_.get() + last);
+      SortFew(std::span(dealt_.get() + first, last - first));
       for (std::uint32_t i = first; i < last; ++i) {
         order_.triangles[i] = {v, static_cast<std::uint32_t>(dealt_[i] >> 32),
                                static_cast<std::uint32_t>(dealt_[i])};

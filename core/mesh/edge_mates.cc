@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/sort_few.h"
+
 namespace capfit::mesh {
 namespace {
 
@@ -31,20 +33,6 @@ SpokeKey KeyOf(const Spoke& spoke) {
 std::uint32_t OtherVertex(SpokeKey key) { return static_cast<std::uint32_t>(key >> 32); }
 HalfEdge HalfEdgeOf(SpokeKey key) { return static_cast<std::uint32_t>(key) >> 1; }
 bool RunSameWay(SpokeKey a, SpokeKey b) { return ((a ^ b) & 1u) == 0; }
-
-// The usual handful of spokes is sorted by insertion; a vertex with thousands needs better.
-void Sort(std::span<SpokeKey> spokes) {
-  if (spokes.size() > 24) {
-    std::sort(spokes.begin(), spokes.end());
-    return;
-  }
-  for (std::size_t i = 1; i < spokes.size(); ++i) {
-    const SpokeKey moving = spokes[i];
-    std::size_t k = i;
-    for (; k > 0 && moving < spokes[k - 1]; --k) spokes[k] = spokes[k - 1];
-    spokes[k] = moving;
-  }
-}
 
 class MateFinder {
  public:
@@ -154,7 +142,7 @@ class MateFinder {
   }
 
   void PairAtVertex(std::span<SpokeKey> spokes, EdgeMates& found) {
-    Sort(spokes);
+    SortFew(spokes);
     for (std::size_t begin = 0, end = 0; begin < spokes.size(); begin = end) {
       while (end < spokes.size() && OtherVertex(spokes[end]) == OtherVertex(spokes[begin])) ++end;
       RecordEdge(spokes.subspan(begin, end - begin), found);

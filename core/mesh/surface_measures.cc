@@ -59,4 +59,16 @@ SurfaceMeasures Measure(std::span<const Eigen::Vector3d> vertices,
           box.low,     box.high};
 }
 
+SurfaceMeasures Moved(const SurfaceMeasures& measures, const geometry::Similarity& similarity,
+                      std::span<const Eigen::Vector3d> vertices, const ThreadPool& pool) {
+  const double square = similarity.scale * similarity.scale;
+  const BoundingBox box = BoundingBoxOf(vertices, pool);
+  return {measures.volume * square * similarity.scale,
+          similarity.Apply(measures.centroid),
+          measures.area * square,
+          measures.least_triangle_area * square,
+          box.low,
+          box.high};
+}
+
 }  // namespace capfit::mesh

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/base/thread_pool.h"
+#include "core/geometry/similarity.h"
 #include "core/mesh/edge_mates.h"
 
 namespace capfit::mesh {
@@ -37,6 +38,12 @@ struct SurfaceMeasures {
 
   [[nodiscard]] double diagonal() const { return (box_max - box_min).norm(); }
 };
+
+// Those of the same surface once it was moved, turned and scaled to `vertices`. O(vertices).
+[[nodiscard]] SurfaceMeasures Moved(const SurfaceMeasures& measures,
+                                    const geometry::Similarity& similarity,
+                                    std::span<const Eigen::Vector3d> vertices,
+                                    const ThreadPool& pool);
 
 // Volume and centroid mean something where the triangles are closed. There is a vertex. O(n).
 [[nodiscard]] SurfaceMeasures Measure(std::span<const Eigen::Vector3d> vertices,

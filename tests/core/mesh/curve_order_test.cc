@@ -124,7 +124,7 @@ TEST(CurveOrderTest, AMeshInOrderStaysAsItIs) {
   const BodyMesh again = mesh.InCurveOrder(ThreadPool(1), NullObserver());
   EXPECT_EQ(mesh.vertices().data(), again.vertices().data()) << "copies share their arrays";
   const BodyMesh moved =
-      mesh.WithVertices({mesh.vertices().begin(), mesh.vertices().end()}, ThreadPool(1));
+      mesh.Transformed({}, {mesh.vertices().begin(), mesh.vertices().end()}, ThreadPool(1));
   EXPECT_EQ(mesh.triangles().data(), moved.triangles().data());
   EXPECT_FALSE(moved.frame().has_value()) << "its vertices may be anywhere";
   EXPECT_NEAR(mesh.volume(), moved.volume(), 1e-12 * mesh.volume());

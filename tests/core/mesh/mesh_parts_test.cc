@@ -110,6 +110,40 @@ TEST(OneSurfaceTest, PiecesTouchingVerticesAndUnusedOnesAreTold) {
   EXPECT_FALSE(is_one(tetrahedron(0, 1, 2, 3), 5));
   EXPECT_FALSE(is_one(both(tetrahedron(0, 2, 4, 6), tetrahedron(1, 3, 5, 7)), 8));
   EXPECT_FALSE(is_one(both(tetrahedron(0, 1, 2, 3), tetrahedron(3, 4, 5, 6)), 7));
+
+  // A ring with a handle, of as many triangles as twice its vertices; and with two tetrahedra that
+  // touch it in a vertex each, which have the count of one surface without handles.
+  std::vector<Triangle> torus;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const auto at = [](std::uint32_t row, std::uint32_t column) {
+        return 3 * (row % 3) + column % 3;
+      };
+      torus.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      torus.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+  }
+  EXPECT_TRUE(is_one(torus, 9));
+  EXPECT_FALSE(is_one(torus, 10));
+  const std::vector<Triangle> one_more = both(torus, tetrahedron(0, 9, 10, 11));
+  EXPECT_FALSE(is_one(one_more, 12));
+  EXPECT_FALSE(is_one(both(one_more, tetrahedron(1, 12, 13, 14)), 15));
+  // A barrel, and one whose ends are the same vertex.
+  const auto barrel = [](std::uint32_t top) {
+    std::vector<Triangle> triangles;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t low = 1 + k;
+      const std::uint32_t next_low = 1 + (k + 1) % 3;
+      triangles.push_back({0, next_low, low});
+      triangles.push_back({low, next_low, low + 3});
+      triangles.push_back({next_low, next_low + 3, low + 3});
+      triangles.push_back({low + 3, next_low + 3, top});
+    }
+    return triangles;
+  };
+  EXPECT_TRUE(is_one(barrel(7), 8));
+  EXPECT_FALSE(is_one(barrel(0), 7));
+  EXPECT_FALSE(is_one(barrel(0), 8));
 }
 
 // A wheel has a vertex with so many edges that they are sorted the other way.
