@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/base/chunk_sums.h"
@@ -20,20 +21,6 @@ constexpr std::size_t kManyVertices = 16'000;
 constexpr double kReach = 0.0085;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 constexpr std::size_t kTakenAtOnce = 1024;  // triangles
-
-// Whether every node can be reached from every other over the triangles.
-bool HangsTogether(const CoarseSurface& coarse) {
-  DisjointSets sets(coarse.points.size());
-  std::size_t pieces = sets.size();
-  for (const mesh::Triangle& t : coarse.triangles) {
-    for (const std::uint32_t n : {t[1], t[2]}) {
-      if (sets.Find(t[0]) == sets.Find(n)) continue;
-      sets.Join(t[0], n);
-      --pieces;
-    }
-  }
-  return pieces == 1;
-}
 
 // The vertices of one chunk, gathered around the first that no node has yet, over edges that lead
 // on along the curve by which they are sorted: those are at hand with the triangles of each vertex.
@@ -121,19 +108,23 @@ class Coarsener {
         first_triangle_(copy.mesh.first_triangle()),
         pool_(pool) {}
 
-  CoarseSurface Run() {
+  // Nothing where the nodes come apart.
+  std::optional<CoarseSurface> Run() {
     NumberNodes();
     ChooseTriangles();
     AbsorbLoneNodes();
     coarse_.points.assign(node_count_, Eigen::Vector3d::Zero());
     coarse_.triangles.resize(chosen_.size());
     coarse_.mates.assign(3 * chosen_.size(), mesh::kNoMate);
+    bool hangs_together = false;
     const std::size_t chunks = (chosen_.size() + kTakenAtOnce - 1) / kTakenAtOnce;
-    pool_.ForEach(1 + chunks, [this](std::size_t task) {
-      if (task == 0) return GatherVertices();
-      const std::size_t begin = (task - 1) * kTakenAtOnce;
+    pool_.ForEach(2 + chunks, [&](std::size_t task) {  // the longest first
+      if (task == 0) return void(hangs_together = HangsTogether());
+      if (task == 1) return GatherVertices();
+      const std::size_t begin = (task - 2) * kTakenAtOnce;
       TakeTriangles(begin, std::min(begin + kTakenAtOnce, chosen_.size()));
     });
+    if (!hangs_together) return std::nullopt;
     return std::move(coarse_);
   }
 
@@ -252,6 +243,21 @@ class Coarsener {
     return all;
   }
 
+  // Whether every node can be reached from every other over the triangles that are kept.
+  [[nodiscard]] bool HangsTogether() const {
+    DisjointSets sets(node_count_);
+    std::size_t pieces = sets.size();
+    for (const std::uint32_t i : chosen_) {
+      const mesh::Triangle t = NodesOf(i);
+      for (const std::uint32_t n : {t[1], t[2]}) {
+        if (sets.Find(t[0]) == sets.Find(n)) continue;
+        sets.Join(t[0], n);
+        --pieces;
+      }
+    }
+    return pieces == 1;
+  }
+
   void GatherVertices() {
     coarse_.first.assign(node_count_ + 2, 0);
     for (const std::uint32_t n : node_) ++coarse_.first[n + 2];
@@ -268,15 +274,17 @@ class Coarsener {
     }
   }
 
-  // Where the way over half-edge `h` of a kept triangle arrives, through triangles that shrank to
-  // the edge.
-  [[nodiscard]] mesh::HalfEdge Across(mesh::HalfEdge h) const {
+  // Where the way over half-edge `h` of a kept triangle, which ends at the node `end`, arrives:
+  // through triangles that shrank to the edge. All half-edges that it comes in over begin at `end`.
+  [[nodiscard]] mesh::HalfEdge Across(mesh::HalfEdge h, std::uint32_t end) const {
     for (mesh::HalfEdge at = mates_[h];;) {
-      if (place_[at / 3] != kNone) return 3 * place_[at / 3] + at % 3;
-      const mesh::HalfEdge before = mesh::PreviousInTriangle(at);
-      const std::uint32_t third = node_[mesh::StartOf(triangles_, before)];
-      const bool is_at_start = third == node_[mesh::StartOf(triangles_, at)];
-      at = mates_[is_at_start ? mesh::NextInTriangle(at) : before];
+      const std::uint32_t triangle = at / 3;
+      const std::uint32_t k = at - 3 * triangle;
+      if (place_[triangle] != kNone) return 3 * place_[triangle] + k;
+      const mesh::HalfEdge before = k == 0 ? at + 2 : at - 1;
+      const mesh::HalfEdge after = k == 2 ? at - 2 : at + 1;
+      const std::uint32_t third = node_[triangles_[triangle][before - 3 * triangle]];
+      at = mates_[third == end ? after : before];
     }
   }
 
@@ -287,7 +295,8 @@ class Coarsener {
       for (std::uint32_t k = 0; k < 3; ++k) {
         const auto here = static_cast<mesh::HalfEdge>(3 * i + k);
         if (coarse_.mates[here] != mesh::kNoMate) continue;
-        const mesh::HalfEdge mate = Across(3 * chosen_[i] + k);
+        const mesh::HalfEdge mate =
+            Across(3 * chosen_[i] + k, coarse_.triangles[i][k == 2 ? 0 : k + 1]);
         coarse_.mates[here] = mate;
         if (mate >= 3 * begin && mate < 3 * end) coarse_.mates[mate] = here;
       }
@@ -334,20 +343,12 @@ std::vector<double> NodeAreas(const CoarseSurface& coarse) {
 }  // namespace
 
 CoarseSurface MakeCoarseSurface(const WorkingCopy& copy, const ThreadPool& pool) {
-  CoarseSurface coarse;
-  bool hangs_together = false;
-  if (copy.points.size() >= kManyVertices) {
-    coarse = Coarsener(copy, pool).Run();
-    pool.ForEach(2, [&](std::size_t half) {
-      if (half == 0) hangs_together = HangsTogether(coarse);
-      if (half == 1) coarse.areas = NodeAreas(coarse);
-    });
-  }
+  std::optional<CoarseSurface> coarse;
+  if (copy.points.size() >= kManyVertices) coarse = Coarsener(copy, pool).Run();
   // Parts as thin as a node come off.
-  if (hangs_together) return coarse;
-  coarse = AsItIs(copy);
-  coarse.areas = NodeAreas(coarse);
-  return coarse;
+  if (!coarse) coarse = AsItIs(copy);
+  coarse->areas = NodeAreas(*coarse);
+  return *std::move(coarse);
 }
 
 }  // namespace capfit::body

@@ -45,21 +45,26 @@ double WordOf(const Landmark& landmark) {
   return landmark.method == LandmarkMethod::kCaller ? 1.0 : 0.0;
 }
 
-bool IsNearOutline(const SectionLoop& loop, const Eigen::Vector3d& p, double tolerance) {
+double SquaredMiss(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d step = b - a;
+  const double along = (p - a).dot(step);
+  const double length_squared = step.squaredNorm();
+  if (along >= length_squared) return (p - b).squaredNorm();
+  const double miss = (p - a).squaredNorm();
+  return along > 0.0 ? miss - along * along / length_squared : miss;
+}
+
+// Whether the outline passes near the point. `at`: where it last did; mirror images of points that
+// follow each other meet it ever further back.
+bool IsNearOutline(const SectionLoop& loop, const Eigen::Vector3d& p, double tolerance,
+                   std::size_t& at) {
   const std::size_t count = loop.outline.size();
-  const double squared = tolerance * tolerance;
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d& a = loop.outline[i];
-    const Eigen::Vector3d step = loop.outline[(i + 1) % count] - a;
-    const double along = (p - a).dot(step);
-    const double length_squared = step.squaredNorm();
-    double miss = (p - a).squaredNorm();
-    if (along >= length_squared) {
-      miss = (p - a - step).squaredNorm();
-    } else if (along > 0.0) {
-      miss -= along * along / length_squared;
+    const std::size_t before = at == 0 ? count - 1 : at - 1;
+    if (SquaredMiss(p, loop.outline[before], loop.outline[at]) <= tolerance * tolerance) {
+      return true;
     }
-    if (miss <= squared) return true;
+    at = before;
   }
   return false;
 }
@@ -74,11 +79,13 @@ Mirroring HowItMirrors(const std::vector<SectionLoop>& loops, double tolerance) 
   Mirroring sum;
   for (const SectionLoop& loop : loops) {
     const std::size_t step = std::max<std::size_t>(1, loop.outline.size() / kDirections);
+    std::vector<std::size_t> at(loops.size(), 0);
     for (std::size_t i = 0; i < loop.outline.size(); i += step) {
       const Eigen::Vector3d image = Mirrored(loop.outline[i]);
-      const bool is_met = std::any_of(loops.begin(), loops.end(), [&](const SectionLoop& other) {
-        return IsNearOutline(other, image, tolerance);
-      });
+      bool is_met = false;
+      for (std::size_t k = 0; k < loops.size() && !is_met; ++k) {
+        is_met = IsNearOutline(loops[k], image, tolerance, at[k]);
+      }
       const double share =
           loop.girth * static_cast<double>(step) / static_cast<double>(loop.outline.size());
       sum.length += share;

@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-6;
 
 }  // namespace
 
-NearestVertex::NearestVertex(std::span<const Eigen::Vector3d> vertices) : vertices_(vertices) {
+NearestVertex::NearestVertex(std::span<const Eigen::Vector3d> vertices) {
   Eigen::Vector3d high = vertices[0];
   low_ = vertices[0];
   for (const Eigen::Vector3d& v : vertices) {
@@ -39,9 +39,12 @@ NearestVertex::NearestVertex(std::span<const Eigen::Vector3d> vertices) : vertic
   }
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   order_.resize(vertices.size());
+  vertices_.resize(vertices.size());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    order_[next[cell_of[v]]++] = static_cast<std::uint32_t>(v);
+    const std::uint32_t place = next[cell_of[v]]++;
+    order_[place] = static_cast<std::uint32_t>(v);
+    vertices_[place] = vertices[v];
   }
 }
 
@@ -73,7 +76,7 @@ std::uint32_t NearestVertex::At(const Eigen::Vector3d& point) const {
   const auto look = [&](const Cell& cell) {
     const std::size_t index = IndexOf(cell);
     for (std::uint32_t i = begin_[index]; i < begin_[index + 1]; ++i) {
-      const double squared = (vertices_[order_[i]] - point).squaredNorm();
+      const double squared = (vertices_[i] - point).squaredNorm();
       if (squared > best_squared || (squared == best_squared && order_[i] > best)) continue;
       best_squared = squared;
       best = order_[i];

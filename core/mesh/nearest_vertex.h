@@ -29,12 +29,12 @@ class NearestVertex {
   // How far the point lies beside a layer of cells along one axis, squared; 0 within.
   [[nodiscard]] double SquaredBeside(const Eigen::Vector3d& point, int axis, int cell) const;
 
-  std::span<const Eigen::Vector3d> vertices_;
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
   double cell_ = 1.0;
   Cell size_ = {1, 1, 1};
   std::vector<std::uint32_t> begin_;  // of each cell in order_, and the end
   std::vector<std::uint32_t> order_;
+  std::vector<Eigen::Vector3d> vertices_;  // in this order
 };
 
 }  // namespace capfit::mesh
