@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "core/body/anatomy.h"
 #include "core/geometry/similarity.h"
 #include "core/mesh/body_mesh.h"
+#include "core/mesh/plane_cutter.h"
 
 namespace capfit::body {
 
@@ -72,6 +74,8 @@ struct Body {
   std::array<std::optional<MedialCurve>, kChainCount> chains;  // by Part; nothing where missing
   std::vector<Warning> warnings;
   std::optional<ShellSurface> shells = {};  // nothing where `mesh` is the surface that came
+  // Of `mesh`, for who cuts it next; nothing where nobody did before.
+  std::shared_ptr<const mesh::PlaneCutter> cutter = {};
 
   // The shells, or the mesh itself.
   [[nodiscard]] EnclosedSurface enclosed() const& {

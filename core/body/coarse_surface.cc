@@ -318,7 +318,7 @@ class Coarsener {
 
 CoarseSurface AsItIs(const WorkingCopy& copy) {
   CoarseSurface same;
-  same.points = copy.points;
+  same.points.assign(copy.points.begin(), copy.points.end());
   same.triangles.assign(copy.mesh.triangles().begin(), copy.mesh.triangles().end());
   same.mates.assign(copy.mesh.mates().begin(), copy.mesh.mates().end());
   same.vertices.resize(copy.points.size());

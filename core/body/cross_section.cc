@@ -59,7 +59,7 @@ double SectionLoop::Max(const Eigen::Vector3d& direction) const {
 double SectionLoop::Min(const Eigen::Vector3d& direction) const { return -Max(-direction); }
 
 std::vector<SectionLoop> CutSurface::Cut(const CutPlane& plane) const {
-  std::vector<SectionLoop> loops = LoopsOf(cutter_.Cut(plane.origin, plane.normal));
+  std::vector<SectionLoop> loops = LoopsOf(cutter_->Cut(plane.origin, plane.normal));
   for (SectionLoop& loop : loops) Measure(loop, plane.normal);
   std::stable_sort(loops.begin(), loops.end(), [](const SectionLoop& a, const SectionLoop& b) {
     return std::abs(a.area) > std::abs(b.area);

@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_BODY_CROSS_SECTION_H_
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,7 +41,7 @@ class CutSurface {
   // As mesh::PlaneCutter.
   CutSurface(std::span<const Eigen::Vector3d> points, std::span<const mesh::Triangle> triangles,
              const ThreadPool& pool = ThreadPool(1))
-      : cutter_(points, triangles, pool) {}
+      : cutter_(std::make_shared<const mesh::PlaneCutter>(points, triangles, pool)) {}
 
   // All loops of the section, the largest area first. Outlines run counter-clockwise as seen
   // against the normal.
@@ -55,10 +56,11 @@ class CutSurface {
   [[nodiscard]] std::optional<SectionLoop> CutNearest(const CutPlane& plane,
                                                       double min_girth) const;
 
-  [[nodiscard]] std::span<const Eigen::Vector3d> points() const { return cutter_.points(); }
+  [[nodiscard]] std::span<const Eigen::Vector3d> points() const { return cutter_->points(); }
+  [[nodiscard]] std::shared_ptr<const mesh::PlaneCutter> cutter() const { return cutter_; }
 
  private:
-  mesh::PlaneCutter cutter_;
+  std::shared_ptr<const mesh::PlaneCutter> cutter_;
 };
 
 }  // namespace capfit::body

@@ -54,6 +54,7 @@ class Anatomist {
     shape_.mesh_triangles = body.mesh.triangles();
     shape_.first_triangle = body.mesh.first_triangle();
     shape_.mesh_surface = &mesh_surface_;
+    body.cutter = mesh_surface_.cutter();
     shape_.coarse = &found.coarse;
     shape_.points = found.coarse.points;
     shape_.triangles = found.coarse.triangles;

@@ -3,7 +3,7 @@
 #define CAPFIT_CORE_BODY_WORKING_COPY_H_
 
 #include <Eigen/Core>
-#include <vector>
+#include <span>
 
 #include "core/base/fit_observer.h"
 #include "core/base/thread_pool.h"
@@ -17,7 +17,7 @@ namespace capfit::body {
 struct WorkingCopy {
   mesh::BodyMesh mesh;  // in the order of a curve, in the caller's frame
   mesh::PrincipalFrame frame;
-  std::vector<Eigen::Vector3d> points;  // the vertices in the frame, snapped
+  std::span<const Eigen::Vector3d> points;  // the vertices in the frame, snapped: the mesh's own
 };
 
 // O(vertices + triangles). Not whole where the observer cancels.
@@ -26,7 +26,7 @@ struct WorkingCopy {
   WorkingCopy copy = {mesh.InCurveOrder(pool, observer), {}, {}};
   if (!copy.mesh.frame()) return copy;  // cancelled
   copy.frame = *copy.mesh.frame();
-  copy.points = mesh::SnappedPoints(copy.mesh.vertices(), copy.frame, pool);
+  copy.points = copy.mesh.snapped();
   return copy;
 }
 

@@ -10,6 +10,15 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
+std::shared_ptr<const Points> InOrder(std::span<const Eigen::Vector3d> points,
+                                      const CurveOrder& order, const ThreadPool& pool) {
+  auto ordered = std::make_shared<Points>(order.source.size());
+  pool.ForChunks(ordered->size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) (*ordered)[i] = points[order.source[i]];
+  });
+  return ordered;
+}
+
 }  // namespace
 
 BodyMesh::BodyMesh(Points vertices, std::vector<Triangle> triangles,
@@ -22,16 +31,15 @@ BodyMesh::BodyMesh(Points vertices, std::vector<Triangle> triangles,
   vertices_ = std::make_shared<const Points>(std::move(vertices));
 }
 
-BodyMesh::BodyMesh(std::span<const Eigen::Vector3d> vertices, CurveOrder order,
+BodyMesh::BodyMesh(std::span<const Eigen::Vector3d> vertices,
+                   std::span<const Eigen::Vector3d> snapped, CurveOrder order,
                    RawVector<HalfEdge> mates, std::vector<std::int32_t> vertex_of_source,
                    const SurfaceMeasures& measures, const PrincipalFrame& frame,
                    const ThreadPool& pool)
-    : measures_(measures), frame_(frame) {
-  Points ordered(order.source.size());
-  pool.ForChunks(ordered.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) ordered[i] = vertices[order.source[i]];
-  });
-  vertices_ = std::make_shared<const Points>(std::move(ordered));
+    : vertices_(InOrder(vertices, order, pool)),
+      measures_(measures),
+      frame_(frame),
+      snapped_(InOrder(snapped, order, pool)) {
   connections_ = std::make_shared<const Connections>(
       Connections{std::move(order.triangles), std::move(mates), std::move(order.first_triangle),
                   std::move(vertex_of_source)});
@@ -56,8 +64,8 @@ BodyMesh BodyMesh::InCurveOrder(const ThreadPool& pool, const FitObserver& obser
   if (frame_) return *this;
   const PrincipalFrame frame = FindPrincipalFrame(*vertices_, measures_, pool);
   if (observer.IsCancelled()) return *this;
-  CurveOrder order = OrderAlongCurve(SnappedPoints(*vertices_, frame, pool),
-                                     connections_->triangles, pool, observer);
+  const Points snapped = SnappedPoints(*vertices_, frame, pool);
+  CurveOrder order = OrderAlongCurve(snapped, connections_->triangles, pool, observer);
   if (observer.IsCancelled()) return *this;
   EdgeMates mates =
       FindEdgeMates(order.triangles, vertices_->size(), pool, observer, order.first_triangle);
@@ -66,8 +74,8 @@ BodyMesh BodyMesh::InCurveOrder(const ThreadPool& pool, const FitObserver& obser
   for (std::int32_t& v : vertex_of_source) {
     if (v >= 0) v = static_cast<std::int32_t>(order.rank[v]);
   }
-  return BodyMesh(*vertices_, std::move(order), std::move(mates.mate), std::move(vertex_of_source),
-                  measures_, frame, pool);
+  return BodyMesh(*vertices_, snapped, std::move(order), std::move(mates.mate),
+                  std::move(vertex_of_source), measures_, frame, pool);
 }
 
 }  // namespace capfit::mesh

@@ -33,11 +33,11 @@ class BodyMesh {
            std::vector<std::int32_t> vertex_of_source, RawVector<HalfEdge> mates = {},
            const ThreadPool& pool = ThreadPool(1));
 
-  // In the order of a curve, of a surface with these measures in this frame. `vertices` in the
-  // order in which they came, all else in that of the curve.
-  BodyMesh(std::span<const Eigen::Vector3d> vertices, CurveOrder order, RawVector<HalfEdge> mates,
-           std::vector<std::int32_t> vertex_of_source, const SurfaceMeasures& measures,
-           const PrincipalFrame& frame, const ThreadPool& pool);
+  // In the order of a curve, of a surface with these measures in this frame. `vertices`, and the
+  // same as SnappedPoints has them, in the order in which they came, all else in that of the curve.
+  BodyMesh(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3d> snapped,
+           CurveOrder order, RawVector<HalfEdge> mates, std::vector<std::int32_t> vertex_of_source,
+           const SurfaceMeasures& measures, const PrincipalFrame& frame, const ThreadPool& pool);
 
   [[nodiscard]] std::span<const Eigen::Vector3d> vertices() const& { return *vertices_; }
   std::span<const Eigen::Vector3d> vertices() && = delete;
@@ -65,6 +65,9 @@ class BodyMesh {
   [[nodiscard]] double diagonal() const { return measures_.diagonal(); }
   // By which it was put in the order of a curve; nothing where it was not, or was moved since.
   [[nodiscard]] const std::optional<PrincipalFrame>& frame() const { return frame_; }
+  // The vertices in that frame, snapped (see principal_frame.h).
+  [[nodiscard]] std::span<const Eigen::Vector3d> snapped() const& { return *snapped_; }
+  std::span<const Eigen::Vector3d> snapped() && = delete;
 
   // The same mesh in another frame.
   [[nodiscard]] BodyMesh Transformed(const geometry::Similarity& similarity) const;
@@ -92,6 +95,7 @@ class BodyMesh {
   std::shared_ptr<const std::vector<Eigen::Vector3d>> vertices_;
   SurfaceMeasures measures_;
   std::optional<PrincipalFrame> frame_;
+  std::shared_ptr<const std::vector<Eigen::Vector3d>> snapped_;
 };
 
 }  // namespace capfit::mesh

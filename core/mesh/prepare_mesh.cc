@@ -119,16 +119,16 @@ class MeshMender {
     const double flat_area = kFlatShare * diagonal_ * diagonal_;
     if (measures.least_triangle_area <= flat_area && HasFlat(triangles)) return std::nullopt;
     const PrincipalFrame frame = FindPrincipalFrame(positions_, measures, pool_);
-    CurveOrder order =
-        OrderAlongCurve(SnappedPoints(positions_, frame, pool_), triangles, pool_, observer_);
+    const std::vector<Eigen::Vector3d> snapped = SnappedPoints(positions_, frame, pool_);
+    CurveOrder order = OrderAlongCurve(snapped, triangles, pool_, observer_);
     if (observer_.IsCancelled()) return std::nullopt;
     EdgeMates mates =
         FindEdgeMates(order.triangles, positions_.size(), pool_, observer_, order.first_triangle);
     if (mates.mate.empty() || !mates.IsClosedAndOriented()) return std::nullopt;
     if (!IsOneSurface(order.triangles, mates.mate, positions_.size(), pool_)) return std::nullopt;
     std::vector<std::int32_t> places(order.rank.begin(), order.rank.end());
-    return Finish(BodyMesh(positions_, std::move(order), std::move(mates.mate), std::move(places),
-                           measures, frame, pool_));
+    return Finish(BodyMesh(positions_, snapped, std::move(order), std::move(mates.mate),
+                           std::move(places), measures, frame, pool_));
   }
 
   // By Euler's formula: a closed surface without handles has two vertices more than half as many as

@@ -38,7 +38,7 @@ bool TakesIn(body::Part chain, body::Segment segment) {
 
 std::optional<std::vector<Eigen::Vector2d>> PartCutter::Cut(
     body::Part chain, const geometry::PlaneFrame& plane) const {
-  return PartOutline(CutMesh(mesh_, plane), [&](std::uint32_t vertex) {
+  return PartOutline(CutMesh(*mesh_, plane), [&](std::uint32_t vertex) {
     return TakesIn(chain, body_.vertex_segments[vertex]);
   });
 }

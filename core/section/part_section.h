@@ -3,6 +3,7 @@
 #define CAPFIT_CORE_SECTION_PART_SECTION_H_
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,9 +22,12 @@ namespace capfit::section {
 // Cuts the parts of one body, which must outlive it.
 class PartCutter {
  public:
-  // O(triangles).
+  // O(triangles) where the body has no cutter.
   PartCutter(const body::Body& body, const ThreadPool& pool)
-      : body_(body), mesh_(body.mesh.vertices(), body.mesh.triangles(), pool) {}
+      : body_(body),
+        mesh_(body.cutter ? body.cutter
+                          : std::make_shared<const mesh::PlaneCutter>(
+                                body.mesh.vertices(), body.mesh.triangles(), pool)) {}
 
   // The chain's own outline in the plane, in `plane`'s coordinates, counter-clockwise, as cut (not
   // resampled). Nothing where the plane misses the chain.
@@ -34,7 +38,7 @@ class PartCutter {
 
  private:
   const body::Body& body_;
-  mesh::PlaneCutter mesh_;
+  std::shared_ptr<const mesh::PlaneCutter> mesh_;
 };
 
 }  // namespace capfit::section
