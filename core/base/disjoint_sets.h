@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace capfit {
 
 // Where each has a link to another of its set, the last to itself: follows them to that one, and
 // shortens them on the way.
-[[nodiscard]] inline std::uint32_t FollowLinks(std::vector<std::uint32_t>& link, std::uint32_t i) {
+[[nodiscard]] inline std::uint32_t FollowLinks(std::span<std::uint32_t> link, std::uint32_t i) {
   while (link[i] != i) i = link[i] = link[link[i]];
   return i;
 }

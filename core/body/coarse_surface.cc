@@ -328,13 +328,18 @@ CoarseSurface AsItIs(const WorkingCopy& copy) {
   return same;
 }
 
-std::vector<double> NodeAreas(const CoarseSurface& coarse) {
+std::vector<double> NodeAreas(const CoarseSurface& coarse, const ThreadPool& pool) {
+  std::vector<double> thirds(coarse.triangles.size());
+  pool.ForChunks(thirds.size(), kTakenAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      thirds[i] = mesh::Area(coarse.points, coarse.triangles[i]) / 3.0;
+    }
+  });
   std::vector<double> areas(coarse.points.size(), 0.0);
   double area = 0.0;
-  for (const mesh::Triangle& t : coarse.triangles) {
-    const double third = mesh::Area(coarse.points, t) / 3.0;
-    area += 3.0 * third;
-    for (const std::uint32_t n : t) areas[n] += third;
+  for (std::size_t i = 0; i < thirds.size(); ++i) {
+    area += 3.0 * thirds[i];
+    for (const std::uint32_t n : coarse.triangles[i]) areas[n] += thirds[i];
   }
   for (double& a : areas) a /= area;
   return areas;
@@ -347,7 +352,7 @@ CoarseSurface MakeCoarseSurface(const WorkingCopy& copy, const ThreadPool& pool)
   if (copy.points.size() >= kManyVertices) coarse = Coarsener(copy, pool).Run();
   // Parts as thin as a node come off.
   if (!coarse) coarse = AsItIs(copy);
-  coarse->areas = NodeAreas(*coarse);
+  coarse->areas = NodeAreas(*coarse, pool);
   return *std::move(coarse);
 }
 

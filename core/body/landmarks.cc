@@ -215,6 +215,26 @@ double UnfoldedStature(const Shape& shape, const Landmarks& landmarks) {
   return shape.stature_m + std::max(0.0, unfolded - kClearlyFolded * shape.stature_m);
 }
 
+void FindArmJoints(const Shape& shape, Landmarks& landmarks) {
+  shape.pool->ForEach(2, [&](std::size_t side) {
+    if (shape.arms[side]) FindShoulder(shape, static_cast<int>(side), landmarks);
+  });
+  if (shape.observer->IsCancelled()) return;  // what was found may be none
+  MatchShoulders(shape, landmarks);
+  for (const int side : {kLeft, kRight}) {
+    if (shape.arms[side]) FindElbow(shape, side, landmarks);
+  }
+}
+
+void FindLegJoints(Shape& shape, Landmarks& landmarks) {
+  if (shape.legs[kLeft] && shape.legs[kRight]) FindCrotch(shape, landmarks);
+  if (shape.observer->IsCancelled()) return;
+  FindTrunkBase(shape, landmarks);
+  for (const int side : {kLeft, kRight}) {
+    if (shape.legs[side]) FindThigh(shape, side, landmarks);
+  }
+}
+
 // Everything that scales with the stature.
 absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
                      std::vector<Warning>& warnings) {
@@ -227,20 +247,10 @@ absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
   FindEnds(shape, landmarks);
   WarnOfMissingEnds(shape, warnings);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
-  shape.pool->ForEach(3, [&](std::size_t place) {
-    const int side = static_cast<int>(place);
-    if (place < 2 && shape.arms[place]) FindShoulder(shape, side, landmarks);
-    if (place == 2 && shape.legs[kLeft] && shape.legs[kRight]) FindCrotch(shape, landmarks);
+  shape.pool->ForEach(2, [&](std::size_t place) {  // neither needs what the other finds
+    if (place == 0) FindArmJoints(shape, landmarks);
+    if (place == 1) FindLegJoints(shape, landmarks);
   });
-  CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
-  FindTrunkBase(shape, landmarks);
-  for (const int side : {kLeft, kRight}) {
-    if (shape.legs[side]) FindThigh(shape, side, landmarks);
-  }
-  MatchShoulders(shape, landmarks);
-  for (const int side : {kLeft, kRight}) {
-    if (shape.arms[side]) FindElbow(shape, side, landmarks);
-  }
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
   shape.pool->ForEach(2, [&](std::size_t place) {  // neither needs what the other finds
     if (place == 0) FindTrunkSections(shape, landmarks);

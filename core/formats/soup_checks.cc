@@ -141,8 +141,13 @@ std::string TooManyTriangles(const MeshLimits& limits) {
 absl::Status CheckSoup(const PolygonSoup& soup, const MeshLimits& limits, const ThreadPool& pool) {
   CAPFIT_RETURN_IF_ERROR(CheckLimits(soup, limits));
   CAPFIT_RETURN_IF_ERROR(CheckFaceSizes(soup, limits));
-  CAPFIT_RETURN_IF_ERROR(CheckPositions(soup, pool));
-  return CheckIndices(soup, pool);
+  absl::Status positions;
+  absl::Status indices;
+  pool.ForEach(2, [&](std::size_t half) {
+    if (half == 0) positions = CheckPositions(soup, pool);
+    if (half == 1) indices = CheckIndices(soup, pool);
+  });
+  return positions.ok() ? indices : positions;
 }
 
 }  // namespace capfit::formats

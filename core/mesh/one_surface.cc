@@ -7,6 +7,7 @@
 
 #include "core/base/chunk_sums.h"
 #include "core/base/disjoint_sets.h"
+#include "core/base/raw_vector.h"
 
 namespace capfit::mesh {
 namespace {
@@ -63,7 +64,7 @@ struct Neighbours {
 // Whether steps over edges lead from each triangle to every other. First each has a link to the
 // lowest beside it, or to itself where there is no lower one: that leaves few edges between pieces.
 bool HangsTogether(std::span<const HalfEdge> mates, const ThreadPool& pool) {
-  std::vector<std::uint32_t> link(mates.size() / 3);
+  RawVector<std::uint32_t> link(mates.size() / 3);
   pool.ForChunks(link.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const HalfEdge lowest = std::min({mates[3 * t], mates[3 * t + 1], mates[3 * t + 2]});
@@ -75,20 +76,20 @@ bool HangsTogether(std::span<const HalfEdge> mates, const ThreadPool& pool) {
     if (link[t] == t) ++pieces;
     link[t] = link[link[t]];  // links lead down, so the lower triangle is at its end already
   }
-  std::vector<std::vector<Neighbours>> borders((link.size() + kMeshChunk - 1) / kMeshChunk);
+  std::vector<RawVector<Neighbours>> borders((link.size() + kMeshChunk - 1) / kMeshChunk);
   pool.ForChunks(link.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbours>& own = borders[begin / kMeshChunk];
+    RawVector<Neighbours>& own = borders[begin / kMeshChunk];
     own.resize(3 * (end - begin) + 1);
-    std::size_t count = 0;
+    std::size_t found = 0;
     for (std::size_t t = begin; t < end; ++t) {
       for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
-        own[count] = {link[t], link[mates[h] / 3]};
-        count += own[count].b < own[count].a ? 1 : 0;
+        own[found] = {link[t], link[mates[h] / 3]};
+        found += own[found].b < own[found].a ? 1 : 0;
       }
     }
-    own.resize(count);
+    own.resize(found);
   });
-  for (const std::vector<Neighbours>& some : borders) {
+  for (const RawVector<Neighbours>& some : borders) {
     for (const Neighbours& border : some) {
       const std::uint32_t a = FollowLinks(link, border.a);
       const std::uint32_t b = FollowLinks(link, border.b);
