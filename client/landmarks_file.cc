@@ -37,7 +37,11 @@ absl::StatusOr<std::map<body::LandmarkId, Eigen::Vector3d>> ParseLandmarks(
   for (const auto& [name, value] : landmarks.items()) {
     const std::string field = absl::StrCat("landmarks.", name);
     const std::optional<body::LandmarkId> id = body::LandmarkFromName(name);
-    if (!id) return InvalidField(ErrorReason::kMalformedFile, field, "is no landmark's name");
+    if (!id) {
+      return InvalidField(
+          ErrorReason::kMalformedFile, field,
+          absl::StrCat("is no landmark's name, must be one of ", body::LandmarkNames()));
+    }
     CAPFIT_ASSIGN_OR_RETURN(positions[*id], PositionOf(value, field));
   }
   return positions;

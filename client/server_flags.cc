@@ -105,7 +105,12 @@ CLI::Option* AddTimeoutFlag(CLI::App& command, double& seconds, const std::strin
 absl::Status WithServerAdvice(const absl::Status& status, const std::string& server,
                               const std::string& without) {
   // An error with a reason comes from a server of ours.
-  if (!absl::IsUnavailable(status) || ReasonOf(status).has_value()) return status;
+  if (ReasonOf(status).has_value()) return status;
+  if (absl::IsDeadlineExceeded(status)) {
+    return absl::DeadlineExceededError(
+        absl::StrCat("no answer from ", server, " within the time that --timeout allows"));
+  }
+  if (!absl::IsUnavailable(status)) return status;
   const std::string another =
       without.empty() ? "" : absl::StrCat("; ", without, " fits without one");
   return absl::UnavailableError(

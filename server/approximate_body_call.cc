@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "proto/wire/enum_conversion.h"
+#include "server/raw_message.h"
 
 namespace capfit::server {
 
@@ -26,7 +27,7 @@ void ApproximateBodyCall::Begin() {
   } else {
     SetAlarm(kRefusedReadSeconds, &ApproximateBodyCall::Refuse);
   }
-  StartRead(&request_);
+  StartRead(&request_bytes_);
 }
 
 void ApproximateBodyCall::OnReadDone(bool ok) {
@@ -49,7 +50,7 @@ void ApproximateBodyCall::TakeMessage() {
     return End(InvalidField(ErrorReason::kCountMismatch, "chunk",
                             "came after all that the header declares had arrived"));
   }
-  const absl::Status status = job_.Add(request_);
+  const absl::Status status = AddMessage();
   if (!status.ok()) return End(status);
   if (job_.is_complete()) {
     SubmitJob();
@@ -58,13 +59,20 @@ void ApproximateBodyCall::TakeMessage() {
     AwaitMessage();
   }
   // Also after that: the end of the upload, or a message too many.
-  StartRead(&request_);
+  StartRead(&request_bytes_);
+}
+
+absl::Status ApproximateBodyCall::AddMessage() {
+  v1::ApproximateBodyRequest request;
+  CAPFIT_RETURN_IF_ERROR(
+      Decode(request_bytes_, absl::StrCat("message ", ++message_number_, " of the upload"), request));
+  return job_.Add(request);
 }
 
 void ApproximateBodyCall::SubmitJob() {
   DropAlarm();
   is_submitted_ = true;
-  request_.Clear();
+  request_bytes_.Clear();
   job_is_running_ = true;
   const absl::Status status = job_.Enqueue([self = shared_from_this()] { self->RunJob(); });
   if (status.ok()) return;
@@ -114,7 +122,7 @@ void ApproximateBodyCall::Pump() {
   if (!job_.is_stopped() && NextResponse()) {
     is_writing_ = true;
     SetAlarm(services_.config.read_idle_seconds, &ApproximateBodyCall::ReaderIsLate);
-    StartWrite(&response_);
+    StartWrite(&response_bytes_);
     return;
   }
   if (job_is_running_ || (!final_status_ && !results_)) return;
@@ -129,9 +137,12 @@ bool ApproximateBodyCall::NextResponse() {
   if (progress_) {
     response_.Clear();
     *response_.mutable_progress() = *std::exchange(progress_, std::nullopt);
-    return true;
+  } else if (!results_ || !results_->Next(response_)) {
+    return false;
   }
-  return results_ && results_->Next(response_);
+  const absl::Status status = Encode(response_, response_bytes_);
+  if (!status.ok()) final_status_ = status;
+  return status.ok();
 }
 
 void ApproximateBodyCall::End(const absl::Status& status) {

@@ -2,6 +2,7 @@
 #ifndef CAPFIT_SERVER_APPROXIMATE_BODY_CALL_H_
 #define CAPFIT_SERVER_APPROXIMATE_BODY_CALL_H_
 
+#include <grpcpp/support/byte_buffer.h>
 #include <grpcpp/support/server_callback.h>
 
 #include <memory>
@@ -24,7 +25,7 @@ inline constexpr double kRefusedReadSeconds = 0.5;
 //
 // Lives until OnDone and until the job on the executor is over, whichever comes last.
 class ApproximateBodyCall final
-    : public grpc::ServerBidiReactor<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>,
+    : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
       public FitObserver,
       public std::enable_shared_from_this<ApproximateBodyCall> {
  public:
@@ -50,6 +51,7 @@ class ApproximateBodyCall final
   void RunJob();
   // All below with mutex_ held.
   void TakeMessage();
+  [[nodiscard]] absl::Status AddMessage();
   void SubmitJob();
   // Sends what is next, if nothing is under way.
   void Pump();
@@ -70,7 +72,8 @@ class ApproximateBodyCall final
   std::shared_ptr<ApproximateBodyCall> self_;  // until OnDone
 
   std::mutex mutex_;
-  v1::ApproximateBodyRequest request_;  // gRPC's while a read is under way
+  grpc::ByteBuffer request_bytes_;  // gRPC's while a read is under way
+  std::int64_t message_number_ = 0;
   Watchdog::Clock::time_point upload_begin_ = Watchdog::Clock::now();
   Watchdog::Alarm alarm_;
   std::uint64_t alarm_number_ = 0;  // of the last alarm that was set or dropped
@@ -82,7 +85,8 @@ class ApproximateBodyCall final
   std::optional<ResponseSequence> results_;
   absl::Status refusal_;  // known from the begin, told after the first message
   std::optional<absl::Status> final_status_;
-  v1::ApproximateBodyResponse response_;  // the one being written
+  v1::ApproximateBodyResponse response_;
+  grpc::ByteBuffer response_bytes_;  // being written
 };
 
 }  // namespace capfit::server

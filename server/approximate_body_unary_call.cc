@@ -4,28 +4,29 @@
 
 #include "core/base/status.h"
 #include "proto/wire/result_conversion.h"
+#include "server/raw_message.h"
 
 namespace capfit::server {
 
 ApproximateBodyUnaryCall* ApproximateBodyUnaryCall::Start(
-    grpc::CallbackServerContext* context, const v1::ApproximateBodyUnaryRequest* request,
-    v1::ApproximateBodyUnaryResponse* response, const CallServices& services,
-    const std::string& token_name) {
+    grpc::CallbackServerContext* context, grpc::ByteBuffer& request, grpc::ByteBuffer& response,
+    const CallServices& services, const std::string& token_name) {
   const auto call =
-      std::make_shared<ApproximateBodyUnaryCall>(context, request, response, services, token_name);
+      std::make_shared<ApproximateBodyUnaryCall>(context, response, services, token_name);
   call->self_ = call;
-  call->Begin();
+  call->Begin(request);
   return call.get();
 }
 
-void ApproximateBodyUnaryCall::Begin() {
-  const absl::Status status = Submit();
+void ApproximateBodyUnaryCall::Begin(grpc::ByteBuffer& request) {
+  const absl::Status status = Submit(request);
   if (!status.ok()) End(status);
   if (job_.is_stopped()) job_.RunNowIfWaiting();
 }
 
-absl::Status ApproximateBodyUnaryCall::Submit() {
+absl::Status ApproximateBodyUnaryCall::Submit(grpc::ByteBuffer& request) {
   CAPFIT_RETURN_IF_ERROR(job_.Admit());
+  CAPFIT_RETURN_IF_ERROR(Decode(request, "the request", request_));
   CAPFIT_RETURN_IF_ERROR(job_.Expect(request_));
   return job_.Enqueue([self = shared_from_this()] { self->End(self->RunJob()); });
 }
@@ -33,8 +34,8 @@ absl::Status ApproximateBodyUnaryCall::Submit() {
 absl::Status ApproximateBodyUnaryCall::RunJob() {
   CAPFIT_RETURN_IF_ERROR(job_.AddWhole(request_));
   CAPFIT_ASSIGN_OR_RETURN(const pipeline::FitResult result, job_.Run(*this));
-  response_ = wire::ResultToWire(result, job_.request_id());
-  job_.HoldAnswer(static_cast<std::int64_t>(request_.ByteSizeLong() + response_.ByteSizeLong()));
+  CAPFIT_RETURN_IF_ERROR(Encode(wire::ResultToWire(result, job_.request_id()), response_));
+  job_.HoldAnswer(static_cast<std::int64_t>(request_.ByteSizeLong() + response_.Length()));
   return job_.is_stopped() ? job_.GaveUp() : absl::OkStatus();
 }
 

@@ -2,6 +2,7 @@
 #ifndef CAPFIT_SERVER_APPROXIMATE_BODY_UNARY_CALL_H_
 #define CAPFIT_SERVER_APPROXIMATE_BODY_UNARY_CALL_H_
 
+#include <grpcpp/support/byte_buffer.h>
 #include <grpcpp/support/server_callback.h>
 
 #include <memory>
@@ -18,23 +19,20 @@ class ApproximateBodyUnaryCall final
       public FitObserver,
       public std::enable_shared_from_this<ApproximateBodyUnaryCall> {
  public:
-  // Begins a call; it owns itself. Request and response live until it is finished.
+  // Begins a call; it owns itself. Request and response live until it is finished; the request's
+  // bytes are let go of once they are read.
   static ApproximateBodyUnaryCall* Start(grpc::CallbackServerContext* context,
-                                         const v1::ApproximateBodyUnaryRequest* request,
-                                         v1::ApproximateBodyUnaryResponse* response,
+                                         grpc::ByteBuffer& request, grpc::ByteBuffer& response,
                                          const CallServices& services,
                                          const std::string& token_name);
 
   // For Start only.
-  ApproximateBodyUnaryCall(grpc::CallbackServerContext* context,
-                           const v1::ApproximateBodyUnaryRequest* request,
-                           v1::ApproximateBodyUnaryResponse* response, const CallServices& services,
-                           const std::string& token_name)
+  ApproximateBodyUnaryCall(grpc::CallbackServerContext* context, grpc::ByteBuffer& response,
+                           const CallServices& services, const std::string& token_name)
       : services_(services),
         context_(*context),
         job_(services, *context, token_name),
-        request_(*request),
-        response_(*response) {}
+        response_(response) {}
 
   void OnCancel() override;
   void OnDone() override;
@@ -43,8 +41,8 @@ class ApproximateBodyUnaryCall final
   [[nodiscard]] bool IsCancelled() const override { return job_.IsOver(); }
 
  private:
-  void Begin();
-  [[nodiscard]] absl::Status Submit();
+  void Begin(grpc::ByteBuffer& request);
+  [[nodiscard]] absl::Status Submit(grpc::ByteBuffer& request);
   [[nodiscard]] absl::Status RunJob();
   void End(const absl::Status& status);
   void ReaderIsLate();
@@ -52,8 +50,8 @@ class ApproximateBodyUnaryCall final
   const CallServices services_;
   grpc::CallbackServerContext& context_;  // until OnDone
   FitJob job_;
-  const v1::ApproximateBodyUnaryRequest& request_;
-  v1::ApproximateBodyUnaryResponse& response_;
+  v1::ApproximateBodyUnaryRequest request_;
+  grpc::ByteBuffer& response_;
   std::shared_ptr<ApproximateBodyUnaryCall> self_;  // until OnDone
   std::mutex mutex_;
   Watchdog::Alarm alarm_;

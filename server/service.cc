@@ -7,12 +7,13 @@
 #include "proto/wire/status_conversion.h"
 #include "server/approximate_body_call.h"
 #include "server/approximate_body_unary_call.h"
+#include "server/raw_message.h"
 #include "server/watchdog.h"
 
 namespace capfit::server {
 namespace {
 
-using BodyStream = grpc::ServerBidiReactor<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>;
+using BodyStream = grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>;
 
 // Ends after its first message, or soon without one.
 class RefusedStream final : public BodyStream, public std::enable_shared_from_this<RefusedStream> {
@@ -40,7 +41,7 @@ class RefusedStream final : public BodyStream, public std::enable_shared_from_th
 
   const grpc::Status status_;
   std::atomic<bool> is_finished_{false};
-  v1::ApproximateBodyRequest request_;
+  grpc::ByteBuffer request_;
   std::shared_ptr<RefusedStream> self_;  // until OnDone
 };
 
@@ -67,21 +68,26 @@ BodyStream* Service::ApproximateBody(grpc::CallbackServerContext* context) {
 }
 
 grpc::ServerUnaryReactor* Service::ApproximateBodyUnary(
-    grpc::CallbackServerContext* context, const v1::ApproximateBodyUnaryRequest* request,
-    v1::ApproximateBodyUnaryResponse* response) {
+    grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+    grpc::ByteBuffer* response) {
   const absl::StatusOr<std::string> caller = CallerOf("ApproximateBodyUnary", *context);
   if (!caller.ok()) return Finished(*context, caller.status());
-  return ApproximateBodyUnaryCall::Start(context, request, response, services_, *caller);
+  // The request is this call's own; gRPC would keep its bytes beside the message until the end.
+  auto& bytes = const_cast<grpc::ByteBuffer&>(*request);
+  return ApproximateBodyUnaryCall::Start(context, bytes, *response, services_, *caller);
 }
 
 grpc::ServerUnaryReactor* Service::GetServerInfo(grpc::CallbackServerContext* context,
-                                                 const v1::GetServerInfoRequest* /*request*/,
-                                                 v1::GetServerInfoResponse* response) {
+                                                 const grpc::ByteBuffer* request,
+                                                 grpc::ByteBuffer* response) {
   const absl::StatusOr<std::string> caller = CallerOf("GetServerInfo", *context);
   if (!caller.ok()) return Finished(*context, caller.status());
-  *response = info_;
-  services_.metrics.Count("GetServerInfo", absl::OkStatus());
-  return Finished(*context, absl::OkStatus());
+  grpc::ByteBuffer bytes = *request;
+  v1::GetServerInfoRequest asked;
+  absl::Status status = Decode(bytes, "the request", asked);
+  if (status.ok()) status = Encode(info_, *response);
+  services_.metrics.Count("GetServerInfo", status);
+  return Finished(*context, status);
 }
 
 }  // namespace capfit::server

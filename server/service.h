@@ -2,28 +2,36 @@
 #ifndef CAPFIT_SERVER_SERVICE_H_
 #define CAPFIT_SERVER_SERVICE_H_
 
+#include <grpcpp/support/byte_buffer.h>
+
 #include "capfit/v1/service.grpc.pb.h"
 #include "server/call_services.h"
 #include "server/caller_check.h"
 
 namespace capfit::server {
 
+// The generated service with messages as bytes (see raw_message.h).
+using RawService = v1::BodyApproximationService::WithRawCallbackMethod_ApproximateBody<
+    v1::BodyApproximationService::WithRawCallbackMethod_ApproximateBodyUnary<
+        v1::BodyApproximationService::WithRawCallbackMethod_GetServerInfo<
+            v1::BodyApproximationService::Service>>>;
+
 // Asks who calls, starts one object for each call, and answers what needs no work at once.
-class Service final : public v1::BodyApproximationService::CallbackService {
+class Service final : public RawService {
  public:
   Service(const CallServices& services, CallerCheck callers, v1::GetServerInfoResponse info)
       : services_(services), callers_(std::move(callers)), info_(std::move(info)) {}
 
-  grpc::ServerBidiReactor<v1::ApproximateBodyRequest, v1::ApproximateBodyResponse>* ApproximateBody(
+  grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* ApproximateBody(
       grpc::CallbackServerContext* context) override;
 
-  grpc::ServerUnaryReactor* ApproximateBodyUnary(
-      grpc::CallbackServerContext* context, const v1::ApproximateBodyUnaryRequest* request,
-      v1::ApproximateBodyUnaryResponse* response) override;
+  grpc::ServerUnaryReactor* ApproximateBodyUnary(grpc::CallbackServerContext* context,
+                                                 const grpc::ByteBuffer* request,
+                                                 grpc::ByteBuffer* response) override;
 
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
-                                          const v1::GetServerInfoRequest* request,
-                                          v1::GetServerInfoResponse* response) override;
+                                          const grpc::ByteBuffer* request,
+                                          grpc::ByteBuffer* response) override;
 
  private:
   // As CallerCheck::NameOf; who is refused is counted.

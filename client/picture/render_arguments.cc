@@ -4,6 +4,7 @@
 #include "absl/strings/str_join.h"
 #include "client/picture/file_bytes.h"
 #include "client/word_option.h"
+#include "core/base/number_in.h"
 #include "core/base/status.h"
 
 namespace capfit::client {
@@ -22,7 +23,7 @@ void AddAnimationOptions(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--show", arguments.show, "Frames to show, e.g. 0,20,60")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::NonNegativeNumber);
+      ->check(NumberIn(0.0, 1e6));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ constexpr std::array kReasons = {
     KnownReason{ErrorReason::kUnsupportedFile, "UNSUPPORTED_FILE", StatusCode::kInvalidArgument},
     KnownReason{ErrorReason::kBudgetTooSmall, "BUDGET_TOO_SMALL", StatusCode::kInvalidArgument},
     KnownReason{ErrorReason::kContradictsBody, "CONTRADICTS_BODY", StatusCode::kInvalidArgument},
+    KnownReason{ErrorReason::kMalformedMessage, "MALFORMED_MESSAGE", StatusCode::kInvalidArgument},
     KnownReason{ErrorReason::kNotABody, "NOT_A_BODY", StatusCode::kFailedPrecondition},
     KnownReason{ErrorReason::kUnitUnknown, "UNIT_UNKNOWN", StatusCode::kFailedPrecondition},
     KnownReason{ErrorReason::kPartMissing, "PART_MISSING", StatusCode::kFailedPrecondition},

@@ -26,6 +26,7 @@ enum class ErrorReason {
   kUnsupportedFile,
   kBudgetTooSmall,
   kContradictsBody,
+  kMalformedMessage,
 
   kNotABody,
   kUnitUnknown,

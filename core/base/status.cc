@@ -1,9 +1,11 @@
 #include "core/base/status.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "absl/strings/cord.h"
+#include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
 #include "core/base/enum_index.h"
 
@@ -44,6 +46,18 @@ std::vector<std::vector<std::string>> RowsOf(const absl::Status& status, const c
 }
 
 }  // namespace
+
+absl::Status OutOfRange(const std::string& field, double value, double low, double high) {
+  const std::string range = absl::StrCat("[", low, ", ", high, "]");
+  std::string text = absl::StrCat(value);
+  for (int digits = 7; digits <= 17 && (text == absl::StrCat(low) || text == absl::StrCat(high));
+       ++digits) {
+    text = absl::StrFormat("%.*g", digits, value);
+  }
+  return InvalidField(
+      std::isfinite(value) ? ErrorReason::kOutOfRange : ErrorReason::kNotFinite, field,
+      absl::StrCat("is ", text, ", must be in ", range), {{"value", text}, {"limit", range}});
+}
 
 absl::Status Refused(ErrorReason reason, const std::string& message, const ErrorFacts& facts) {
   const KnownReason& known = ErrorReasons()[Index(reason)];

@@ -3,6 +3,7 @@
 #ifndef CAPFIT_CORE_BASE_STATUS_H_
 #define CAPFIT_CORE_BASE_STATUS_H_
 
+#include <concepts>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,8 +33,11 @@ using ErrorFacts = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] absl::Status InvalidField(ErrorReason reason, const std::string& field,
                                         const std::string& problem, const ErrorFacts& facts = {});
 
-// "<field> is <value>, must be in [<low>, <high>]".
-template <typename Number>
+// "<field> is <value>, must be in [<low>, <high>]". The value has as many digits as tell it from
+// both ends; one that is not finite has a reason of its own.
+[[nodiscard]] absl::Status OutOfRange(const std::string& field, double value, double low,
+                                      double high);
+template <std::integral Number>
 [[nodiscard]] absl::Status OutOfRange(const std::string& field, Number value, Number low,
                                       Number high) {
   const std::string range = absl::StrCat("[", low, ", ", high, "]");

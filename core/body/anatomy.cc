@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "absl/strings/str_join.h"
 #include "core/base/enum_index.h"
 
 namespace capfit::body {
@@ -118,6 +119,11 @@ bool PartSelection::Includes(Part part) const {
 }
 
 std::string_view LandmarkName(LandmarkId id) { return kLandmarkNames[Index(id)]; }
+
+std::string LandmarkNames() {
+  const auto append = [](std::string* names, std::string_view name) { names->append(name); };
+  return absl::StrJoin(kLandmarkNames, ", ", append);
+}
 
 std::optional<LandmarkId> LandmarkFromName(std::string_view name) {
   for (std::size_t i = 0; i < kLandmarkNames.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace capfit::body {
@@ -106,6 +107,8 @@ inline constexpr int kLandmarkCount = 26;
 
 // "left_wrist", "head_top", "left_middle_fingertip", "left_big_toe_tip", "left_heel", ...
 [[nodiscard]] std::string_view LandmarkName(LandmarkId id);
+// All of them, with ", " between.
+[[nodiscard]] std::string LandmarkNames();
 [[nodiscard]] std::optional<LandmarkId> LandmarkFromName(std::string_view name);
 [[nodiscard]] LandmarkId MirrorLandmark(LandmarkId id);
 

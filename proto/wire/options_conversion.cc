@@ -105,17 +105,22 @@ absl::Status ReadLandmark(const v1::Landmark& wire, const std::string& field,
   const std::optional<body::LandmarkId> id = body::LandmarkFromName(wire.name());
   if (!id) {
     const std::string name = wire.name().substr(0, 40);
-    return InvalidField(ErrorReason::kUnknownValue, field + ".name",
-                        absl::StrCat("is \"", name, "\", which is no landmark's name"),
-                        {{"value", name}});
+    const std::string known = body::LandmarkNames();
+    return InvalidField(
+        ErrorReason::kUnknownValue, field + ".name",
+        absl::StrCat("is \"", name, "\", which is no landmark's name, must be one of ", known),
+        {{"value", name}, {"limit", known}});
   }
   if (!wire.has_position()) {
     return InvalidField(ErrorReason::kMissing, field + ".position", "is missing");
   }
   const Eigen::Vector3d position(wire.position().x(), wire.position().y(), wire.position().z());
   if (!position.allFinite()) {
+    const std::string text =
+        absl::StrCat("(", position.x(), ", ", position.y(), ", ", position.z(), ")");
     return InvalidField(ErrorReason::kNotFinite, field + ".position",
-                        "must be three finite numbers", {{"limit", "finite"}});
+                        absl::StrCat("is ", text, ", must be finite"),
+                        {{"value", text}, {"limit", "finite"}});
   }
   if (!options.landmarks.emplace(*id, position).second) {
     return InvalidField(ErrorReason::kDuplicate, field + ".name",

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <string>
+
 namespace capfit {
 namespace {
 
@@ -33,6 +36,23 @@ TEST(Status, RangesNameBothEnds) {
   const absl::Status status = OutOfRange("options.tolerance_m", 0.25, 0.0, 0.1);
   EXPECT_EQ(status.message(), "options.tolerance_m is 0.25, must be in [0, 0.1]");
   EXPECT_THAT(FactsOf(status), testing::Contains(testing::Pair("limit", "[0, 0.1]")));
+}
+
+TEST(Status, OutOfRangeTellsTheValueFromTheLimit) {
+  const auto text = [](double value) {
+    return std::string(OutOfRange("tolerance_m", value, 0.0, 0.1).message());
+  };
+  EXPECT_EQ(text(0.1000000015), "tolerance_m is 0.1000000015, must be in [0, 0.1]");
+  EXPECT_EQ(text(0.10000000000000002), "tolerance_m is 0.10000000000000002, must be in [0, 0.1]");
+  EXPECT_EQ(text(-0.5), "tolerance_m is -0.5, must be in [0, 0.1]");
+}
+
+TEST(Status, WhatIsNotFiniteHasAReasonOfItsOwn) {
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(),
+                             -std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(ReasonOf(OutOfRange("tolerance_m", value, 0.0, 0.1)), ErrorReason::kNotFinite);
+  }
+  EXPECT_EQ(ReasonOf(OutOfRange("tolerance_m", 0.2, 0.0, 0.1)), ErrorReason::kOutOfRange);
 }
 
 TEST(Status, EveryReasonHasItsNameAndCode) {
