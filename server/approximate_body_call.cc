@@ -64,8 +64,8 @@ void ApproximateBodyCall::TakeMessage() {
 
 absl::Status ApproximateBodyCall::AddMessage() {
   v1::ApproximateBodyRequest request;
-  CAPFIT_RETURN_IF_ERROR(
-      Decode(request_bytes_, absl::StrCat("message ", ++message_number_, " of the upload"), request));
+  CAPFIT_RETURN_IF_ERROR(Decode(
+      request_bytes_, absl::StrCat("message ", ++message_number_, " of the upload"), request));
   return job_.Add(request);
 }
 

@@ -8,9 +8,11 @@
 
 namespace capfit::server {
 
-ApproximateBodyUnaryCall* ApproximateBodyUnaryCall::Start(
-    grpc::CallbackServerContext* context, grpc::ByteBuffer& request, grpc::ByteBuffer& response,
-    const CallServices& services, const std::string& token_name) {
+ApproximateBodyUnaryCall* ApproximateBodyUnaryCall::Start(grpc::CallbackServerContext* context,
+                                                          grpc::ByteBuffer& request,
+                                                          grpc::ByteBuffer& response,
+                                                          const CallServices& services,
+                                                          const std::string& token_name) {
   const auto call =
       std::make_shared<ApproximateBodyUnaryCall>(context, response, services, token_name);
   call->self_ = call;

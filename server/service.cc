@@ -67,9 +67,9 @@ BodyStream* Service::ApproximateBody(grpc::CallbackServerContext* context) {
   return ApproximateBodyCall::Start(context, services_, *caller);
 }
 
-grpc::ServerUnaryReactor* Service::ApproximateBodyUnary(
-    grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
-    grpc::ByteBuffer* response) {
+grpc::ServerUnaryReactor* Service::ApproximateBodyUnary(grpc::CallbackServerContext* context,
+                                                        const grpc::ByteBuffer* request,
+                                                        grpc::ByteBuffer* response) {
   const absl::StatusOr<std::string> caller = CallerOf("ApproximateBodyUnary", *context);
   if (!caller.ok()) return Finished(*context, caller.status());
   // The request is this call's own; gRPC would keep its bytes beside the message until the end.

@@ -8,9 +8,9 @@
 
 namespace capfit {
 
-// As std::sort, of plain numbers. The usual handful is sorted by insertion that does not stop at the
-// right place: to go on costs less than a branch that is guessed wrong half of the time. Thousands,
-// as at the hub of a wheel, need better.
+// As std::sort, of plain numbers. The usual handful is sorted by insertion that does not stop at
+// the right place: to go on costs less than a branch that is guessed wrong half of the time.
+// Thousands, as at the hub of a wheel, need better.
 template <typename Number>
 inline void SortFew(std::span<Number> values) {
   if (values.size() > 16) {

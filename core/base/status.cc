@@ -54,9 +54,9 @@ absl::Status OutOfRange(const std::string& field, double value, double low, doub
        ++digits) {
     text = absl::StrFormat("%.*g", digits, value);
   }
-  return InvalidField(
-      std::isfinite(value) ? ErrorReason::kOutOfRange : ErrorReason::kNotFinite, field,
-      absl::StrCat("is ", text, ", must be in ", range), {{"value", text}, {"limit", range}});
+  return InvalidField(std::isfinite(value) ? ErrorReason::kOutOfRange : ErrorReason::kNotFinite,
+                      field, absl::StrCat("is ", text, ", must be in ", range),
+                      {{"value", text}, {"limit", range}});
 }
 
 absl::Status Refused(ErrorReason reason, const std::string& message, const ErrorFacts& facts) {

@@ -66,7 +66,9 @@ class RoleFinder {
   void TryFrom(int role) {
     if (role == kTipCount) {
       if (CostOfGaps() >= best_misfit_) return;  // the rest only adds to it
-      const double misfit = Misfit();
+      const double without_ways = CostBesideWays();
+      if (without_ways >= best_misfit_) return;
+      const double misfit = WayDeviation() + without_ways;
       if (misfit >= best_misfit_) return;
       best_misfit_ = misfit;
       best_ = roles_;
@@ -166,12 +168,11 @@ class RoleFinder {
            kContradictionCost * Contradictions();
   }
 
-  [[nodiscard]] double Misfit() const {
+  [[nodiscard]] double CostBesideWays() const {
     const double inequality =
         Inequality(static_cast<int>(Tip::kHandA), static_cast<int>(Tip::kHandB)) +
         Inequality(static_cast<int>(Tip::kFootA), static_cast<int>(Tip::kFootB));
-    return WayDeviation() + kUnequalPairCost * inequality + kGirthCost * GirthDeviation() +
-           CostOfGaps();
+    return kUnequalPairCost * inequality + kGirthCost * GirthDeviation() + CostOfGaps();
   }
 
   std::span<const Branch> branches_;

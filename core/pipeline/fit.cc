@@ -193,6 +193,11 @@ class BodyFit {
     BesideCoverGround([&] {
       stage = BuildUnderBudget(*body_, options_, features.polygons, drafts, curves, pool_);
     });
+    if (options_.polygon_error) {
+      auto warning =
+          WarningOfPolygonError(*options_.polygon_error, features.polygons, stage.approximations);
+      if (warning) result_.warnings.push_back(*std::move(warning));
+    }
     capsule::PrimitiveSet set = std::move(stage.set);
     if (!IsSearched(options_) && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "absl/strings/str_format.h"
 #include "core/capsule/build_primitives.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/spend_rest.h"
@@ -97,6 +98,24 @@ PrimitiveStage BuildUnderBudget(const body::Body& body, const FitOptions& option
   }
   if (total.Unused(best.set.count()) > kUnusedAllowed) SpendRest(total, best.set);
   return best;
+}
+
+std::optional<Warning> WarningOfPolygonError(
+    double polygon_error, std::span<const section::FeaturePolygon> polygons,
+    std::span<const circle::PolygonApproximation> approximations) {
+  std::int64_t missed = 0;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    const double error = approximations[i].outside_area_m2 / polygons[i].outline.area_m2();
+    missed += error > polygon_error ? 1 : 0;
+    worst = std::max(worst, error);
+  }
+  if (missed == 0) return std::nullopt;
+  return Warning{"POLYGON_ERROR_MISSED",
+                 absl::StrFormat("%d of %d feature polygons have more error than %g, up to %.3g: "
+                                 "neither a polygon nor a set may have more circles",
+                                 missed, polygons.size(), polygon_error, worst),
+                 missed};
 }
 
 capsule::PrimitiveSet SettleBestFit(const body::Body& body, const FitOptions& options,

@@ -2,10 +2,12 @@
 #ifndef CAPFIT_CORE_PIPELINE_PRIMITIVE_STAGE_H_
 #define CAPFIT_CORE_PIPELINE_PRIMITIVE_STAGE_H_
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/base/thread_pool.h"
+#include "core/base/warning.h"
 #include "core/body/body.h"
 #include "core/capsule/allocation.h"
 #include "core/capsule/primitive_set.h"
@@ -33,6 +35,13 @@ struct PrimitiveStage {
                                               const circle::ErrorCurves& drafts,
                                               const circle::ErrorCurves& curves,
                                               const ThreadPool& pool);
+
+// POLYGON_ERROR_MISSED where polygons have more error than options.polygon_error asks for: no
+// polygon has more circles than kMaxCirclesPerPolygon, and no set more primitives than any may
+// have.
+[[nodiscard]] std::optional<Warning> WarningOfPolygonError(
+    double polygon_error, std::span<const section::FeaturePolygon> polygons,
+    std::span<const circle::PolygonApproximation> approximations);
 
 // A best fit of quality paper, which nothing encloses later: circles and capsules stay as the
 // topology, centres and radii move to the smallest E_r (core/refine), capsules that others cover by

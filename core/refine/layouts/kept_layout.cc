@@ -113,10 +113,11 @@ absl::Status CheckCapsules(const KeptLayout& layout) {
     for (const int end : ends) {
       if (end < 0 || std::cmp_greater_equal(end, layout.spheres.size())) {
         const std::size_t count = layout.spheres.size();
-        return InvalidField(ErrorReason::kOutOfRange, field,
-                            absl::StrCat("joins spheres ", ends[0], " and ", ends[1],
-                                         ", both must be below ", count),
-                            {{"value", absl::StrCat(end)}, {"limit", absl::StrCat("[0, ", count, ")")}});
+        return InvalidField(
+            ErrorReason::kOutOfRange, field,
+            absl::StrCat("joins spheres ", ends[0], " and ", ends[1], ", both must be below ",
+                         count),
+            {{"value", absl::StrCat(end)}, {"limit", absl::StrCat("[0, ", count, ")")}});
       }
     }
     if (ends[0] >= ends[1]) {

@@ -42,14 +42,14 @@ TEST(Status, OutOfRangeTellsTheValueFromTheLimit) {
   const auto text = [](double value) {
     return std::string(OutOfRange("tolerance_m", value, 0.0, 0.1).message());
   };
-  EXPECT_EQ(text(0.1000000015), "tolerance_m is 0.1000000015, must be in [0, 0.1]");
+  EXPECT_EQ(text(0.1000000015), "tolerance_m is 0.100000002, must be in [0, 0.1]");
   EXPECT_EQ(text(0.10000000000000002), "tolerance_m is 0.10000000000000002, must be in [0, 0.1]");
   EXPECT_EQ(text(-0.5), "tolerance_m is -0.5, must be in [0, 0.1]");
 }
 
 TEST(Status, WhatIsNotFiniteHasAReasonOfItsOwn) {
-  for (const double value : {std::numeric_limits<double>::quiet_NaN(),
-                             -std::numeric_limits<double>::infinity()}) {
+  for (const double value :
+       {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
     EXPECT_EQ(ReasonOf(OutOfRange("tolerance_m", value, 0.0, 0.1)), ErrorReason::kNotFinite);
   }
   EXPECT_EQ(ReasonOf(OutOfRange("tolerance_m", 0.2, 0.0, 0.1)), ErrorReason::kOutOfRange);

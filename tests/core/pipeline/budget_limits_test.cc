@@ -134,6 +134,21 @@ TEST(ContractLimits, HoldForTheSmallestPolygonError) {
   EXPECT_GT(set.primitive_count(), 200);
 }
 
+TEST(ContractLimits, APolygonErrorOutOfReachIsAWarning) {
+  const auto missed = [](double polygon_error) -> std::int64_t {
+    FitOptions options;
+    options.polygon_error = polygon_error;
+    NullObserver observer;
+    const auto result = Fit(Soup(), options, ThreadPool(2), observer);
+    for (const Warning& warning : result->warnings) {
+      if (warning.code == "POLYGON_ERROR_MISSED") return warning.count;
+    }
+    return 0;
+  };
+  EXPECT_GT(missed(kMinPolygonError), 3);
+  EXPECT_EQ(missed(0.5), 0);
+}
+
 // Three limits, each named as the caller gave it, whatever an engine made of it.
 TEST(CheckBudget, NamesTheLimitThatTheCallerGave) {
   FitOptions all;
