@@ -170,7 +170,8 @@ std::vector<TipCandidate> Candidates(std::span<const Branch> branches,
     candidates[i] = {b, girth, is_stump, level, std::move(vertices), {}};
     for (std::size_t end = 0; rig && end < rig->vertex.size(); ++end) {
       const std::vector<std::uint32_t>& held = candidates[i].vertices;
-      candidates[i].holds[end] = std::binary_search(held.begin(), held.end(), rig->vertex[end]);
+      candidates[i].holds[end] =
+          rig->vertex[end] && std::binary_search(held.begin(), held.end(), *rig->vertex[end]);
     }
   });
   std::erase_if(candidates,

@@ -40,9 +40,7 @@ class RigInCopy {
   [[nodiscard]] Eigen::Vector3d Middle(LandmarkId left) const {
     return 0.5 * (at(left) + at(MirrorLandmark(left)));
   }
-  [[nodiscard]] const Eigen::Vector3d& head() const {
-    return head_ ? *head_ : at(LandmarkId::kNeck);
-  }
+  [[nodiscard]] const std::optional<Eigen::Vector3d>& head() const { return head_; }
 
   // From joint to joint.
   [[nodiscard]] std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Bones() const {
@@ -112,13 +110,13 @@ std::optional<RigEnds> FindRigEnds(const Rig& rig, const WorkingCopy& copy,
   const double way = in_copy.NeckToAnkle();
   if (!(way > kShortestWay && way < kLongestWay)) return std::nullopt;
   RigEnds ends;
-  const std::array<Eigen::Vector3d, kRigEndCount> joints = {
+  const std::array<std::optional<Eigen::Vector3d>, kRigEndCount> joints = {
       in_copy.head(), in_copy.at(LandmarkId::kLeftWrist), in_copy.at(LandmarkId::kRightWrist),
       in_copy.at(LandmarkId::kLeftAnkle), in_copy.at(LandmarkId::kRightAnkle)};
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const std::optional<std::uint32_t> node = NodeNear(joints[i], coarse);
-    if (!node) return std::nullopt;
-    ends.vertex[i] = *node;
+    if (!joints[i]) continue;
+    ends.vertex[i] = NodeNear(*joints[i], coarse);
+    if (!ends.vertex[i]) return std::nullopt;
   }
   const Eigen::Vector3d up = in_copy.at(LandmarkId::kNeck) - in_copy.Middle(LandmarkId::kLeftHip);
   const Eigen::Vector3d left = in_copy.at(LandmarkId::kLeftShoulder) -

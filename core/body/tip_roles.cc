@@ -148,15 +148,17 @@ class RoleFinder {
     return unused;
   }
 
-  // Tips whose role the skeleton gives to others.
+  // Tips whose role the skeleton gives to others. Of a head that it does not know, all that it says
+  // is that no hand or foot is one.
   [[nodiscard]] int Contradictions() const {
     int contradictions = 0;
     for (int role = 0; rig_ && role < kTipCount; ++role) {
       if (roles_[role] < 0) continue;
       const auto [first, last] = EndsOf(static_cast<Tip>(role));
-      const std::array<bool, kRigEndCount>& holds = candidates_[roles_[role]].holds;
-      const bool holds_its_end = holds[Index(first)] || holds[Index(last)];
-      if (!holds_its_end) ++contradictions;
+      const TipCandidate& candidate = candidates_[roles_[role]];
+      const bool holds_its_end = candidate.holds[Index(first)] || candidate.holds[Index(last)];
+      const bool is_known = rig_->vertex[Index(first)].has_value();
+      if (is_known ? !holds_its_end : HoldsAny(candidate)) ++contradictions;
     }
     return contradictions;
   }

@@ -12,8 +12,9 @@
 
 namespace capfit::wire {
 
-// Text that any client can read: bytes that are not printable ASCII (a file's names may be any
-// bytes, protobuf strings must be UTF-8) become '?', and what is longer than 1000 bytes is cut.
+// Text that any client can read and any terminal show: UTF-8 (a file's names may be any bytes, of
+// which those that are none become U+FFFD) without control characters, which become '?'. Of more
+// than 1000 bytes the letters that fit into those are left.
 [[nodiscard]] std::string PlainText(const std::string& text);
 
 [[nodiscard]] v1::Warning WarningToWire(const Warning& warning);

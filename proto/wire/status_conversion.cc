@@ -41,16 +41,26 @@ ErrorReason ReasonFor(absl::StatusCode code) {
   }
 }
 
+// What a trailer may hold whole: gRPC writes three bytes for each that is not printable ASCII, so
+// those become '?', and no text has more than 1000.
+std::string AsciiText(const std::string& text) {
+  constexpr std::size_t kMaxBytes = 1000;
+  std::string ascii = text.substr(0, kMaxBytes);
+  std::replace_if(
+      ascii.begin(), ascii.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return ascii;
+}
+
 google::rpc::ErrorInfo InfoOf(const absl::Status& status) {
   google::rpc::ErrorInfo info;
   const ErrorReason reason = ReasonOf(status).value_or(ReasonFor(status.code()));
   info.set_reason(std::string(ErrorReasonName(reason)));
   info.set_domain(kErrorDomain);
   if (const std::optional<std::string> field = FieldOf(status)) {
-    (*info.mutable_metadata())[kFieldKey] = PlainText(*field);
+    (*info.mutable_metadata())[kFieldKey] = AsciiText(*field);
   }
   for (const auto& [name, value] : FactsOf(status)) {
-    (*info.mutable_metadata())[PlainText(name)] = PlainText(value);
+    (*info.mutable_metadata())[AsciiText(name)] = AsciiText(value);
   }
   return info;
 }
@@ -108,12 +118,12 @@ grpc::Status ToGrpcStatus(const absl::Status& status, std::optional<int> retry_m
   if (status.ok()) return grpc::Status::OK;
   google::rpc::Status rich;
   rich.set_code(static_cast<int>(status.code()));
-  rich.set_message(PlainText(std::string(status.message())));
+  rich.set_message(AsciiText(std::string(status.message())));
   rich.add_details()->PackFrom(InfoOf(status));
   if (const std::optional<std::string> field = FieldOf(status)) {
     google::rpc::BadRequest bad_request;
     google::rpc::BadRequest::FieldViolation& violation = *bad_request.add_field_violations();
-    violation.set_field(PlainText(*field));
+    violation.set_field(AsciiText(*field));
     violation.set_description(rich.message());
     rich.add_details()->PackFrom(bad_request);
   }

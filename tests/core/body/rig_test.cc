@@ -120,6 +120,16 @@ TEST(Rig, BelievesAnArmWhoseHandHoldsASword) {
 }
 
 // Stilts: the soles a quarter of a metre lower.
+// A head's joint may have a name in any language; the neck's often lies between the shoulders.
+TEST(Rig, FindsAHeadOfWhichItSaysNothing) {
+  Rigged rigged = PlainMannequin();
+  rigged.joints[0].position.y() -= 0.08;
+  const auto body = rigged.Found();
+  ASSERT_TRUE(body.ok()) << body.status();
+  EXPECT_TRUE(body->landmark(LandmarkId::kHeadTop).has_value());
+  for (const Warning& warning : body->warnings) EXPECT_NE(warning.code, "PART_MISSING");
+}
+
 TEST(Rig, BelievesAnklesFarAboveTheSoles) {
   Rigged rigged = PlainMannequin();
   const double ankle = rigged.at(LandmarkId::kLeftAnkle).y();
