@@ -28,8 +28,9 @@ struct RigEnds {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of shoulders and hips
 };
 
-// Nothing where a joint but the head's is missing, or where the skeleton is another body's: its size does not go
-// with the surface, an end is far from it, or its bones do not run inside. O(nodes).
+// Nothing where a joint but the head's is missing, or where the skeleton is another body's: its
+// size does not go with the surface, an end is far from it, or its bones do not run inside.
+// O(nodes).
 [[nodiscard]] std::optional<RigEnds> FindRigEnds(const Rig& rig, const WorkingCopy& copy,
                                                  const CoarseSurface& coarse,
                                                  const ThreadPool& pool);
