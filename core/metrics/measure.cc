@@ -189,12 +189,15 @@ void PutVertices(const body::Body& body, const FittedSurface& fitted,
   }
 }
 
-// Sums over the skin of one part, or of all.
-struct GapSums {
-  // Absolute distances of the vertices, linear between them.
+// Sums of absolute distances over the skin of one part, or of all: those of the vertices, linear
+// between them.
+struct LinearGaps {
   double area_m2 = 0.0;
   double linear = 0.0;  // times the area
   double max_m = 0.0;
+};
+
+struct GapSums : LinearGaps {
   // Of the samples.
   std::vector<double> signed_m;
   double beyond_linear = 0.0;  // the sum of what their absolute distances are beyond those
@@ -214,19 +217,26 @@ PartGapSums SumVertices(const FittedSurface& fitted, const std::vector<double>& 
                         const ThreadPool& pool) {
   const std::span<const mesh::Triangle> skin = fitted.skin();
   std::vector<PartGapSums> chunks((skin.size() + kTrianglesPerSum - 1) / kTrianglesPerSum);
+  const std::span<const body::Part> parts = std::span(fitted.parts).subspan(fitted.skin_begin);
   pool.ForChunks(skin.size(), kTrianglesPerSum, [&](std::size_t begin, std::size_t end) {
     PartGapSums& sums = chunks[begin / kTrianglesPerSum];
+    // Neighbours in the list are mostly of one part, whose sums so far stay in registers.
+    std::size_t part = Index(parts[begin]);
+    LinearGaps so_far;
     for (std::size_t t = begin; t < end; ++t) {
-      GapSums& part = sums[Index(fitted.parts[fitted.skin_begin + t])];
-      double sum = 0.0;
-      for (const std::uint32_t corner : skin[t]) {
-        const double gap = std::abs(distances[corner]);
-        sum += gap;
-        part.max_m = std::max(part.max_m, gap);
+      if (Index(parts[t]) != part) {
+        static_cast<LinearGaps&>(sums[part]) = so_far;
+        part = Index(parts[t]);
+        so_far = sums[part];
       }
-      part.area_m2 += fitted.skin_areas_m2[t];
-      part.linear += fitted.skin_areas_m2[t] * sum / 3.0;
+      const double a = std::abs(distances[skin[t][0]]);
+      const double b = std::abs(distances[skin[t][1]]);
+      const double c = std::abs(distances[skin[t][2]]);
+      so_far.max_m = std::max({so_far.max_m, a, b, c});
+      so_far.area_m2 += fitted.skin_areas_m2[t];
+      so_far.linear += fitted.skin_areas_m2[t] * (a + b + c) / 3.0;
     }
+    static_cast<LinearGaps&>(sums[part]) = so_far;
   });
   PartGapSums total;
   for (const PartGapSums& chunk : chunks) {

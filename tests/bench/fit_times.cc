@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -54,9 +55,15 @@ struct Task {
   bool has_side_by_side;
 };
 
-absl::StatusOr<FitResult> FitOn(int threads, const capfit::formats::PolygonSoup& soup,
+// A process has one pool as long as it lives.
+const capfit::ThreadPool& PoolOf(int threads) {
+  static std::map<int, capfit::ThreadPool> pools;
+  return pools.try_emplace(threads, threads).first->second;
+}
+
+absl::StatusOr<FitResult> FitOn(const capfit::ThreadPool& pool,
+                                const capfit::formats::PolygonSoup& soup,
                                 const FitOptions& options) {
-  const capfit::ThreadPool pool(threads);
   capfit::NullObserver observer;
   return capfit::pipeline::Fit(soup, options, pool, observer);
 }
@@ -64,10 +71,11 @@ absl::StatusOr<FitResult> FitOn(int threads, const capfit::formats::PolygonSoup&
 // One-threaded fits begun together; how long the slowest of them took, in ms.
 double SideBySideMs(int fits, const capfit::formats::PolygonSoup& soup, const FitOptions& options) {
   std::vector<double> ms(fits, 0.0);
+  const capfit::ThreadPool& alone = PoolOf(1);
   {
     std::vector<std::jthread> threads;
     for (int i = 0; i < fits; ++i) {
-      threads.emplace_back([&, i] { ms[i] = 1e3 * FitOn(1, soup, options).value().seconds; });
+      threads.emplace_back([&, i] { ms[i] = 1e3 * FitOn(alone, soup, options).value().seconds; });
     }
   }
   return *std::max_element(ms.begin(), ms.end());
@@ -85,7 +93,7 @@ bool Run(const std::string& body, const Task& task) {
   const int warm_up = task.runs > 1 ? 1 : 0;
   for (int run = 0; run < task.runs + warm_up; ++run) {
     for (std::size_t t = 0; t < task.threads.size(); ++t) {
-      auto result = FitOn(task.threads[t], soup, task.options);
+      auto result = FitOn(PoolOf(task.threads[t]), soup, task.options);
       if (!result.ok()) {
         std::fprintf(stderr, "%s\n", result.status().ToString().c_str());
         return false;
