@@ -278,13 +278,10 @@ class Coarsener {
   // through triangles that shrank to the edge. All half-edges that it comes in over begin at `end`.
   [[nodiscard]] mesh::HalfEdge Across(mesh::HalfEdge h, std::uint32_t end) const {
     for (mesh::HalfEdge at = mates_[h];;) {
-      const std::uint32_t triangle = at / 3;
-      const std::uint32_t k = at - 3 * triangle;
-      if (place_[triangle] != kNone) return 3 * place_[triangle] + k;
-      const mesh::HalfEdge before = k == 0 ? at + 2 : at - 1;
-      const mesh::HalfEdge after = k == 2 ? at - 2 : at + 1;
-      const std::uint32_t third = node_[triangles_[triangle][before - 3 * triangle]];
-      at = mates_[third == end ? after : before];
+      if (place_[at / 3] != kNone) return 3 * place_[at / 3] + at % 3;
+      const mesh::HalfEdge before = mesh::PreviousInTriangle(at);
+      const std::uint32_t third = node_[mesh::StartOf(triangles_, before)];
+      at = mates_[third == end ? mesh::NextInTriangle(at) : before];
     }
   }
 
@@ -296,7 +293,7 @@ class Coarsener {
         const auto here = static_cast<mesh::HalfEdge>(3 * i + k);
         if (coarse_.mates[here] != mesh::kNoMate) continue;
         const mesh::HalfEdge mate =
-            Across(3 * chosen_[i] + k, coarse_.triangles[i][k == 2 ? 0 : k + 1]);
+            Across(3 * chosen_[i] + k, mesh::EndOf(coarse_.triangles, here));
         coarse_.mates[here] = mate;
         if (mate >= 3 * begin && mate < 3 * end) coarse_.mates[mate] = here;
       }

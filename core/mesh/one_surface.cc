@@ -78,16 +78,17 @@ bool HangsTogether(std::span<const HalfEdge> mates, const ThreadPool& pool) {
   }
   std::vector<RawVector<Neighbours>> borders((link.size() + kMeshChunk - 1) / kMeshChunk);
   pool.ForChunks(link.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-    RawVector<Neighbours>& own = borders[begin / kMeshChunk];
-    own.resize(3 * (end - begin) + 1);
+    RawVector<Neighbours> met(3 * (end - begin) + 1);
     std::size_t found = 0;
     for (std::size_t t = begin; t < end; ++t) {
       for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
-        own[found] = {link[t], link[mates[h] / 3]};
-        found += own[found].b < own[found].a ? 1 : 0;
+        met[found] = {link[t], link[mates[h] / 3]};
+        found += met[found].b < met[found].a ? 1 : 0;
       }
     }
-    own.resize(found);
+    // Only what was found is kept: room for all would be as much as the mates take.
+    borders[begin / kMeshChunk].assign(met.begin(),
+                                       met.begin() + static_cast<std::ptrdiff_t>(found));
   });
   for (const RawVector<Neighbours>& some : borders) {
     for (const Neighbours& border : some) {
