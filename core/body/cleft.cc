@@ -21,11 +21,12 @@ struct Way {
 };
 
 // Floods from `a`, always over the outermost place on the shore, until it arrives at `b`; the
-// innermost place on the way is the cleft. `neighbours(place)` gives those in the region.
-template <typename Neighbours>
+// innermost place on the way is the cleft. `neighbours(place)` gives all, `is_open(place)` tells
+// which of them are in the region.
+template <typename Neighbours, typename IsOpen>
 std::optional<Way> OutermostWay(std::span<const Eigen::Vector3d> points,
-                                const Neighbours& neighbours, std::uint32_t a, std::uint32_t b,
-                                const Eigen::Vector3d& outward) {
+                                const Neighbours& neighbours, const IsOpen& is_open,
+                                std::uint32_t a, std::uint32_t b, const Eigen::Vector3d& outward) {
   std::vector<std::uint32_t> reached_from(points.size(), kNowhere);
   std::priority_queue<std::pair<double, std::uint32_t>> shore;
   shore.emplace(outward.dot(points[a]), a);
@@ -37,7 +38,7 @@ std::optional<Way> OutermostWay(std::span<const Eigen::Vector3d> points,
     is_joined = place == b;
     if (is_joined) break;
     for (const std::uint32_t n : neighbours(place)) {
-      if (reached_from[n] != kNowhere) continue;
+      if (reached_from[n] != kNowhere || !is_open(n)) continue;
       reached_from[n] = place;
       shore.emplace(outward.dot(points[n]), n);
     }
@@ -82,7 +83,8 @@ class Patch {
     const auto neighbours = [this](std::uint32_t place) {
       return std::span(next_).subspan(first_[place], first_[place + 1] - first_[place]);
     };
-    const std::optional<Way> way = OutermostWay(points_, neighbours, a, b, outward);
+    const auto is_open = [](std::uint32_t) { return true; };
+    const std::optional<Way> way = OutermostWay(points_, neighbours, is_open, a, b, outward);
     if (!way) return std::nullopt;
     return points_[way->places[way->cleft]];
   }
@@ -115,15 +117,11 @@ class Patch {
 std::optional<Eigen::Vector3d> FindCleft(const Shape& shape, std::uint32_t a, std::uint32_t b,
                                          const Eigen::Vector3d& outward,
                                          const geometry::Sphere& region) {
-  std::vector<std::uint32_t> inside;
-  const auto neighbours = [&](std::uint32_t node) -> const std::vector<std::uint32_t>& {
-    inside.clear();
-    for (const std::uint32_t n : shape.graph->Neighbours(node)) {
-      if (geometry::SignedDistance(region, shape.points[n]) <= 0.0) inside.push_back(n);
-    }
-    return inside;
+  const auto neighbours = [&](std::uint32_t node) { return shape.graph->Neighbours(node); };
+  const auto is_open = [&](std::uint32_t node) {
+    return geometry::SignedDistance(region, shape.points[node]) <= 0.0;
   };
-  const std::optional<Way> way = OutermostWay(shape.points, neighbours, a, b, outward);
+  const std::optional<Way> way = OutermostWay(shape.points, neighbours, is_open, a, b, outward);
   if (!way) return std::nullopt;
   const Eigen::Vector3d cleft = shape.points[way->places[way->cleft]];
   if (shape.points.size() == shape.vertices.size()) return cleft;

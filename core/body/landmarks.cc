@@ -215,21 +215,24 @@ double UnfoldedStature(const Shape& shape, const Landmarks& landmarks) {
   return shape.stature_m + std::max(0.0, unfolded - kClearlyFolded * shape.stature_m);
 }
 
-void FindArmJoints(const Shape& shape, Landmarks& landmarks) {
-  shape.pool->ForEach(2, [&](std::size_t side) {
-    if (shape.arms[side]) FindShoulder(shape, static_cast<int>(side), landmarks);
-  });
-  if (shape.observer->IsCancelled()) return;  // what was found may be none
+using Armpits = std::array<std::optional<Armpit>, 2>;
+
+void FindArmJoints(const Shape& shape, const Armpits& armpits, Landmarks& landmarks) {
+  for (const int side : {kLeft, kRight}) {
+    if (armpits[side]) FindShoulder(shape, side, *armpits[side], landmarks);
+  }
   MatchShoulders(shape, landmarks);
   for (const int side : {kLeft, kRight}) {
     if (shape.arms[side]) FindElbow(shape, side, landmarks);
   }
 }
 
-void FindLegJoints(Shape& shape, Landmarks& landmarks) {
+void FindLegRoots(Shape& shape, Landmarks& landmarks) {
   if (shape.legs[kLeft] && shape.legs[kRight]) FindCrotch(shape, landmarks);
-  if (shape.observer->IsCancelled()) return;
-  FindTrunkBase(shape, landmarks);
+  if (!shape.observer->IsCancelled()) FindTrunkBase(shape, landmarks);
+}
+
+void FindThighs(const Shape& shape, Landmarks& landmarks) {
   for (const int side : {kLeft, kRight}) {
     if (shape.legs[side]) FindThigh(shape, side, landmarks);
   }
@@ -247,14 +250,18 @@ absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
   FindEnds(shape, landmarks);
   WarnOfMissingEnds(shape, warnings);
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
-  shape.pool->ForEach(2, [&](std::size_t place) {  // neither needs what the other finds
-    if (place == 0) FindArmJoints(shape, landmarks);
-    if (place == 1) FindLegJoints(shape, landmarks);
+  Armpits armpits;
+  shape.pool->ForEach(3, [&](std::size_t place) {  // none needs what another finds
+    const int side = place == 1 ? kLeft : kRight;
+    if (place == 0) FindLegRoots(shape, landmarks);
+    if (place > 0 && shape.arms[side]) armpits[side] = FindArmpit(shape, side, landmarks);
   });
-  CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));
-  shape.pool->ForEach(2, [&](std::size_t place) {  // neither needs what the other finds
+  CAPFIT_RETURN_IF_ERROR(CheckCancelled(*shape.observer));  // what was found may be none
+  shape.pool->ForEach(4, [&](std::size_t place) {           // here neither
     if (place == 0) FindTrunkSections(shape, landmarks);
-    if (place == 1) FindNeck(shape, landmarks);
+    if (place == 1) FindArmJoints(shape, armpits, landmarks);
+    if (place == 2) FindThighs(shape, landmarks);
+    if (place == 3) FindNeck(shape, landmarks);
   });
   return absl::OkStatus();
 }

@@ -58,12 +58,8 @@ std::uint32_t NearestVertex(const Shape& shape, const std::vector<char>& in_limb
   return best;
 }
 
-struct Armpit {
-  Eigen::Vector3d position_m;
-  Eigen::Vector3d arm;  // unit, outward along the upper arm
-};
-
-std::optional<Armpit> FindArmpit(const Shape& shape, int side, const Landmarks& landmarks) {
+// Where the arm parts from the trunk.
+std::optional<Armpit> CleftOfArm(const Shape& shape, int side, const Landmarks& landmarks) {
   const LimbProfile& profile = *shape.arm_profiles[side];
   const double stature = shape.stature_m;
   const double wrist_arc =
@@ -166,23 +162,26 @@ Eigen::Vector3d MirroredPoint(const Eigen::Vector3d& p) { return {-p.x(), p.y(),
 
 }  // namespace
 
-void FindShoulder(const Shape& shape, int side, Landmarks& landmarks) {
-  const LimbProfile& arm = *shape.arm_profiles[side];
+std::optional<Armpit> FindArmpit(const Shape& shape, int side, Landmarks& landmarks) {
   const std::size_t armpit_at = Sided(LandmarkId::kLeftArmpit, side);
-  const std::size_t shoulder_at = Sided(LandmarkId::kLeftShoulder, side);
-  std::optional<Armpit> armpit = FindArmpit(shape, side, landmarks);
+  std::optional<Armpit> armpit = CleftOfArm(shape, side, landmarks);
   if (armpit && !HasNoCleft(armpit->arm)) {
     Put(landmarks, armpit_at, armpit->position_m, 0.8);
     armpit->position_m = landmarks[armpit_at]->position_m;
-    Put(landmarks, shoulder_at, ShoulderOver(shape, side, *armpit), 0.7);
-    return;
+    return armpit;
   }
+  const LimbProfile& arm = *shape.arm_profiles[side];
   const Eigen::Vector3d wrist = landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m;
   const Eigen::Vector3d shoulder = ShoulderAlong(shape, arm, arm.NearestArc(wrist));
   const Eigen::Vector3d below =
       shoulder - kArmpitBelowShoulder * shape.stature_m * Eigen::Vector3d::UnitY();
   Put(landmarks, armpit_at, below, 0.2, LandmarkMethod::kRatio);
-  Put(landmarks, shoulder_at, shoulder, 0.4, LandmarkMethod::kRatio);
+  Put(landmarks, Sided(LandmarkId::kLeftShoulder, side), shoulder, 0.4, LandmarkMethod::kRatio);
+  return std::nullopt;
+}
+
+void FindShoulder(const Shape& shape, int side, const Armpit& armpit, Landmarks& landmarks) {
+  Put(landmarks, Sided(LandmarkId::kLeftShoulder, side), ShoulderOver(shape, side, armpit), 0.7);
 }
 
 void MatchShoulders(const Shape& shape, Landmarks& landmarks) {

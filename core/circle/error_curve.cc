@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <numeric>
 
 namespace capfit::circle {
 namespace {
@@ -99,9 +100,13 @@ void ErrorCurves::Prepare(int circle_count) const {
 }
 
 void ErrorCurves::Prepare(std::span<const int> circle_counts) const {
-  pool_.ForEach(circle_counts.size(), [&](std::size_t polygon) {
-    (void)Compute(static_cast<int>(polygon), circle_counts[polygon]);
-  });
+  // The largest counts take longest here too.
+  std::vector<int> order(circle_counts.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return circle_counts[a] > circle_counts[b]; });
+  pool_.ForEach(order.size(),
+                [&](std::size_t i) { (void)Compute(order[i], circle_counts[order[i]]); });
 }
 
 }  // namespace capfit::circle

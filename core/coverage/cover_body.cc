@@ -146,7 +146,8 @@ class Coverer {
     report_.max_vertex_distance_m =
         MaxVertexDistance(target_, AtVertices(), capsule::Solids(set_), pool_);
     // Tightening has measured it already.
-    if (!(report_.volume_m3 > 0.0) || options_.keeps_swallowed) report_.volume_m3 = Volume();
+    const bool is_measured = report_.volume_m3 > 0.0 && !options_.keeps_swallowed;
+    if (options_.wants_volume && !is_measured) report_.volume_m3 = Volume();
     report_.certified_gap_m = CertifiedGap(target_, AtVertices(), capsule::Solids(set_),
                                            std::max(KnownGap(), report_.max_vertex_distance_m),
                                            0.05 * options_.max_gap_m, pool_);
@@ -221,6 +222,7 @@ class Coverer {
   }
 
   void Restore(const Outcome& outcome) {
+    has_only_grown_ = false;
     set_ = outcome.set;
     between_ = outcome.between;
     report_ = outcome.report;
@@ -269,6 +271,7 @@ class Coverer {
 
   void RunPhase(tighten::TightenPhase phase, const std::vector<tighten::PointsToHold>& points,
                 std::uint64_t seed) {
+    has_only_grown_ = false;
     phase.uniform_radius = options_.uniform_radius;
     tighten::Tighten(points, ground_.size_m, phase, seed, pool_, meter_, set_, backlog_);
   }
@@ -298,9 +301,8 @@ class Coverer {
 
   // Of the set as it is; by the target's index, each with the solid on its own side.
   const tighten::UnionDistances& AtVertices() {
-    if (IsMeasured()) return at_vertices_;
-    measured_ = set_.spheres;
-    at_points_ = ground_.points.DistancesTo(capsule::Solids(set_), -ground_.size_m, pool_);
+    MeasurePoints();
+    if (std::exchange(is_in_callers_order_, true)) return at_vertices_;
     at_vertices_ = InCallersOrder(ground_.points, at_points_, pool_);
     pool_.ForChunks(at_vertices_.solid.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -310,6 +312,34 @@ class Coverer {
       }
     });
     return at_vertices_;
+  }
+
+  void MeasurePoints() {
+    if (IsMeasured()) return;
+    const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set_);
+    if (has_only_grown_) {
+      ground_.points.Lower(solids, SolidsSinceMeasured(), at_points_, pool_);
+    } else {
+      at_points_ = ground_.points.DistancesTo(solids, -ground_.size_m, pool_);
+    }
+    measured_ = set_.spheres;
+    has_only_grown_ = true;
+    is_in_callers_order_ = false;
+  }
+
+  // Those that are not what they were.
+  [[nodiscard]] std::vector<std::int32_t> SolidsSinceMeasured() const {
+    const auto is_same = [this](int sphere) {
+      const geometry::Sphere& now = set_.spheres[sphere];
+      return now.center_m == measured_[sphere].center_m &&
+             now.radius_m == measured_[sphere].radius_m;
+    };
+    std::vector<std::int32_t> changed;
+    for (std::size_t k = 0; k < variables_.solids().size(); ++k) {
+      const auto [a, b] = variables_.solids()[k];
+      if (!is_same(a) || !is_same(b)) changed.push_back(static_cast<std::int32_t>(k));
+    }
+    return changed;
   }
 
   // How far the points between vertices that had to be asked for still stick out.
@@ -348,12 +378,11 @@ class Coverer {
     if (options_.uniform_radius) capsule::RaiseToUniformRadii(set_);
   }
 
-  std::vector<Demand> OpenDemands() const {
-    const tighten::UnionDistances distances =
-        ground_.points.DistancesTo(capsule::Solids(set_), -options_.max_gap_m, pool_);
+  std::vector<Demand> OpenDemands() {
+    MeasurePoints();
     std::vector<Demand> demands;
     for (std::size_t i = 0; i < ground_.points.size(); ++i) {
-      if (distances.distance_m[i] > AllowedAtVertices() - kVertexDepthM) {
+      if (at_points_.distance_m[i] > AllowedAtVertices() - kVertexDepthM) {
         demands.push_back({ground_.points.point(i), AllowedAtVertices()});
       }
     }
@@ -371,11 +400,12 @@ class Coverer {
   const std::optional<CoverGround> own_ground_;
   const CoverGround& ground_;
   std::vector<Eigen::Vector3d> between_;  // points inside triangles that had to be asked for
-  // The target's points as AtVertices saw them last, first in the order of the grid, and the
-  // spheres then.
+  // The target's points as they were measured last, in the order of the grid, and the spheres then.
   std::vector<geometry::Sphere> measured_;
   tighten::UnionDistances at_points_;
-  tighten::UnionDistances at_vertices_;
+  bool has_only_grown_ = false;          // the set, since it was measured
+  tighten::UnionDistances at_vertices_;  // see AtVertices
+  bool is_in_callers_order_ = false;     // at_vertices_ tells what at_points_ does
   CoverReport report_;
   bool goes_far_ = false;  // the second time
 };

@@ -39,6 +39,8 @@ struct CoverOptions {
   // Capsules that an end sphere has come to swallow stay: the smaller sphere is made to show by a
   // hundredth of a millimetre, so that engines take the capsule for one.
   bool keeps_swallowed = false;
+  // CoverReport::volume_m3 is looked at: where the smallest of several sets is chosen.
+  bool wants_volume = false;
 };
 
 // Vertices end up this deep inside at least, so that writing the result in another unit or with
@@ -54,7 +56,7 @@ struct CoverReport {
   int growth_steps = 0;
   int added_points = 0;                // inside triangles, where vertices alone were not enough
   double max_vertex_distance_m = 0.0;  // furthest vertex outside; <= 0 when all are inside
-  double volume_m3 = 0.0;              // of the union
+  double volume_m3 = 0.0;              // of the union, where it was wanted
   double certified_gap_m = 0.0;        // no point of the surface is further out than this (proved)
   // Of the target's points, with solids of the set as it is at the end; empty where one went.
   tighten::UnionDistances at_vertices;

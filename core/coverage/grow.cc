@@ -1,11 +1,13 @@
 #include "core/coverage/grow.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/tighten/set_variables.h"
+#include "core/tighten/solid_table.h"
 
 namespace capfit::coverage {
 namespace {
@@ -13,6 +15,8 @@ namespace {
 using geometry::TaperedCapsule;
 
 constexpr int kBisections = 40;
+constexpr std::size_t kLocatedTogether = 16;
+constexpr double kTableAccuracyM = 1e-6;  // more than tighten::SolidTable errs
 
 // The nearest of the solids.
 struct Nearest {
@@ -26,14 +30,40 @@ void Lower(const std::vector<TaperedCapsule>& shapes, int solid, const Eigen::Ve
   if (distance < nearest.distance_m) nearest = {distance, solid};
 }
 
+geometry::Sphere BallAround(std::span<const Demand> demands) {
+  Eigen::AlignedBox3d box;
+  for (const Demand& demand : demands) box.extend(demand.point_m);
+  geometry::Sphere ball = {box.center(), 0.0};
+  for (const Demand& demand : demands) {
+    ball.radius_m = std::max(ball.radius_m, (demand.point_m - ball.center_m).norm());
+  }
+  return ball;
+}
+
 class Grower {
  public:
   explicit Grower(capsule::PrimitiveSet& set)
       : set_(set), variables_(set), shapes_(capsule::Solids(set)) {}
 
-  Nearest Locate(const Eigen::Vector3d& point) const {
-    Nearest nearest;
-    for (int k = 0; k < static_cast<int>(shapes_.size()); ++k) Lower(shapes_, k, point, nearest);
+  // Of each demand. Those that follow each other mostly lie close together, and few solids can be
+  // the nearest of any of them.
+  std::vector<Nearest> LocateAll(std::span<const Demand> demands) const {
+    std::vector<Nearest> nearest(demands.size());
+    if (shapes_.empty()) return nearest;
+    const tighten::SolidTable table(shapes_);
+    std::vector<double> from_center_m(shapes_.size());
+    for (std::size_t begin = 0; begin < demands.size(); begin += kLocatedTogether) {
+      const std::size_t end = std::min(demands.size(), begin + kLocatedTogether);
+      const geometry::Sphere around = BallAround(demands.subspan(begin, end - begin));
+      table.DistancesFrom(around.center_m, from_center_m);
+      // No distance changes faster than the point moves.
+      const double limit_m = *std::min_element(from_center_m.begin(), from_center_m.end()) +
+                             2.0 * around.radius_m + kTableAccuracyM;
+      for (int k = 0; k < static_cast<int>(shapes_.size()); ++k) {
+        if (from_center_m[k] > limit_m) continue;
+        for (std::size_t i = begin; i < end; ++i) Lower(shapes_, k, demands[i].point_m, nearest[i]);
+      }
+    }
     return nearest;
   }
 
@@ -124,7 +154,7 @@ struct Open {
 
 bool GrowTo(const Demand& demand, capsule::PrimitiveSet& set) {
   Grower grower(set);
-  const Nearest nearest = grower.Locate(demand.point_m);
+  const Nearest nearest = grower.LocateAll({&demand, 1}).front();
   if (nearest.solid < 0 || nearest.distance_m <= demand.allowed_m) return false;
   grower.Grow(demand, nearest.solid);
   return true;
@@ -134,8 +164,9 @@ int GrowToAll(std::span<const Demand> demands, const FitObserver& observer,
               capsule::PrimitiveSet& set) {
   Grower grower(set);
   std::vector<Open> open;
-  for (const Demand& demand : demands) {
-    const Open candidate{demand, grower.Locate(demand.point_m)};
+  const std::vector<Nearest> nearest = grower.LocateAll(demands);
+  for (std::size_t i = 0; i < demands.size(); ++i) {
+    const Open candidate{demands[i], nearest[i]};
     if (candidate.nearest.solid >= 0 && candidate.missing() > 0.0) open.push_back(candidate);
   }
   int steps = 0;

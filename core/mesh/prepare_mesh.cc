@@ -125,10 +125,21 @@ class MeshMender {
     EdgeMates mates =
         FindEdgeMates(order.triangles, positions_.size(), pool_, observer_, order.first_triangle);
     if (mates.mate.empty() || !mates.IsClosedAndOriented()) return std::nullopt;
-    if (!IsOneSurface(order.triangles, mates.mate, positions_.size(), pool_)) return std::nullopt;
-    std::vector<std::int32_t> places(order.rank.begin(), order.rank.end());
-    return Finish(BodyMesh(positions_, snapped, std::move(order), std::move(mates.mate),
-                           std::move(places), measures, frame, pool_));
+    // Both stay where they are when the mesh takes them over, and neither task changes them.
+    const std::span<const Triangle> in_order = order.triangles;
+    const std::span<const HalfEdge> its_mates = mates.mate;
+    bool is_one_surface = false;
+    std::optional<BodyMesh> mesh;
+    pool_.ForEach(2, [&](std::size_t half) {
+      if (half == 0) is_one_surface = IsOneSurface(in_order, its_mates, positions_.size(), pool_);
+      if (half == 1) {
+        std::vector<std::int32_t> places(order.rank.begin(), order.rank.end());
+        mesh.emplace(positions_, snapped, std::move(order), std::move(mates.mate),
+                     std::move(places), measures, frame, pool_);
+      }
+    });
+    if (!is_one_surface) return std::nullopt;
+    return Finish(*std::move(mesh));
   }
 
   // By Euler's formula: a closed surface without handles has two vertices more than half as many as

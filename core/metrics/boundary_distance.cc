@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/metrics/revolved_surface.h"
+#include "core/metrics/solid_images.h"
 #include "core/tighten/distance_kernel.h"
 #include "core/tighten/point_grid.h"
 
@@ -93,13 +94,19 @@ struct BoundaryDistance::SurfaceGrid {
 
 BoundaryDistance::BoundaryDistance(const std::vector<TaperedCapsule>& solids, int grid_points,
                                    const ThreadPool& pool)
-    : solids_(solids), tolerance_m_(kHiddenShare * SizeOf(solids)) {
+    : solids_(solids), images_(ImagesOf(solids)), tolerance_m_(kHiddenShare * SizeOf(solids)) {
   FindNeighbours(pool);
   double area = 0.0;
   for (const TaperedCapsule& solid : solids_) area += GridArea(solid);
   const double spacing_m = std::sqrt(area / grid_points);
   std::vector<std::vector<CreasePoint>> found(solids_.size());
-  pool.ForEach(found.size(), [&](std::size_t i) { FindCreases(i, spacing_m, found[i]); });
+  pool.ForEach(found.size(), [&](std::size_t i) {
+    if (!IsLaterImage(i)) FindCreases(i, spacing_m, found[i]);
+  });
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (!IsLaterImage(i)) continue;
+    for (const CreasePoint& point : found[images_[i]]) found[i].push_back(ImageOf(point));
+  }
   for (const std::vector<CreasePoint>& points : found) {
     creases_.insert(creases_.end(), points.begin(), points.end());
   }
@@ -110,11 +117,22 @@ BoundaryDistance::BoundaryDistance(const std::vector<TaperedCapsule>& solids, in
 void BoundaryDistance::FindNeighbours(const ThreadPool& pool) {
   neighbours_.resize(solids_.size());
   pool.ForEach(solids_.size(), [&](std::size_t i) {
+    if (IsLaterImage(i)) return;
     for (std::size_t k = 0; k < solids_.size(); ++k) {
       if (k == i || !MayTouch(solids_[i], solids_[k])) continue;
       neighbours_[i].push_back(static_cast<std::int32_t>(k));
     }
   });
+  for (std::size_t i = 0; i < solids_.size(); ++i) {
+    if (!IsLaterImage(i)) continue;
+    for (const std::int32_t k : neighbours_[images_[i]]) neighbours_[i].push_back(images_[k]);
+    std::sort(neighbours_[i].begin(), neighbours_[i].end());
+  }
+}
+
+BoundaryDistance::CreasePoint BoundaryDistance::ImageOf(const CreasePoint& point) const {
+  const Eigen::Vector3d& at = point.position_m;
+  return {{-at.x(), at.y(), at.z()}, images_[point.on], images_[point.under]};
 }
 
 bool BoundaryDistance::IsExposed(const Eigen::Vector3d& point_m, std::int32_t solid) const {

@@ -44,6 +44,11 @@ class BoundaryDistance {
   // A grid over the surface of a solid, rows of rings, with the depth of each point in the others.
   struct SurfaceGrid;
 
+  // Whether the solid is the image of one before it.
+  [[nodiscard]] bool IsLaterImage(std::size_t solid) const {
+    return !images_.empty() && images_[solid] < static_cast<std::int32_t>(solid);
+  }
+  [[nodiscard]] CreasePoint ImageOf(const CreasePoint& point) const;
   [[nodiscard]] double ToCrease(const Eigen::Vector3d& point_m) const;
   void FindNeighbours(const ThreadPool& pool);
   // Whether no other solid holds a point on the surface of `solid`.
@@ -61,6 +66,7 @@ class BoundaryDistance {
               double& squared_best, std::size_t& best) const;
 
   const std::vector<geometry::TaperedCapsule>& solids_;
+  std::vector<std::int32_t> images_;                   // see solid_images.h
   std::vector<std::vector<std::int32_t>> neighbours_;  // by solid: the others that reach into it
   double tolerance_m_;
   std::vector<CreasePoint> creases_;

@@ -8,6 +8,7 @@
 #include "core/base/enum_index.h"
 #include "core/base/fit_observer.h"
 #include "core/base/random.h"
+#include "core/metrics/solid_images.h"
 
 namespace capfit::metrics {
 namespace {
@@ -71,6 +72,14 @@ std::vector<RowIntervals::Piece> MakeDisjoint(const std::vector<RowIntervals::Pi
     disjoint.push_back(piece);
   }
   return disjoint;
+}
+
+bool IsOwnImage(const ColumnGrid& grid) {
+  const std::size_t count = grid.x.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (grid.x[i] != -grid.x[count - 1 - i]) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -227,8 +236,10 @@ BodyRows::Cuts BodyRows::Cut(std::size_t row, const GridMargin& margin) const {
   }
   const std::size_t columns = grid_.x.size();
   const std::vector<body::Part>& parts = surface_.parts;
-  Cuts cuts{Inside(crossings, parts, 0, surface_.skin_end, columns, margin.beside),
-            Inside(crossings, parts, surface_.skin_begin, parts.size(), columns, margin.beside)};
+  Cuts cuts{Inside(crossings, parts, 0, surface_.skin_end, columns, margin.beside), {}};
+  if (!surface_.is_whole()) {
+    cuts.some = Inside(crossings, parts, surface_.skin_begin, parts.size(), columns, margin.beside);
+  }
   for (const mesh::ColumnCrossing& crossing : crossings) {
     if (crossing.triangle < surface_.skin_begin) continue;
     const std::size_t part = Index(parts[crossing.triangle]);
@@ -308,11 +319,13 @@ struct SolidRows::Shape {
 };
 
 SolidRows::SolidRows(std::span<const TaperedCapsule> solids, const ColumnGrid& grid)
-    : grid_(grid), shapes_(solids.begin(), solids.end()) {}
+    : grid_(grid), shapes_(solids.begin(), solids.end()) {
+  if (IsOwnImage(grid)) images_ = ImagesOf(solids);
+}
 
 SolidRows::~SolidRows() = default;
 
-void SolidRows::CutOne(std::size_t index, std::size_t row,
+void SolidRows::CutOne(std::size_t index, std::size_t row, std::size_t columns,
                        std::vector<RowIntervals::Piece>& pieces) const {
   constexpr std::size_t kBatch = 64;
   const Shape& shape = shapes_[index];
@@ -321,7 +334,7 @@ void SolidRows::CutOne(std::size_t index, std::size_t row,
   const std::optional<Interval> shadow =
       shape.seen_along_z.Intersect({0.0, y, 0.0}, Eigen::Vector3d::UnitX());
   if (!shadow) return;
-  const std::size_t last = grid_.FirstColumn(shadow->end);
+  const std::size_t last = std::min(columns, grid_.FirstColumn(shadow->end));
   std::array<double, kBatch> begin;
   std::array<double, kBatch> end;
   for (std::size_t i = grid_.FirstColumn(shadow->begin); i < last; i += kBatch) {
@@ -337,16 +350,34 @@ void SolidRows::CutOne(std::size_t index, std::size_t row,
 }
 
 RowIntervals SolidRows::Cut(std::size_t row) const {
+  const std::size_t columns = grid_.x.size();
+  const std::size_t half = images_.empty() ? columns : (columns + 1) / 2;
   std::vector<RowIntervals::Piece> pieces;
-  for (std::size_t index = 0; index < shapes_.size(); ++index) CutOne(index, row, pieces);
+  for (std::size_t index = 0; index < shapes_.size(); ++index) CutOne(index, row, half, pieces);
   // Stable: of solids entered at one place the first comes first.
   mesh::SortByColumn(
-      grid_.x.size(),
+      half,
       [](const RowIntervals::Piece& a, const RowIntervals::Piece& b) {
         return a.interval.begin < b.interval.begin;
       },
       pieces);
-  return {MakeDisjoint(pieces), grid_.x.size()};
+  pieces = MakeDisjoint(pieces);
+  if (half < columns) AddImages(pieces);
+  return {pieces, columns};
+}
+
+void SolidRows::AddImages(std::vector<RowIntervals::Piece>& pieces) const {
+  pieces.reserve(2 * pieces.size());
+  // From the last column back; each of them from its first piece on.
+  for (std::size_t first = 0, last = pieces.size(); last > 0; last = first) {
+    const std::uint32_t column = pieces[last - 1].column;
+    for (first = last; first > 0 && pieces[first - 1].column == column;) --first;
+    const auto image = static_cast<std::uint32_t>(grid_.x.size() - 1 - column);
+    if (image == column) continue;
+    for (std::size_t k = first; k < last; ++k) {
+      pieces.push_back({image, pieces[k].interval, images_[pieces[k].label]});
+    }
+  }
 }
 
 }  // namespace capfit::metrics

@@ -92,7 +92,8 @@ class BodyRows {
   // the part of the triangle at its end for a label.
   struct Cuts {
     RowIntervals body;
-    RowIntervals fitted;
+    std::optional<RowIntervals> some;  // of the body's parts; nothing where all are fitted
+    [[nodiscard]] const RowIntervals& fitted() const { return some ? *some : body; }
     PartNumbers fitted_flux{};  // as FittedSurface::flux, in lengths
   };
   // `row` and the columns of the result are those of the grid, or of one with a margin around it.
@@ -118,7 +119,8 @@ class BodyRows {
   std::vector<OverlapSums> overlaps_;                         // by row
 };
 
-// Where the columns run through the union of solids.
+// Where the columns run through the union of solids. Half of them tell of all where both the solids
+// and the columns are their own mirror image.
 class SolidRows {
  public:
   // Keeps a reference to `grid`.
@@ -134,10 +136,14 @@ class SolidRows {
  private:
   // A solid as the loop over the columns of a row wants it.
   struct Shape;
-  void CutOne(std::size_t index, std::size_t row, std::vector<RowIntervals::Piece>& pieces) const;
+  // In the first `columns` of the row.
+  void CutOne(std::size_t index, std::size_t row, std::size_t columns,
+              std::vector<RowIntervals::Piece>& pieces) const;
+  void AddImages(std::vector<RowIntervals::Piece>& pieces) const;
 
   const ColumnGrid& grid_;
   std::vector<Shape> shapes_;
+  std::vector<std::int32_t> images_;  // of each solid; empty where not all has an image
 };
 
 }  // namespace capfit::metrics

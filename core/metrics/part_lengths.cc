@@ -66,14 +66,20 @@ Volumes PartLengths::OfRow(std::size_t row, const BodyRows::Cuts& cuts,
                            const RowIntervals& set) const {
   Volumes lengths;
   double in_image = 0.0;
-  for (std::size_t i = 0; i < grid_.x.size(); ++i) {
+  const std::size_t columns = grid_.x.size();
+  for (std::size_t i = 0; i < columns; ++i) {
     const std::span<const Interval> set_here = set.Column(i);
-    AddFitted(cuts.fitted.Column(i), cuts.fitted.Labels(i), set_here, lengths);
+    const Column column = {grid_.x[i],    grid_.y[row],        set_here,
+                           set.Labels(i), cuts.body.Column(i), cuts.body.Labels(i)};
+    AddFitted(cuts.fitted().Column(i), cuts.fitted().Labels(i), set_here,
+              /*is_body=*/!cuts.some, lengths);
     if (set_here.empty()) continue;
-    AddSet({grid_.x[i], grid_.y[row], set_here, set.Labels(i), cuts.body.Column(i),
-            cuts.body.Labels(i)},
-           lengths);
-    in_image += CommonLength(set_here, set.Column(grid_.x.size() - 1 - i));
+    if (cuts.some) AddInside(column, lengths);
+    AddOutside(column, lengths);
+    // A column has in common with its image what that has with it.
+    const std::size_t image = columns - 1 - i;
+    if (i > image) continue;
+    in_image += (i < image ? 2.0 : 1.0) * CommonLength(set_here, set.Column(image));
   }
   const PartNumbers flux = ByHome(cuts.fitted_flux);
   for (std::size_t p = 0; p < flux.size(); ++p) lengths.parts[p].fitted_flux = flux[p];
@@ -83,23 +89,28 @@ Volumes PartLengths::OfRow(std::size_t row, const BodyRows::Cuts& cuts,
 }
 
 void PartLengths::AddFitted(std::span<const Interval> fitted, std::span<const std::int32_t> parts,
-                            std::span<const Interval> set, Volumes& lengths) const {
+                            std::span<const Interval> set, bool is_body, Volumes& lengths) const {
   std::size_t from = 0;
   for (std::size_t k = 0; k < fitted.size(); ++k) {
     const double length = fitted[k].end - fitted[k].begin;
+    const double covered = CommonFrom(fitted[k], set, from);
     PartVolumes& part = At(parts[k], lengths);
     part.fitted += length;
-    const double uncovered = length - CommonFrom(fitted[k], set, from);
+    if (is_body) part.set += covered;
+    const double uncovered = length - covered;
     // Rounding: where the set's intervals abut, the sum may differ in the last digit.
     if (uncovered > 1e-12 * length) part.uncovered += uncovered;
   }
 }
 
-void PartLengths::AddSet(const Column& column, Volumes& lengths) const {
+void PartLengths::AddInside(const Column& column, Volumes& lengths) const {
   std::size_t from = 0;
   for (std::size_t k = 0; k < column.body.size(); ++k) {
     At(column.body_parts[k], lengths).set += CommonFrom(column.body[k], column.set, from);
   }
+}
+
+void PartLengths::AddOutside(const Column& column, Volumes& lengths) const {
   for (std::size_t first = 0; first < column.set.size();) {
     std::size_t last = first + 1;
     while (last < column.set.size() && column.set[last].begin == column.set[last - 1].end) ++last;

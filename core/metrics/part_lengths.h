@@ -47,9 +47,12 @@ class PartLengths {
   [[nodiscard]] PartVolumes& At(std::int32_t part, Volumes& lengths) const {
     return lengths.parts[home_[part]];
   }
+  // `is_body`: what is fitted is the whole body; then AddInside is done by this.
   void AddFitted(std::span<const geometry::Interval> fitted, std::span<const std::int32_t> parts,
-                 std::span<const geometry::Interval> set, Volumes& lengths) const;
-  void AddSet(const Column& column, Volumes& lengths) const;
+                 std::span<const geometry::Interval> set, bool is_body, Volumes& lengths) const;
+  // What the set has inside the body, and outside.
+  void AddInside(const Column& column, Volumes& lengths) const;
+  void AddOutside(const Column& column, Volumes& lengths) const;
   // What sticks out of the body of the set's intervals [first, last), which abut.
   void AddOutside(const Column& column, std::size_t first, std::size_t last,
                   Volumes& lengths) const;

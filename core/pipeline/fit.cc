@@ -279,8 +279,10 @@ class BodyFit {
   }
 
   coverage::CoverReport CoverOne(FoundSet& found, FitObserver& observer, Backlog* backlog) const {
-    return coverage::CoverBody(target_, CoverOptionsFor(options_, found.has_shape), pool_, observer,
-                               found.set, cover_ground_ ? &*cover_ground_ : nullptr, backlog);
+    coverage::CoverOptions cover_options = CoverOptionsFor(options_, found.has_shape);
+    cover_options.wants_volume = found_.size() > 1;
+    return coverage::CoverBody(target_, cover_options, pool_, observer, found.set,
+                               cover_ground_ ? &*cover_ground_ : nullptr, backlog);
   }
 
   metrics::MeasureOptions ToMeasure() const {

@@ -16,6 +16,7 @@ using geometry::TaperedCapsule;
 // Points of a block on average. Fewer cull better, more fill the vector loop better; between 24 and
 // 96 the time changes little.
 constexpr double kPointsPerBlock = 48.0;
+constexpr std::size_t kBlocksPerChunk = 32;
 // A bound on memory: cells of the grid for each point.
 constexpr double kMaxCellsPerPoint = 4.0;
 
@@ -65,8 +66,8 @@ Grid MakeGrid(std::span<const Eigen::Vector3d> points, PointGrid::Fold fold) {
 }
 
 // Lowers `best` and sets `index` where this solid is nearer.
-void Lower(const FloatKernel& solid, std::int32_t own_index, const float* x, const float* y,
-           const float* z, int count, float* best, std::int32_t* index) {
+void LowerTo(const FloatKernel& solid, std::int32_t own_index, const float* x, const float* y,
+             const float* z, int count, float* best, std::int32_t* index) {
   for (int i = 0; i < count; ++i) {
     const float distance = solid.SignedDistance(x[i], y[i], z[i]);
     index[i] = distance < best[i] ? own_index : index[i];
@@ -141,7 +142,7 @@ UnionDistances PointGrid::DistancesTo(const std::vector<TaperedCapsule>& solids,
   result.solid.assign(size(), -1);
   if (solids.empty()) return result;
   const SolidTable table(solids);
-  pool.ForChunks(blocks_.size(), 32, [&](std::size_t first, std::size_t last) {
+  pool.ForChunks(blocks_.size(), kBlocksPerChunk, [&](std::size_t first, std::size_t last) {
     std::vector<double> at_center(solids.size());
     std::array<float, kMaxBlock> best{};
     for (std::size_t b = first; b < last; ++b) {
@@ -159,14 +160,41 @@ UnionDistances PointGrid::DistancesTo(const std::vector<TaperedCapsule>& solids,
       for (std::size_t k = 0; k < solids.size(); ++k) {
         // Neither this solid nor the nearest at the centre can gain more than the block's reach.
         if (at_center[k] > at.least_m + 2.0 * block.reach) continue;
-        Lower(KernelAround(table.kernel(k), block.center), static_cast<std::int32_t>(k),
-              x_m_.data() + block.begin, y_m_.data() + block.begin, z_m_.data() + block.begin,
-              count, best.data(), index);
+        LowerTo(KernelAround(table.kernel(k), block.center), static_cast<std::int32_t>(k),
+                x_m_.data() + block.begin, y_m_.data() + block.begin, z_m_.data() + block.begin,
+                count, best.data(), index);
       }
       std::copy_n(best.begin(), count, distances);
     }
   });
   return result;
+}
+
+void PointGrid::Lower(const std::vector<TaperedCapsule>& solids,
+                      std::span<const std::int32_t> grown, UnionDistances& distances,
+                      const ThreadPool& pool) const {
+  std::vector<TaperedCapsule> its_solids;
+  for (const std::int32_t k : grown) its_solids.push_back(solids[k]);
+  const SolidTable table(its_solids);
+  pool.ForChunks(blocks_.size(), kBlocksPerChunk, [&](std::size_t first, std::size_t last) {
+    std::vector<double> at_center(grown.size());
+    std::array<float, kMaxBlock> best{};
+    for (std::size_t b = first; b < last; ++b) {
+      const Block& block = blocks_[b];
+      const int count = static_cast<int>(block.end - block.begin);
+      double* const distance_m = distances.distance_m.data() + block.begin;
+      const double furthest_m = *std::max_element(distance_m, distance_m + count);
+      table.DistancesFrom(block.center, at_center);
+      std::copy_n(distance_m, count, best.begin());
+      for (std::size_t k = 0; k < grown.size(); ++k) {
+        if (at_center[k] - block.reach > furthest_m) continue;
+        LowerTo(KernelAround(table.kernel(k), block.center), grown[k], x_m_.data() + block.begin,
+                y_m_.data() + block.begin, z_m_.data() + block.begin, count, best.data(),
+                distances.solid.data() + block.begin);
+      }
+      std::copy_n(best.begin(), count, distance_m);
+    }
+  });
 }
 
 void PointGrid::BlockDistances(const Block& block, const TaperedCapsule& solid,

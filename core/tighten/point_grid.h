@@ -53,6 +53,13 @@ class PointGrid {
   [[nodiscard]] UnionDistances DistancesTo(const std::vector<geometry::TaperedCapsule>& solids,
                                            double ignore_below_m, const ThreadPool& pool) const;
 
+  // The same after some solids have grown, each containing what it was: `distances` as they were
+  // before, all exact, are lowered to what they are. O(blocks * grown + points * (grown near
+  // each)).
+  void Lower(const std::vector<geometry::TaperedCapsule>& solids,
+             std::span<const std::int32_t> grown, UnionDistances& distances,
+             const ThreadPool& pool) const;
+
   // The distances of one block's points to one solid, as exact, to distance_m[0, block's size).
   void BlockDistances(const Block& block, const geometry::TaperedCapsule& solid,
                       float* distance_m) const;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "core/base/random.h"
@@ -80,6 +81,42 @@ TEST(GrowToAllTest, MeetsEveryDemandInAtMostOneStepEach) {
       EXPECT_LE(DistanceToUnion(set, demand.point_m), 0.0);
     }
     EXPECT_EQ(GrowToAll(demands, kSilent, set), 0);
+  }
+}
+
+// One after the other, the furthest out first: the nearest of all solids grows each time.
+TEST(GrowToAllTest, GrowsTheNearestSolidOfTheFurthestDemand) {
+  Random random(33);
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const TubeBody body = MakeTubeBody(seed, 0.0);
+    std::vector<Demand> demands;
+    for (int i = 0; i < 60; ++i) {  // neighbours follow each other, as on a surface
+      const Eigen::Vector3d step(0.01 * i, 0.02 * i, 0.005 * (i % 7));
+      demands.push_back({Eigen::Vector3d(-0.3, 0.2, 0.3) + step, -1e-6});
+      if (i % 17 == 0) demands.push_back({RandomPoint(random), -1e-6});
+    }
+    capsule::PrimitiveSet one_by_one = body.set;
+    const auto missing = [&](const Demand& demand) {
+      return DistanceToUnion(one_by_one, demand.point_m) - demand.allowed_m;
+    };
+    std::vector<Demand> open = demands;
+    int steps = 0;
+    for (;;) {
+      std::erase_if(open, [&](const Demand& demand) { return missing(demand) <= 0.0; });
+      if (open.empty()) break;
+      const auto furthest = std::max_element(
+          open.begin(), open.end(),
+          [&](const Demand& a, const Demand& b) { return missing(a) < missing(b); });
+      ASSERT_TRUE(GrowTo(*furthest, one_by_one));
+      open.erase(furthest);
+      ++steps;
+    }
+    capsule::PrimitiveSet all_at_once = body.set;
+    EXPECT_EQ(GrowToAll(demands, kSilent, all_at_once), steps);
+    for (std::size_t i = 0; i < body.set.spheres.size(); ++i) {
+      EXPECT_EQ(all_at_once.spheres[i].center_m, one_by_one.spheres[i].center_m);
+      EXPECT_EQ(all_at_once.spheres[i].radius_m, one_by_one.spheres[i].radius_m);
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/base/random.h"
 #include "core/metrics/revolved_surface.h"
+#include "core/metrics/solid_images.h"
 
 namespace capfit::metrics {
 namespace {
@@ -50,6 +51,19 @@ std::vector<TaperedCapsule> RandomSolids(int count, std::uint64_t seed) {
   std::vector<TaperedCapsule> solids;
   for (int i = 0; i < count; ++i) solids.emplace_back(spheres[i], spheres[(i + 1) % count]);
   return solids;
+}
+
+// The solids and their images in the plane x = 0, with a bar across it.
+std::vector<TaperedCapsule> WithImages(const std::vector<TaperedCapsule>& solids) {
+  const auto image = [](const Sphere& s) {
+    return Sphere{{-s.center_m.x(), s.center_m.y(), s.center_m.z()}, s.radius_m};
+  };
+  std::vector<TaperedCapsule> all = solids;
+  for (const TaperedCapsule& solid : solids) {
+    all.emplace_back(image(solid.b()), image(solid.a()));  // whichever end comes first
+  }
+  all.emplace_back(solids.front().a(), image(solids.front().a()));
+  return all;
 }
 
 TEST(RevolvedSurfaceTest, LiesOnTheSolidAndReachesItsPoles) {
@@ -98,8 +112,9 @@ TEST_F(TwoBallsTest, MeasuresFromOutside) {
 // The cloud's points lie on the boundary, so the truth is not further than the nearest of them, and
 // by at most their spacing (some 9 mm) nearer.
 TEST(BoundaryDistanceTest, AgreesWithADenseCloudOnRandomSets) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const std::vector<TaperedCapsule> solids = RandomSolids(6, 10 + seed);
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const std::vector<TaperedCapsule> solids =
+        seed <= 4 ? RandomSolids(6, 10 + seed) : WithImages(RandomSolids(3, 10 + seed));
     const BoundaryDistance boundary(solids, 20'000, OneThread());
     std::vector<Vector3d> cloud;
     for (const TaperedCapsule& solid : solids) {
@@ -140,6 +155,30 @@ TEST(BoundaryDistanceTest, SameBitsForAnyNumberOfThreads) {
   for (const int threads : {2, 3, 7}) {
     const ThreadPool pool(threads);
     EXPECT_EQ(BoundaryDistance(solids, 5000, pool).SignedAt(points, pool), one);
+  }
+}
+
+TEST(BoundaryDistanceTest, OfASetThatIsItsOwnImageIsItsOwnImage) {
+  const std::vector<TaperedCapsule> solids = WithImages(RandomSolids(5, 40));
+  const BoundaryDistance boundary(solids, 5000, OneThread());
+  Random random(41);
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d point = RandomPoint(random, 0.9);
+    const Vector3d image(-point.x(), point.y(), point.z());
+    EXPECT_NEAR(At(boundary, image), At(boundary, point), 1e-4);
+  }
+}
+
+TEST(SolidImagesTest, AreFoundWhicheverEndComesFirst) {
+  const std::vector<TaperedCapsule> solids = WithImages(RandomSolids(4, 50));
+  EXPECT_EQ(ImagesOf(solids), (std::vector<std::int32_t>{4, 5, 6, 7, 0, 1, 2, 3, 8}));
+  EXPECT_TRUE(ImagesOf({}).empty());
+  // Rounding is no matter; one that has no image leaves all without.
+  for (const double off_m : {1e-12, 1e-6}) {
+    std::vector<TaperedCapsule> off = solids;
+    const Sphere a = off[6].a();
+    off[6] = TaperedCapsule({a.center_m, a.radius_m + off_m}, off[6].b());
+    EXPECT_EQ(ImagesOf(off).empty(), off_m > 1e-9);
   }
 }
 

@@ -240,15 +240,15 @@ TEST(BodyRowsTest, HalvesHaveThePartOfTheirEndAndSurfacesShareTriangles) {
       EXPECT_DOUBLE_EQ(body[0].end, 2.0);
       EXPECT_EQ(cuts.body.Labels(column)[0], static_cast<int>(kLow));
       EXPECT_EQ(cuts.body.Labels(column)[1], static_cast<int>(kHigh));
-      const auto fitted = cuts.fitted.Column(column);
+      const auto fitted = cuts.fitted().Column(column);
       ASSERT_EQ(fitted.size(), 1u);
       EXPECT_EQ(fitted[0].end, 2.0);
-      EXPECT_EQ(cuts.fitted.Labels(column)[0], static_cast<int>(kLow));
+      EXPECT_EQ(cuts.fitted().Labels(column)[0], static_cast<int>(kLow));
     }
   }
 }
 
-TEST(SolidRowsTest, LabelsNameASolidThatHoldsTheInterval) {
+TEST(SolidRowLabelsTest, NameASolidThatHoldsTheInterval) {
   const std::vector<TaperedCapsule> solids = {{{{0, 0, 0}, 0.5}, {{0, 0, 0}, 0.5}},
                                               {{{0, 0, 0.4}, 0.5}, {{0, 0, 0.4}, 0.5}},
                                               {{{0, 0, 0.1}, 0.2}, {{0, 0, 0.1}, 0.2}}};
@@ -269,11 +269,12 @@ TEST(SolidRowsTest, LabelsNameASolidThatHoldsTheInterval) {
   }
 }
 
-TEST(SolidRowsTest, AgreesWithTheDistanceToTheUnion) {
-  const std::vector<TaperedCapsule> solids = {{{{0, 0.2, 0}, 0.5}, {{1, 0.8, 0.3}, 0.2}},
-                                              {{{-0.8, 0, 0}, 0.3}, {{-0.8, 0, 0}, 0.3}},
-                                              {{{0, 1, 0}, 0.1}, {{0.1, 1, 0}, 0.6}},
-                                              {{{0.4, 0.1, 2}, 0.2}, {{0.4, 0.1, 3}, 0.2}}};
+// Free ones, and a set that is its own mirror image: a mirrored pair, a bar between two images and
+// a capsule on the plane.
+class SolidRowsTest : public testing::TestWithParam<std::vector<TaperedCapsule>> {};
+
+TEST_P(SolidRowsTest, AgreeWithTheDistanceToTheUnion) {
+  const std::vector<TaperedCapsule>& solids = GetParam();
   const ColumnGrid grid = MakeColumnGrid({Vector3d(-1.2, -0.6, 0), Vector3d(1.3, 1.7, 1)}, 30);
   for (std::size_t row = 0; row < 30; ++row) {
     const RowIntervals cut = SolidRows(solids, grid).Cut(row);
@@ -287,9 +288,25 @@ TEST(SolidRowsTest, AgreesWithTheDistanceToTheUnion) {
       }
       if (std::abs(distance) < 1e-9) continue;
       EXPECT_EQ(IsInside(cut.Column(column), z), distance < 0) << point.transpose();
+      for (std::size_t k = 0; k < cut.Column(column).size(); ++k) {
+        const geometry::Interval interval = cut.Column(column)[k];
+        const Vector3d middle(point.x(), point.y(), 0.5 * (interval.begin + interval.end));
+        EXPECT_LT(solids[cut.Labels(column)[k]].SignedDistance(middle), 1e-12);
+      }
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Sets, SolidRowsTest,
+    testing::Values(std::vector<TaperedCapsule>{{{{0, 0.2, 0}, 0.5}, {{1, 0.8, 0.3}, 0.2}},
+                                                {{{-0.8, 0, 0}, 0.3}, {{-0.8, 0, 0}, 0.3}},
+                                                {{{0, 1, 0}, 0.1}, {{0.1, 1, 0}, 0.6}},
+                                                {{{0.4, 0.1, 2}, 0.2}, {{0.4, 0.1, 3}, 0.2}}},
+                    std::vector<TaperedCapsule>{{{{0.3, 0.2, 0}, 0.4}, {{1, 0.8, 0.3}, 0.2}},
+                                                {{{0, 0.9, 0.2}, 0.3}, {{0, 0.4, 1}, 0.2}},
+                                                {{{-0.3, 0.2, 0}, 0.4}, {{-1, 0.8, 0.3}, 0.2}},
+                                                {{{-0.6, 0, 0.5}, 0.2}, {{0.6, 0, 0.5}, 0.2}}}));
 
 TEST(BodyRowsTest, MeasureWhatIsEnclosedTwice) {
   using BoxCorners = std::array<Vector3d, 2>;

@@ -56,6 +56,30 @@ TEST(PointGridTest, MatchesEverySolidForEveryPoint) {
   }
 }
 
+TEST(PointGridTest, LowersWhatGrownSolidsAreNearerTo) {
+  Random random(59);
+  const std::vector<Eigen::Vector3d> points = RandomPoints(random, 3000);
+  std::vector<TaperedCapsule> solids = RandomSolids(random, 30);
+  const PointGrid grid(points);
+  UnionDistances lowered = grid.DistancesTo(solids, kEverything, ThreadPool(1));
+  const std::vector<std::int32_t> grown = {3, 4, 17};
+  for (const std::int32_t k : grown) {
+    const auto larger = [&](const geometry::Sphere& s) {
+      const Eigen::Vector3d aside(0.05, -0.02, 0.01);
+      return geometry::Sphere{s.center_m + aside, s.radius_m + 1.01 * aside.norm()};
+    };
+    solids[k] = TaperedCapsule(larger(solids[k].a()), larger(solids[k].b()));
+  }
+  const UnionDistances before = lowered;
+  grid.Lower(solids, grown, lowered, ThreadPool(2));
+  const UnionDistances anew = grid.DistancesTo(solids, kEverything, ThreadPool(1));
+  EXPECT_EQ(lowered.distance_m, anew.distance_m);
+  EXPECT_EQ(lowered.solid, anew.solid);
+  EXPECT_NE(lowered.distance_m, before.distance_m);
+  grid.Lower(solids, {}, lowered, ThreadPool(2));
+  EXPECT_EQ(lowered.distance_m, anew.distance_m);
+}
+
 TEST(PointGridTest, OnDenseSurfacesFloatsTellAFifthOfAMicrometre) {
   Random random(57);
   std::vector<Eigen::Vector3d> points;
