@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -28,6 +29,7 @@ constexpr double kCapTiltPerRadian = 0.37;
 constexpr double kCapForward = 0.24;
 constexpr double kArmpitMargin = 0.005;
 constexpr double kArmpitBeyondShoulder = 0.045;
+constexpr double kBelowArmpit = 0.004;
 constexpr double kArmRadius = 0.090;
 constexpr double kAside = 0.05;
 constexpr double kCapInside = 0.0165;
@@ -48,8 +50,10 @@ constexpr double kJawAboveNeck = 0.035;
 struct Barrier {
   CutPlane plane;  // normal outward, away from the trunk
   double radius = 0.0;
-  const std::vector<char>* in_limb = nullptr;  // by node
+  const std::vector<char>* in_limb = nullptr;                  // by node
+  double lowest_y = -std::numeric_limits<double>::infinity();  // what is lower stops it as well
   [[nodiscard]] bool Stops(std::uint32_t node, const Eigen::Vector3d& p) const {
+    if (p.y() < lowest_y) return true;
     const bool is_inner = plane.Height(p) < 0.0;
     const bool is_of_limb = (*in_limb)[node] != 0;
     if (is_of_limb != is_inner) return is_inner;  // most vertices
@@ -138,8 +142,10 @@ class Labeller {
     Flooded beyond = Flood(shape_, tip,
                            Across(armpit, outward, kArmpitMargin,
                                   kArmRadius + hanging * (kShoulderRadius - kArmRadius)));
-    Label(OnSide(Segment::kLeftUpperArm, side), std::move(beyond),
-          Across(shoulder, cap, -kCapInside, kShoulderRadius));
+    // The side of a wide chest lies beyond the cap's plane too, but below the armpit.
+    Barrier at_cap = Across(shoulder, cap, -kCapInside, kShoulderRadius);
+    at_cap.lowest_y = At(LandmarkId::kLeftArmpit, side).y() - kBelowArmpit * shape_.stature_m;
+    Label(OnSide(Segment::kLeftUpperArm, side), std::move(beyond), at_cap);
     Label(OnSide(Segment::kLeftForearm, side), tip,
           Across(elbow, wrist - shoulder, 0.0, kElbowRadius));
     if (shape_.has_hand[side]) {

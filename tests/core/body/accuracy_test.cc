@@ -36,6 +36,36 @@ TEST(Accuracy, JointsAndSegmentsOfAllPosedBodies) {
   EXPECT_LE(errors_mm[85], 15.0);
 }
 
+// The side of a wide chest lies beyond the plane through the shoulder's cap, but it is no arm.
+class Chest : public testing::TestWithParam<std::string> {};
+
+TEST_P(Chest, IsNoArmBelowTheArmpits) {
+  CAPFIT_REQUIRE_BODIES();
+  const auto body = Find(LoadBody(GetParam() + ".obj"));
+  ASSERT_TRUE(body.ok()) << body.status();
+  const std::string truth = test_support::ReadFile(test_support::BodiesFolder() / "labels.bin");
+  const auto sources = body->mesh.vertex_of_source();
+  ASSERT_EQ(truth.size(), sources.size());
+  int below = 0;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const Segment found = body->vertex_segments[sources[i]];
+    const bool is_left = found == Segment::kLeftUpperArm;
+    if (truth[i] != static_cast<char>(Segment::kTorso)) continue;
+    if (!is_left && found != Segment::kRightUpperArm) continue;
+    const auto& armpit =
+        body->landmark(is_left ? LandmarkId::kLeftArmpit : LandmarkId::kRightArmpit);
+    ASSERT_TRUE(armpit);
+    const double depth = armpit->position_m.y() - body->mesh.vertices()[sources[i]].y();
+    below += depth > 0.005 * body->height_m ? 1 : 0;
+  }
+  EXPECT_EQ(below, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Wide, Chest,
+                         testing::Values("female_average_sides", "female_heavy_rest",
+                                         "male_heavy_rest"),
+                         [](const auto& tested) { return tested.param; });
+
 class Density : public testing::TestWithParam<std::string> {};
 
 TEST_P(Density, SegmentsAndJointsHoldFromFiveToTwoHundredThousandFaces) {
