@@ -31,12 +31,49 @@ bool IsUpper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; 
 bool IsDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool IsAlnum(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
+bool IsOfOtherScript(char c) { return static_cast<unsigned char>(c) >= 0x80; }
+
+// MikuMikuDance's names are Japanese: the side, then one of these, and nothing more.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kJapaneseWords = {{
+    {"腕", "upperarm"},
+    {"ひじ", "elbow"},
+    {"肘", "elbow"},
+    {"手首", "wrist"},
+    {"足", "thigh"},
+    {"ひざ", "knee"},
+    {"膝", "knee"},
+    {"足首", "ankle"},
+    {"首", "neck"},
+    {"頭", "head"},
+}};
+
+void AddJapanese(std::string_view word, std::vector<std::string>& tokens) {
+  for (const auto& [side, meaning] : {std::pair<std::string_view, const char*>("左", "left"),
+                                      std::pair<std::string_view, const char*>("右", "right")}) {
+    if (!word.starts_with(side)) continue;
+    tokens.emplace_back(meaning);
+    word.remove_prefix(side.size());
+    break;
+  }
+  for (const auto& [japanese, meaning] : kJapaneseWords) {
+    if (word == japanese) tokens.emplace_back(meaning);
+  }
+}
+
 // "mixamorig:LeftForeArm" to mixamorig, left, fore, arm; numbers are tokens of their own.
 std::vector<std::string> Tokens(std::string_view name) {
   std::vector<std::string> tokens;
   bool begins = true;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const char c = name[i];
+    if (IsOfOtherScript(c)) {
+      std::size_t end = i;
+      while (end < name.size() && IsOfOtherScript(name[end])) ++end;
+      AddJapanese(name.substr(i, end - i), tokens);
+      i = end - 1;
+      begins = true;
+      continue;
+    }
     if (!IsAlnum(c)) {
       begins = true;
       continue;

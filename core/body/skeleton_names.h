@@ -28,7 +28,8 @@ struct Rig {
 // names: those of Mixamo ("mixamorig:LeftForeArm") and Ready Player Me ("LeftForeArm"), VRM and
 // VRoid ("leftLowerArm", "J_Bip_L_LowerArm", "Left elbow"), MakeHuman ("lowerarm01.L"), SMPL
 // ("L_Elbow", "left_elbow"), Unreal ("lowerarm_l"), Character Creator ("CC_Base_L_Forearm"), Daz
-// ("lForearmBend"), 3ds Max Biped ("Bip01 L Forearm") and Blender's Rigify ("forearm.L"). Case and
+// ("lForearmBend"), 3ds Max Biped ("Bip01 L Forearm"), Blender's Rigify ("forearm.L") and
+// MikuMikuDance ("左ひじ", or "ひじ.L" as Blender has it). Case and
 // separators do not matter, nor does what most names begin with ("Bob:LeftArm") or a number of its
 // own that each name ends with ("LeftArm_07"). Where two skeletons use a word for different joints
 // ("LeftShoulder" is Mixamo's collar bone and SMPL's shoulder joint; "LeftLeg" is a shin or a
