@@ -10,6 +10,7 @@
 #include "core/base/host_and_port.h"
 #include "core/base/number_in.h"
 #include "core/base/status.h"
+#include "proto/wire/pem_checks.h"
 
 namespace capfit::client {
 
@@ -30,6 +31,26 @@ absl::Status ReadInto(const std::string& path, std::string& text) {
   if (path.empty()) return absl::OkStatus();
   CAPFIT_ASSIGN_OR_RETURN(text, ReadFileBytes(path));
   return absl::OkStatus();
+}
+
+absl::Status ReadPems(const ServerFlags& flags, Security& security) {
+  if (flags.tls_certificate.empty() != flags.tls_key.empty()) {
+    const bool needs_key = flags.tls_key.empty();
+    return InvalidField(ErrorReason::kMissing, needs_key ? "--tls-key" : "--tls-certificate",
+                        needs_key ? "is missing: --tls-certificate needs the key that belongs to it"
+                                  : "is missing: --tls-key belongs to a certificate");
+  }
+  CAPFIT_RETURN_IF_ERROR(ReadInto(flags.tls_ca, security.root_certificates));
+  CAPFIT_RETURN_IF_ERROR(ReadInto(flags.tls_certificate, security.certificate));
+  CAPFIT_RETURN_IF_ERROR(ReadInto(flags.tls_key, security.key));
+  // Of many authorities any may have expired.
+  if (!flags.tls_ca.empty()) {
+    CAPFIT_RETURN_IF_ERROR(wire::CheckHasCertificate({flags.tls_ca, security.root_certificates}));
+  }
+  if (flags.tls_certificate.empty()) return absl::OkStatus();
+  const wire::PemFile certificate = {flags.tls_certificate, security.certificate};
+  CAPFIT_RETURN_IF_ERROR(wire::CheckKey({flags.tls_key, security.key}, certificate));
+  return wire::ValidUntil(certificate).status();
 }
 
 // gRPC ends the process where a header holds anything else.
@@ -79,9 +100,7 @@ absl::StatusOr<Security> SecurityOf(const ServerFlags& flags) {
   Security security;
   security.tls = flags.tls || !flags.tls_ca.empty() || !flags.tls_certificate.empty();
   security.server_name = flags.tls_server_name;
-  CAPFIT_RETURN_IF_ERROR(ReadInto(flags.tls_ca, security.root_certificates));
-  CAPFIT_RETURN_IF_ERROR(ReadInto(flags.tls_certificate, security.certificate));
-  CAPFIT_RETURN_IF_ERROR(ReadInto(flags.tls_key, security.key));
+  CAPFIT_RETURN_IF_ERROR(ReadPems(flags, security));
   CAPFIT_RETURN_IF_ERROR(ReadInto(flags.token_file, security.token));
   security.token.resize(std::min(security.token.size(), security.token.find_first_of("\r\n")));
   if (!flags.token_file.empty()) {

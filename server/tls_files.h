@@ -1,5 +1,4 @@
-// Certificates and keys, read and judged before gRPC sees them: gRPC takes a wrong pair without a
-// word, and then refuses every connection.
+// The server's certificates and keys, read and judged (see proto/wire/pem_checks.h).
 #ifndef CAPFIT_SERVER_TLS_FILES_H_
 #define CAPFIT_SERVER_TLS_FILES_H_
 

@@ -8,8 +8,10 @@
 #include <string>
 #include <tuple>
 
+#include "absl/strings/str_split.h"
 #include "tests/client/picture/read_png.h"
 #include "tests/e2e/processes.h"
+#include "tests/server/certificates.h"
 #include "tests/support/avatars.h"
 
 namespace capfit::e2e {
@@ -138,6 +140,37 @@ TEST_F(CommandLine, ASetWithoutSpheresIsNotPerfect) {
   const Outcome outcome = RunCapfit({"evaluate", Body(), Path("empty.json")});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("empty.json has no spheres"));
+}
+
+// gRPC would take such files without a word, and then no connection came about.
+TEST_F(CommandLine, FilesOfTlsAreJudgedBeforeTheServerIsAsked) {
+  const server::CertificateAndKey authority = server::MakeAuthority("Test authority");
+  const server::CertificateAndKey own = server::MakeCertificate(authority);
+  const server::CertificateAndKey past = server::MakeCertificate(authority, -7200, -3600);
+  WriteText(Path("no.pem"), "-----BEGIN NOTHING-----\n");
+  WriteText(Path("ca.pem"), authority.certificate);
+  WriteText(Path("own.pem"), own.certificate);
+  WriteText(Path("own.key"), own.key);
+  WriteText(Path("past.pem"), past.certificate);
+  WriteText(Path("past.key"), past.key);
+  for (const auto& [flags, problem] : {
+           std::pair("--tls-ca no.pem", "no.pem has no certificate in PEM"),
+           std::pair("--tls-certificate own.pem", "--tls-key is missing"),
+           std::pair("--tls-key own.key", "--tls-certificate is missing"),
+           std::pair("--tls-certificate no.pem --tls-key own.key", "no.pem has no certificate"),
+           std::pair("--tls-certificate own.pem --tls-key no.pem", "no.pem has no private key"),
+           std::pair("--tls-certificate own.pem --tls-key past.key", "is not the key of the"),
+           std::pair("--tls-certificate past.pem --tls-key past.key", "past.pem expired on"),
+       }) {
+    std::vector<std::string> words = {"info", "--server", "localhost:1"};
+    const std::vector<std::string> parts = absl::StrSplit(flags, ' ');
+    for (const std::string& word : parts) {
+      words.push_back(word.starts_with("--") ? word : Path(word));
+    }
+    const Outcome outcome = RunCapfit(words);
+    EXPECT_EQ(outcome.exit_code, 2) << flags;
+    EXPECT_THAT(outcome.err, HasSubstr(problem)) << flags;
+  }
 }
 
 TEST_F(CommandLine, LostStandardOutputIsAnError) {
