@@ -51,6 +51,7 @@ absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
                                             const ApproximateArguments& arguments,
                                             ProgressLine& progress) {
   CAPFIT_RETURN_IF_ERROR(pipeline::ValidateOptions(asked));
+  CAPFIT_RETURN_IF_ERROR(pipeline::CheckExports(asked.exports, bytes));
   CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, formats::ReadMesh(bytes, format));
   pipeline::FitOptions options = asked;
   if (!arguments.cover_motion.empty()) {

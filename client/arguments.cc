@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "core/base/did_you_mean.h"
@@ -114,13 +115,19 @@ std::string UnknownName(const CLI::App& app, const std::vector<std::string>& arg
   return "";
 }
 
-std::string Complaint(const CLI::ParseError& error) {
+std::string Complaint(const CLI::App& app, const std::vector<std::string>& arguments,
+                      const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::string prefix = "Could not convert: ";
   const std::size_t equals = text.find(" = ");
   if (text.rfind(prefix, 0) != 0 || equals == std::string::npos) return text;
-  return absl::StrCat(text.substr(prefix.size(), equals - prefix.size()), ": '",
-                      text.substr(equals + 3), "' is not a number in range");
+  const std::string flag = text.substr(prefix.size(), equals - prefix.size());
+  const CLI::App* const command = CommandOf(app, arguments);
+  const CLI::Option* const option = FindOption(command == nullptr ? app : *command, flag);
+  const bool is_whole =
+      option != nullptr && absl::StrContains(option->get_type_name(), "INT");  // or UINT
+  return absl::StrCat(flag, ": '", text.substr(equals + 3),
+                      is_whole ? "' is no whole number, or too large a one" : "' is no number");
 }
 
 }  // namespace capfit::client

@@ -19,8 +19,9 @@ namespace capfit::client {
 [[nodiscard]] std::string UnknownName(const CLI::App& app,
                                       const std::vector<std::string>& arguments);
 
-// CLI11's complaint in the words of the help.
-[[nodiscard]] std::string Complaint(const CLI::ParseError& error);
+// CLI11's complaint about these arguments in the words of the help.
+[[nodiscard]] std::string Complaint(const CLI::App& app, const std::vector<std::string>& arguments,
+                                    const CLI::ParseError& error);
 
 // The subcommand that the arguments name; nothing where they name none.
 [[nodiscard]] const CLI::App* CommandOf(const CLI::App& app,

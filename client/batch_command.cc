@@ -117,15 +117,13 @@ std::string OptionsKey(const pipeline::FitOptions& options) {
   return header.SerializeAsString();
 }
 
-// What has its own files beside RESULT.json.
 absl::Status CheckBatchOptions(const pipeline::FitOptions& options) {
   CAPFIT_RETURN_IF_ERROR(pipeline::ValidateOptions(options));
-  const bool has_files = options.skinning == pipeline::SkinningMode::kDense ||
-                         options.want_vertex_gaps || !options.exports.empty();
-  if (!has_files) return absl::OkStatus();
-  return InvalidField(ErrorReason::kConflict, "batch",
-                      "writes RESULT.json files alone: --skinning dense, --heat-map and --export "
-                      "are for `capfit approximate`");
+  if (options.skinning != pipeline::SkinningMode::kDense) return absl::OkStatus();
+  return InvalidField(
+      ErrorReason::kConflict, "--skinning",
+      "is dense, whose weights are a file beside RESULT.json; batch writes RESULT.json "
+      "files alone");
 }
 
 absl::StatusOr<BatchWork> WorkOf(const BatchArguments& arguments) {
@@ -200,6 +198,10 @@ void AddBatchCommand(CLI::App& app, int& exit_code) {
   AddBatchFlags(*command, *arguments);
   AddServerFlags(*command, arguments->server);
   AddFitFlags(*command, arguments->fit);
+  // These have their own files beside RESULT.json.
+  for (const char* const flag : {"--export", "--heat-map"}) {
+    command->remove_option(command->get_option(flag));
+  }
   command->footer(
       "A result that is there and was made of the same bytes, options and version is left as it "
       "is, so that a batch that was broken off goes on. Exit code: the worst of all bodies.");

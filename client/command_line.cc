@@ -81,7 +81,7 @@ int RunCommandLine(const std::vector<std::string>& arguments) {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return AfterPrinting(app.exit(error));  // help and version
-    return RefuseUsage(app, arguments, Complaint(error));
+    return RefuseUsage(app, arguments, Complaint(app, arguments, error));
   }
   return AfterPrinting(exit_code);
 }

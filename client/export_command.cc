@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -51,14 +52,30 @@ std::string SourceOf(const ExportArguments& arguments) {
   return path == "-" ? "body" : std::filesystem::path(path).stem().string();
 }
 
+absl::Status PrintFile(const std::vector<exports::ExportFile>& files) {
+  if (files.size() == 1) return WriteFileBytes("-", files.front().bytes);
+  return InvalidField(ErrorReason::kConflict, "--output",
+                      absl::StrCat("is -, which takes one file; these formats make ", files.size(),
+                                   ": name a folder"));
+}
+
+absl::Status WriteFiles(const std::vector<exports::ExportFile>& files,
+                        const ExportArguments& arguments) {
+  for (const exports::ExportFile& file : files) {
+    CAPFIT_RETURN_IF_ERROR(WriteExportFile(file, arguments.folder, arguments.quiet));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status RunExport(const ExportArguments& arguments) {
   CAPFIT_ASSIGN_OR_RETURN(const std::string text, ReadFileBytes(arguments.result));
   CAPFIT_ASSIGN_OR_RETURN(const exports::ColliderSet set, CollidersOf(text, SourceOf(arguments)));
   CAPFIT_ASSIGN_OR_RETURN(const std::string original, Original(arguments, text));
   exports::ExportOptions options = arguments.options;
   options.max_overshoot_m = 1e-3 * arguments.max_overshoot_mm;
+  std::vector<exports::ExportFile> files;
   for (const std::string& format : arguments.formats) {
-    const absl::StatusOr<exports::Exported> exported =
+    absl::StatusOr<exports::Exported> exported =
         exports::Export(set, format, std::as_bytes(std::span(original)), options);
     if (!exported.ok()) {
       const bool wants_body = FieldOf(exported.status()) == "original";
@@ -69,11 +86,9 @@ absl::Status RunExport(const ExportArguments& arguments) {
                         : exported.status();
     }
     PrintWarnings(exported->warnings);
-    for (const exports::ExportFile& file : exported->files) {
-      CAPFIT_RETURN_IF_ERROR(WriteExportFile(file, arguments.folder, arguments.quiet));
-    }
+    for (exports::ExportFile& file : exported->files) files.push_back(std::move(file));
   }
-  return absl::OkStatus();
+  return arguments.folder == "-" ? PrintFile(files) : WriteFiles(files, arguments);
 }
 
 std::string FormatsFooter() {
@@ -114,7 +129,8 @@ void AddExportCommand(CLI::App& app, int& exit_code) {
       ->add_option("--body", arguments->body,
                    "The mesh file that was fitted: gltf gives it back with colliders, vrm needs it")
       ->type_name("FILE");
-  command->add_option("-o,--output", arguments->folder, "Folder for the files")
+  command
+      ->add_option("-o,--output", arguments->folder, "Folder for the files; - prints the only one")
       ->type_name("FOLDER")
       ->capture_default_str();
   command->add_flag("--preview", arguments->options.has_preview,

@@ -264,6 +264,7 @@ std::string FitJob::CacheKey() const {
 }
 
 absl::StatusOr<pipeline::FitResult> FitJob::Fit(FitObserver& observer) {
+  CAPFIT_RETURN_IF_ERROR(pipeline::CheckExports(options_.exports, upload_.file()));
   CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, std::move(upload_).Finish());
   record_.faces = static_cast<std::int64_t>(soup.face_count());
   absl::StatusOr<pipeline::FitResult> result =

@@ -61,7 +61,7 @@ absl::Status CheckDescription(std::string_view text) {
 }
 
 absl::Status CheckGlbHeader(std::span<const std::byte> bytes) {
-  if (bytes.size() < kFileHeaderBytes + kChunkHeaderBytes || WordAt(bytes, 0) != kMagic) {
+  if (!LooksLikeGlb(bytes)) {
     return FileError(ErrorReason::kMalformedFile, {},
                      "is no GLB file: it must begin with 'glTF' and a header");
   }
@@ -111,6 +111,10 @@ absl::StatusOr<GltfChunks> SplitChunks(std::span<const std::byte> bytes) {
 }
 
 }  // namespace
+
+bool LooksLikeGlb(std::span<const std::byte> bytes) {
+  return bytes.size() >= kFileHeaderBytes + kChunkHeaderBytes && WordAt(bytes, 0) == kMagic;
+}
 
 bool LooksLikeGltfText(std::string_view text) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);  // byte order mark

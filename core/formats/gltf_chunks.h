@@ -23,6 +23,9 @@ struct GltfChunks {
 // Whether the text begins as JSON does that describes a file (.gltf).
 [[nodiscard]] bool LooksLikeGltfText(std::string_view text);
 
+// Whether the bytes begin as a GLB does.
+[[nodiscard]] bool LooksLikeGlb(std::span<const std::byte> bytes);
+
 // Checks header and lengths of a GLB; a .gltf is all description. The description has at most 8 MB,
 // strings of more than 1 kB not counted: it is to be parsed, which takes up to thirty times as
 // much. INVALID_ARGUMENT says what is wrong.

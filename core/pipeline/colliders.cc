@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/status.h"
 #include "core/export/export.h"
+#include "core/formats/gltf_chunks.h"
 #include "core/pipeline/engines.h"
 
 namespace capfit::pipeline {
@@ -21,6 +22,18 @@ exports::ColliderSet CollidersOf(const FitResult& result, std::string source) {
   set.source = std::move(source);
   set.version = result.version;
   return set;
+}
+
+absl::Status CheckExports(std::span<const ExportWish> wishes, std::span<const std::byte> original) {
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    const exports::ExportFormat* const format = exports::FindExportFormat(wishes[i].format);
+    if (format == nullptr || !format->needs_original || formats::LooksLikeGlb(original)) continue;
+    return InvalidField(ErrorReason::kConflict, absl::StrCat("exports[", i, "].format"),
+                        absl::StrCat("is ", wishes[i].format,
+                                     ", which puts the colliders into the file that was fitted: "
+                                     "send the body as a GLB or VRM file"));
+  }
+  return absl::OkStatus();
 }
 
 absl::Status AddExports(std::span<const ExportWish> wishes, std::span<const std::byte> original,

@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"approximate b.obj -o r.json --parts torso,wings",
              "--parts: 'wings' is none of all, torso, arms, legs, head, hands, feet"},
         Case{"approximate b.obj -o r.json --max-primitives many",
-             "--max-primitives: 'many' is not a number in range"},
+             "--max-primitives: 'many' is no whole number, or too large a one"},
         Case{"approximate b.obj -o r.json --tolerance-mm 101",
              "--tolerance-mm: '101' must be a number in [0, 100]"},
         Case{"approximate b.obj -o r.json --tolerance-mm nan",
