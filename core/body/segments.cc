@@ -30,6 +30,12 @@ constexpr double kCapForward = 0.24;
 constexpr double kArmpitMargin = 0.005;
 constexpr double kArmpitBeyondShoulder = 0.045;
 constexpr double kBelowArmpit = 0.004;
+// No arm begins nearer to the middle than this share of the shoulder's way from there. Where what
+// should end at the armpit comes so far, a garment joins arm and trunk below it: then it ends
+// further down the arm, by so many steps of this length at most.
+constexpr double kInnermostOfArm = 0.6;
+constexpr double kArmpitStep = 0.01;
+constexpr int kMostArmpitSteps = 8;
 constexpr double kArmRadius = 0.090;
 constexpr double kAside = 0.05;
 constexpr double kCapInside = 0.0165;
@@ -139,9 +145,12 @@ class Labeller {
     const Eigen::Vector3d armpit =
         across_arm + hanging * (At(LandmarkId::kLeftArmpit, side) - across_arm);
     const Eigen::Vector3d outward = arm - hanging * Eigen::Vector3d::UnitY();
-    Flooded beyond = Flood(shape_, tip,
-                           Across(armpit, outward, kArmpitMargin,
-                                  kArmRadius + hanging * (kShoulderRadius - kArmRadius)));
+    const double radius = kArmRadius + hanging * (kShoulderRadius - kArmRadius);
+    const double inner_x = kInnermostOfArm * std::abs(shoulder.x());
+    Flooded beyond = Flood(shape_, tip, Across(armpit, outward, kArmpitMargin, radius));
+    for (int i = 1; i <= kMostArmpitSteps && HasRunIntoTrunk(beyond, side, inner_x); ++i) {
+      beyond = Flood(shape_, tip, Across(armpit, outward, kArmpitMargin + i * kArmpitStep, radius));
+    }
     // The side of a wide chest lies beyond the cap's plane too, but below the armpit.
     Barrier at_cap = Across(shoulder, cap, -kCapInside, kShoulderRadius);
     at_cap.lowest_y = At(LandmarkId::kLeftArmpit, side).y() - kBelowArmpit * shape_.stature_m;
@@ -207,6 +216,11 @@ class Labeller {
   }
   [[nodiscard]] Eigen::Vector3d At(LandmarkId left, int side = kLeft) const {
     return landmarks_[Sided(left, side)]->position_m;
+  }
+  [[nodiscard]] bool HasRunIntoTrunk(const Flooded& reached, int side, double inner_x) const {
+    return std::any_of(reached.nodes.begin(), reached.nodes.end(), [&](std::uint32_t node) {
+      return in_limb_[node] == 0 && SideSign(side) * shape_.points[node].x() < inner_x;
+    });
   }
   [[nodiscard]] Barrier Across(const Eigen::Vector3d& origin, const Eigen::Vector3d& outward,
                                double shift, double radius) const {
