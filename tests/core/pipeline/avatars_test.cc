@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -139,6 +140,36 @@ TEST(AvatarOptionsTest, HairSkirtAndNamesDecideWhatIsEnclosed) {
     if (part.name == "Shoes_01_CLOTH") {
       EXPECT_FALSE(part.is_included);
     }
+  }
+}
+
+// A shirt may join arm and trunk below the armpit; the chest is no arm for that.
+TEST(AvatarLabelsTest, NothingOfTheTrunkIsAnArm) {
+  CAPFIT_REQUIRE_AVATARS();
+  FitOptions options;
+  options.parts = {false, true, false, false, false, false};
+  options.want_vertex_gaps = true;
+  const json truths = Truths();
+  for (const auto& [avatar, truth] : truths.items()) {
+    const PolygonSoup soup = ReadAvatar(truth);
+    NullObserver observer;
+    const auto result = Fit(soup, options, ThreadPool(2), observer);
+    ASSERT_TRUE(result.ok()) << result.status();
+    double shoulder = 1e300;
+    double armpit = 1e300;
+    for (const LandmarkResult& landmark : result->landmarks) {
+      const Eigen::Vector3d at = result->body_from_caller.Apply(landmark.position);
+      if (landmark.name.ends_with("_shoulder")) shoulder = std::min(shoulder, std::abs(at.x()));
+      if (landmark.name.ends_with("_armpit")) armpit = std::min(armpit, at.y());
+    }
+    ASSERT_LT(shoulder, 1.0);
+    double innermost = 1e300;
+    for (std::size_t v = 0; v < result->vertex_gaps.size(); ++v) {
+      if (std::isnan(result->vertex_gaps[v])) continue;
+      const Eigen::Vector3d at = result->body_from_caller.Apply(soup.positions[v]);
+      if (at.y() < armpit) innermost = std::min(innermost, std::abs(at.x()));
+    }
+    EXPECT_GT(innermost, 0.5 * shoulder) << avatar;
   }
 }
 
