@@ -12,6 +12,7 @@
 #include "core/base/chunk_sums.h"
 #include "core/capsule/capsule_profile.h"
 #include "core/coverage/grow.h"
+#include "core/coverage/point_distances.h"
 #include "core/coverage/surface_probe.h"
 #include "core/tighten/point_grid.h"
 #include "core/tighten/set_variables.h"
@@ -132,7 +133,8 @@ class Coverer {
                         ? std::nullopt
                         : std::optional(MakeCoverGround(target, variables_.is_symmetric(), options,
                                                         set.primitive_count(), pool))),
-        ground_(own_ground_ ? *own_ground_ : *ground) {}
+        ground_(own_ground_ ? *own_ground_ : *ground),
+        distances_(target, ground_.points, ground_.size_m, variables_, set_, pool_) {}
 
   CoverReport Run() {
     if (options_.tighten) {
@@ -144,19 +146,19 @@ class Coverer {
     meter_.Expect(1.0, 1);
     if (options_.keeps_swallowed) ShowSwallowed();
     report_.max_vertex_distance_m =
-        MaxVertexDistance(target_, AtVertices(), capsule::Solids(set_), pool_);
+        MaxVertexDistance(target_, distances_.ByTargetIndex(), capsule::Solids(set_), pool_);
     // Tightening has measured it already.
     const bool is_measured = report_.volume_m3 > 0.0 && !options_.keeps_swallowed;
     if (options_.wants_volume && !is_measured) report_.volume_m3 = Volume();
-    report_.certified_gap_m = CertifiedGap(target_, AtVertices(), capsule::Solids(set_),
-                                           std::max(KnownGap(), report_.max_vertex_distance_m),
-                                           0.05 * options_.max_gap_m, pool_);
+    report_.certified_gap_m = CertifiedGap(
+        target_, distances_.ByTargetIndex(), capsule::Solids(set_),
+        std::max(KnownGap(), report_.max_vertex_distance_m), 0.05 * options_.max_gap_m, pool_);
     // Growing ends with a proof for every triangle, which may be sharper by the tolerance.
     report_.certified_gap_m = std::min(report_.certified_gap_m, MaxGap());
     report_.added_points = static_cast<int>(between_.size());
     const std::size_t capsules = set_.capsules.size();
     if (!options_.keeps_swallowed) RemoveSwallowed();
-    if (set_.capsules.size() == capsules) report_.at_vertices = std::move(at_vertices_);
+    if (set_.capsules.size() == capsules) report_.at_vertices = distances_.TakeByTargetIndex();
     return std::move(report_);
   }
 
@@ -222,7 +224,7 @@ class Coverer {
   }
 
   void Restore(const Outcome& outcome) {
-    has_only_grown_ = false;
+    distances_.NoteThatSetMoved();
     set_ = outcome.set;
     between_ = outcome.between;
     report_ = outcome.report;
@@ -252,7 +254,7 @@ class Coverer {
       meter_.ExpectShare(1.0 / static_cast<double>(trusts.size() - i), kTightUntil,
                          set_.primitive_count());
       tighten::PointsToHold vertices{ground_.points, AllowedAtVertices()};
-      if (IsMeasured()) vertices.at_first = &at_points_;
+      vertices.at_first = distances_.Known();
       RunPhase(step, {vertices, {between, AllowedBetween()}}, 101 + i);
     }
   }
@@ -271,7 +273,7 @@ class Coverer {
 
   void RunPhase(tighten::TightenPhase phase, const std::vector<tighten::PointsToHold>& points,
                 std::uint64_t seed) {
-    has_only_grown_ = false;
+    distances_.NoteThatSetMoved();
     phase.uniform_radius = options_.uniform_radius;
     tighten::Tighten(points, ground_.size_m, phase, seed, pool_, meter_, set_, backlog_);
   }
@@ -281,65 +283,14 @@ class Coverer {
   double AllowedBetween() const { return options_.tolerance_m + 0.8 * options_.max_gap_m; }
 
   Unproved FindUnproved() {
-    return FindPointsOutside(target_, AtVertices(), capsule::Solids(set_), AllowedBetween(),
-                             MaxGap(), pool_);
+    return FindPointsOutside(target_, distances_.ByTargetIndex(), capsule::Solids(set_),
+                             AllowedBetween(), MaxGap(), pool_);
   }
 
   // Adds points between vertices where the surface sticks out.
   void Collect() {
     const std::vector<Eigen::Vector3d> found = FindUnproved().points_m;
     between_.insert(between_.end(), found.begin(), found.end());
-  }
-
-  bool IsMeasured() const {
-    const auto is_same = [](const geometry::Sphere& a, const geometry::Sphere& b) {
-      return a.center_m == b.center_m && a.radius_m == b.radius_m;
-    };
-    return std::equal(measured_.begin(), measured_.end(), set_.spheres.begin(), set_.spheres.end(),
-                      is_same);
-  }
-
-  // Of the set as it is; by the target's index, each with the solid on its own side.
-  const tighten::UnionDistances& AtVertices() {
-    MeasurePoints();
-    if (std::exchange(is_in_callers_order_, true)) return at_vertices_;
-    at_vertices_ = InCallersOrder(ground_.points, at_points_, pool_);
-    pool_.ForChunks(at_vertices_.solid.size(), kMeshChunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        if (target_.points_m[i].x() >= 0.0) continue;
-        std::int32_t& solid = at_vertices_.solid[i];
-        solid = static_cast<std::int32_t>(variables_.image_of_solid(solid));
-      }
-    });
-    return at_vertices_;
-  }
-
-  void MeasurePoints() {
-    if (IsMeasured()) return;
-    const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set_);
-    if (has_only_grown_) {
-      ground_.points.Lower(solids, SolidsSinceMeasured(), at_points_, pool_);
-    } else {
-      at_points_ = ground_.points.DistancesTo(solids, -ground_.size_m, pool_);
-    }
-    measured_ = set_.spheres;
-    has_only_grown_ = true;
-    is_in_callers_order_ = false;
-  }
-
-  // Those that are not what they were.
-  [[nodiscard]] std::vector<std::int32_t> SolidsSinceMeasured() const {
-    const auto is_same = [this](int sphere) {
-      const geometry::Sphere& now = set_.spheres[sphere];
-      return now.center_m == measured_[sphere].center_m &&
-             now.radius_m == measured_[sphere].radius_m;
-    };
-    std::vector<std::int32_t> changed;
-    for (std::size_t k = 0; k < variables_.solids().size(); ++k) {
-      const auto [a, b] = variables_.solids()[k];
-      if (!is_same(a) || !is_same(b)) changed.push_back(static_cast<std::int32_t>(k));
-    }
-    return changed;
   }
 
   // How far the points between vertices that had to be asked for still stick out.
@@ -379,10 +330,10 @@ class Coverer {
   }
 
   std::vector<Demand> OpenDemands() {
-    MeasurePoints();
+    const std::vector<double>& distance_m = distances_.InOrderOfPoints().distance_m;
     std::vector<Demand> demands;
     for (std::size_t i = 0; i < ground_.points.size(); ++i) {
-      if (at_points_.distance_m[i] > AllowedAtVertices() - kVertexDepthM) {
+      if (distance_m[i] > AllowedAtVertices() - kVertexDepthM) {
         demands.push_back({ground_.points.point(i), AllowedAtVertices()});
       }
     }
@@ -400,12 +351,7 @@ class Coverer {
   const std::optional<CoverGround> own_ground_;
   const CoverGround& ground_;
   std::vector<Eigen::Vector3d> between_;  // points inside triangles that had to be asked for
-  // The target's points as they were measured last, in the order of the grid, and the spheres then.
-  std::vector<geometry::Sphere> measured_;
-  tighten::UnionDistances at_points_;
-  bool has_only_grown_ = false;          // the set, since it was measured
-  tighten::UnionDistances at_vertices_;  // see AtVertices
-  bool is_in_callers_order_ = false;     // at_vertices_ tells what at_points_ does
+  PointDistances distances_;
   CoverReport report_;
   bool goes_far_ = false;  // the second time
 };
