@@ -47,7 +47,8 @@ class PointGrid {
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
   // O(blocks * solids + points * (solids near each)). In floats from the block's centre: exact to
-  // 1e-6 m, to 2e-7 m where blocks are some centimetres wide; on a tie the lower index. Where a
+  // 1e-6 m, to 2e-7 m where blocks are some centimetres wide, deep inside beside a solid's axis to
+  // 3e-5 m; on a tie the lower index. Where a
   // whole block is deeper than `ignore_below_m` its points get a bound that is too, with the solid
   // that gives it. No solids: infinity and -1.
   [[nodiscard]] UnionDistances DistancesTo(const std::vector<geometry::TaperedCapsule>& solids,
