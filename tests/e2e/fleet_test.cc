@@ -143,7 +143,13 @@ TEST_F(Batch, FailuresAreListedAndTheOthersDone) {
 
 TEST_F(Batch, WhatCannotBeDoneIsSaid) {
   EXPECT_EQ(Run({"--share", "2/2"}).exit_code, 2);
-  EXPECT_EQ(Run({"--heat-map"}).exit_code, 2);
+  const Outcome dense = Run({"--skinning", "dense"});
+  EXPECT_EQ(dense.exit_code, 2);
+  EXPECT_THAT(dense.err, HasSubstr("batch writes RESULT.json files alone"));
+  // Not among its flags.
+  EXPECT_THAT(RunCapfit({"batch", "--help"}).out, testing::Not(HasSubstr("--heat-map")));
+  EXPECT_EQ(Run({"--heat-map"}).exit_code, 1);
+  EXPECT_EQ(Run({"--export", "csv"}).exit_code, 1);
   EXPECT_EQ(RunCapfit({"batch", scratch_.Path("none"), "-o", scratch_.Path("r")}).exit_code, 1);
 }
 
