@@ -237,7 +237,7 @@ BodyRows::Cuts BodyRows::Cut(std::size_t row, const GridMargin& margin) const {
   const std::size_t columns = grid_.x.size();
   const std::vector<body::Part>& parts = surface_.parts;
   Cuts cuts{Inside(crossings, parts, 0, surface_.skin_end, columns, margin.beside), {}};
-  if (!surface_.is_whole()) {
+  if (surface_.skin_begin > 0 || surface_.skin_end < parts.size()) {
     cuts.some = Inside(crossings, parts, surface_.skin_begin, parts.size(), columns, margin.beside);
   }
   for (const mesh::ColumnCrossing& crossing : crossings) {
