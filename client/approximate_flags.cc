@@ -148,7 +148,7 @@ void AddFitFlags(CLI::App& command, FitFlags& flags) {
       ->capture_default_str()
       ->group(kWhatToFit);
   AddWordOption(command, "--sex", options.sex, SexWords(),
-                "Whether the bust is split in three: female always, male never")
+                "Whether the bust is split in three: female at any valley, male never")
       ->group(kWhatToFit);
   command.add_option("--seed", options.seed, "Seed of the random restarts")
       ->check(SeedCheck())

@@ -15,7 +15,7 @@
 
 namespace capfit::section {
 
-enum class Sex { kAuto, kFemale, kMale };  // kFemale: always split the bust; kMale: never
+enum class Sex { kAuto, kFemale, kMale };  // kFemale: split the bust at any valley; kMale: never
 
 struct SectionOptions {
   // Planes on each chain (torso, arm, leg); the paper's twenty are 6, 3 and 4. At least 2.
