@@ -224,7 +224,6 @@ class Coverer {
   }
 
   void Restore(const Outcome& outcome) {
-    distances_.NoteThatSetMoved();
     set_ = outcome.set;
     between_ = outcome.between;
     report_ = outcome.report;
@@ -273,7 +272,6 @@ class Coverer {
 
   void RunPhase(tighten::TightenPhase phase, const std::vector<tighten::PointsToHold>& points,
                 std::uint64_t seed) {
-    distances_.NoteThatSetMoved();
     phase.uniform_radius = options_.uniform_radius;
     tighten::Tighten(points, ground_.size_m, phase, seed, pool_, meter_, set_, backlog_);
   }

@@ -9,6 +9,13 @@
 namespace capfit::coverage {
 namespace {
 
+constexpr double kRoundingM = 1e-9;
+
+// Whether the ball `now` contains the ball `then`.
+bool Contains(const geometry::Sphere& now, const geometry::Sphere& then) {
+  return (now.center_m - then.center_m).norm() <= now.radius_m - then.radius_m + kRoundingM;
+}
+
 bool IsSame(const geometry::Sphere& a, const geometry::Sphere& b) {
   return a.center_m == b.center_m && a.radius_m == b.radius_m;
 }
@@ -20,16 +27,20 @@ bool PointDistances::IsMeasured() const {
                     IsSame);
 }
 
+bool PointDistances::HasOnlyGrown() const {
+  return std::equal(set_.spheres.begin(), set_.spheres.end(), measured_.begin(), measured_.end(),
+                    Contains);
+}
+
 void PointDistances::Measure() {
   if (IsMeasured()) return;
   const std::vector<geometry::TaperedCapsule> solids = capsule::Solids(set_);
-  if (has_only_grown_) {
+  if (HasOnlyGrown()) {
     points_.Lower(solids, ChangedSolids(), at_points_, pool_);
   } else {
     at_points_ = points_.DistancesTo(solids, -size_m_, pool_);
   }
   measured_ = set_.spheres;
-  has_only_grown_ = true;
   is_by_target_index_ = false;
 }
 

@@ -43,11 +43,10 @@ class PointDistances {
   // The last of ByTargetIndex, which is gone from here then.
   [[nodiscard]] tighten::UnionDistances TakeByTargetIndex() { return std::move(by_target_index_); }
 
-  // To be told where the set changes otherwise than by growth that leaves in what was in.
-  void NoteThatSetMoved() { has_only_grown_ = false; }
-
  private:
   [[nodiscard]] bool IsMeasured() const;
+  // Since it was measured: each sphere contains what it was.
+  [[nodiscard]] bool HasOnlyGrown() const;
   void Measure();
   [[nodiscard]] std::vector<std::int32_t> ChangedSolids() const;
 
@@ -59,7 +58,6 @@ class PointDistances {
   const ThreadPool& pool_;
   std::vector<geometry::Sphere> measured_;  // the set's, when it was measured
   tighten::UnionDistances at_points_;
-  bool has_only_grown_ = false;  // since then
   tighten::UnionDistances by_target_index_;
   bool is_by_target_index_ = false;  // that tells what at_points_ does
 };

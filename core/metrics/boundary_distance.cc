@@ -94,7 +94,7 @@ struct BoundaryDistance::SurfaceGrid {
 
 BoundaryDistance::BoundaryDistance(const std::vector<TaperedCapsule>& solids, int grid_points,
                                    const ThreadPool& pool)
-    : solids_(solids), images_(ImagesOf(solids)), tolerance_m_(kHiddenShare * SizeOf(solids)) {
+    : solids_(solids), images_(ImagesByPlace(solids)), tolerance_m_(kHiddenShare * SizeOf(solids)) {
   FindNeighbours(pool);
   double area = 0.0;
   for (const TaperedCapsule& solid : solids_) area += GridArea(solid);

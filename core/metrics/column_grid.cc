@@ -320,7 +320,7 @@ struct SolidRows::Shape {
 
 SolidRows::SolidRows(std::span<const TaperedCapsule> solids, const ColumnGrid& grid)
     : grid_(grid), shapes_(solids.begin(), solids.end()) {
-  if (IsOwnImage(grid)) images_ = ImagesOf(solids);
+  if (IsOwnImage(grid)) images_ = ImagesByPlace(solids);
 }
 
 SolidRows::~SolidRows() = default;

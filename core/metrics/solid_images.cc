@@ -35,7 +35,7 @@ bool AreImages(const TaperedCapsule& a, const TaperedCapsule& b) {
 
 }  // namespace
 
-std::vector<std::int32_t> ImagesOf(std::span<const TaperedCapsule> solids) {
+std::vector<std::int32_t> ImagesByPlace(std::span<const TaperedCapsule> solids) {
   std::vector<double> keys;
   for (const TaperedCapsule& solid : solids) keys.push_back(KeyOf(solid));
   std::vector<std::int32_t> by_key(solids.size());

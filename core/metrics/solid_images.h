@@ -10,10 +10,13 @@
 
 namespace capfit::metrics {
 
-// The image of each solid in the plane x = 0, to a nanometre: the digits that a set loses on its
-// way through another frame do not count. Itself where it lies across the plane. Nothing where one
-// of them has none. O(n log n), but for sets of many alike.
-[[nodiscard]] std::vector<std::int32_t> ImagesOf(std::span<const geometry::TaperedCapsule> solids);
+// The image of each solid in the plane x = 0; itself where it lies across the plane. Nothing where
+// one of them has none. By where they are, not by what a set says of itself (capsule::ImagesOf):
+// what is measured must not hang on that, and sets of others say nothing. To a nanometre, as the
+// digits that a set loses on its way through another frame do not count. O(n log n), but for sets
+// of many alike.
+[[nodiscard]] std::vector<std::int32_t> ImagesByPlace(
+    std::span<const geometry::TaperedCapsule> solids);
 
 }  // namespace capfit::metrics
 

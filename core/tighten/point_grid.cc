@@ -65,16 +65,6 @@ Grid MakeGrid(std::span<const Eigen::Vector3d> points, PointGrid::Fold fold) {
   return grid;
 }
 
-// Lowers `best` and sets `index` where this solid is nearer.
-void LowerTo(const FloatKernel& solid, std::int32_t own_index, const float* x, const float* y,
-             const float* z, int count, float* best, std::int32_t* index) {
-  for (int i = 0; i < count; ++i) {
-    const float distance = solid.SignedDistance(x[i], y[i], z[i]);
-    index[i] = distance < best[i] ? own_index : index[i];
-    best[i] = distance < best[i] ? distance : best[i];
-  }
-}
-
 // The solids' distances from a block's centre, the least of them and whose it is.
 struct AtCenter {
   AtCenter(const SolidTable& solids, const Eigen::Vector3d& center,
@@ -160,9 +150,7 @@ UnionDistances PointGrid::DistancesTo(const std::vector<TaperedCapsule>& solids,
       for (std::size_t k = 0; k < solids.size(); ++k) {
         // Neither this solid nor the nearest at the centre can gain more than the block's reach.
         if (at_center[k] > at.least_m + 2.0 * block.reach) continue;
-        LowerTo(KernelAround(table.kernel(k), block.center), static_cast<std::int32_t>(k),
-                x_m_.data() + block.begin, y_m_.data() + block.begin, z_m_.data() + block.begin,
-                count, best.data(), index);
+        LowerBlock(block, table.kernel(k), static_cast<std::int32_t>(k), best.data(), index);
       }
       std::copy_n(best.begin(), count, distances);
     }
@@ -188,13 +176,26 @@ void PointGrid::Lower(const std::vector<TaperedCapsule>& solids,
       std::copy_n(distance_m, count, best.begin());
       for (std::size_t k = 0; k < grown.size(); ++k) {
         if (at_center[k] - block.reach > furthest_m) continue;
-        LowerTo(KernelAround(table.kernel(k), block.center), grown[k], x_m_.data() + block.begin,
-                y_m_.data() + block.begin, z_m_.data() + block.begin, count, best.data(),
-                distances.solid.data() + block.begin);
+        LowerBlock(block, table.kernel(k), grown[k], best.data(),
+                   distances.solid.data() + block.begin);
       }
       std::copy_n(best.begin(), count, distance_m);
     }
   });
+}
+
+void PointGrid::LowerBlock(const Block& block, const DistanceKernel& solid, std::int32_t own_index,
+                           float* best, std::int32_t* index) const {
+  const FloatKernel kernel = KernelAround(solid, block.center);
+  const float* const x = x_m_.data() + block.begin;
+  const float* const y = y_m_.data() + block.begin;
+  const float* const z = z_m_.data() + block.begin;
+  const int count = static_cast<int>(block.end - block.begin);
+  for (int i = 0; i < count; ++i) {
+    const float distance = kernel.SignedDistance(x[i], y[i], z[i]);
+    index[i] = distance < best[i] ? own_index : index[i];
+    best[i] = distance < best[i] ? distance : best[i];
+  }
 }
 
 void PointGrid::BlockDistances(const Block& block, const TaperedCapsule& solid,

@@ -9,6 +9,7 @@
 
 #include "core/base/thread_pool.h"
 #include "core/geometry/tapered_capsule.h"
+#include "core/tighten/distance_kernel.h"
 
 namespace capfit::tighten {
 
@@ -67,6 +68,9 @@ class PointGrid {
 
  private:
   void MakeBlocks(const std::vector<std::uint32_t>& cell_ends);
+  // Lowers `best` and sets `index`, both of the block's points, where this solid is nearer.
+  void LowerBlock(const Block& block, const DistanceKernel& solid, std::int32_t own_index,
+                  float* best, std::int32_t* index) const;
 
   std::vector<std::uint32_t> order_;
   std::vector<Eigen::Vector3d> points_m_;

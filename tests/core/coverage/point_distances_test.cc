@@ -49,9 +49,8 @@ TEST(PointDistances, AreThoseOfTheSetAsItIs) {
       EXPECT_EQ(distances.Known(), nullptr);
       ground.ExpectTrue(distances.ByTargetIndex());
     }
-    // What has become smaller must be told.
+    // What has become smaller is measured anew.
     for (geometry::Sphere& sphere : ground.body.set.spheres) sphere.radius_m *= 0.8;
-    distances.NoteThatSetMoved();
     ground.ExpectTrue(distances.ByTargetIndex());
   }
 }

@@ -171,14 +171,14 @@ TEST(BoundaryDistanceTest, OfASetThatIsItsOwnImageIsItsOwnImage) {
 
 TEST(SolidImagesTest, AreFoundWhicheverEndComesFirst) {
   const std::vector<TaperedCapsule> solids = WithImages(RandomSolids(4, 50));
-  EXPECT_EQ(ImagesOf(solids), (std::vector<std::int32_t>{4, 5, 6, 7, 0, 1, 2, 3, 8}));
-  EXPECT_TRUE(ImagesOf({}).empty());
+  EXPECT_EQ(ImagesByPlace(solids), (std::vector<std::int32_t>{4, 5, 6, 7, 0, 1, 2, 3, 8}));
+  EXPECT_TRUE(ImagesByPlace({}).empty());
   // Rounding is no matter; one that has no image leaves all without.
   for (const double off_m : {1e-12, 1e-6}) {
     std::vector<TaperedCapsule> off = solids;
     const Sphere a = off[6].a();
     off[6] = TaperedCapsule({a.center_m, a.radius_m + off_m}, off[6].b());
-    EXPECT_EQ(ImagesOf(off).empty(), off_m > 1e-9);
+    EXPECT_EQ(ImagesByPlace(off).empty(), off_m > 1e-9);
   }
 }
 
