@@ -132,7 +132,8 @@ absl::Status WriteOutputs(const pipeline::FitResult& result,
   return WriteVertexGaps(result.vertex_gaps, result.body_from_caller.scale, arguments.output);
 }
 
-void PrintMotion(const motion::MotionReport& report, std::FILE* out) {
+void PrintMotion(const pipeline::FitResult& result, std::FILE* out) {
+  const motion::MotionReport& report = *result.motion;
   std::fprintf(
       out,
       "%d frames enclosed; before, up to %d vertices were outside, by %.1f mm at most; the set has "
@@ -140,6 +141,10 @@ void PrintMotion(const motion::MotionReport& report, std::FILE* out) {
       report.frame_count, report.most_points_out_before,
       1e3 * std::max(0.0, report.max_out_before_m), 100.0 * (report.volume_ratio - 1.0),
       100.0 * (report.mean_volume_ratio - 1.0));
+  if (result.weights || result.sparse_weights || result.bone_weights) return;
+  std::fputs(
+      "nothing tells what carries the set through the frames: --skinning sparse or bones does\n",
+      out);
 }
 
 // In the caller's unit.
@@ -165,7 +170,7 @@ absl::Status RunApproximate(const ApproximateArguments& arguments) {
     CAPFIT_RETURN_IF_ERROR(WriteFrameRadii(*result, arguments.frame_radii));
   }
   if (arguments.quiet) return absl::OkStatus();
-  if (result->motion) PrintMotion(*result->motion, arguments.output == "-" ? stderr : stdout);
+  if (result->motion) PrintMotion(*result, arguments.output == "-" ? stderr : stdout);
   std::fputs(ResultTable(*result).c_str(), arguments.output == "-" ? stderr : stdout);
   return absl::OkStatus();
 }

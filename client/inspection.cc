@@ -10,6 +10,8 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "client/option_words.h"
+#include "client/text_width.h"
+#include "core/base/plain_text.h"
 #include "core/body/skeleton_names.h"
 #include "core/formats/soup_checks.h"
 #include "core/pipeline/effective_options.h"
@@ -61,13 +63,13 @@ std::string Aligned(const std::vector<std::vector<std::string>>& rows,
                     const std::vector<bool>& is_number) {
   std::vector<std::size_t> width(is_number.size(), 0);
   for (const auto& row : rows) {
-    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
+    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], TextWidth(row[c]));
   }
   std::string table;
   for (const auto& row : rows) {
     std::string line;
     for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::string space(width[c] - row[c].size(), ' ');
+      const std::string space(width[c] - TextWidth(row[c]), ' ');
       absl::StrAppend(&line, c > 0 ? "  " : "", is_number[c] ? space : "", row[c],
                       is_number[c] ? "" : space);
     }
@@ -81,11 +83,12 @@ std::string PartsRows(const std::vector<character::CharacterPart>& parts) {
   std::vector<std::vector<std::string>> rows = {
       {"part", "material", "taken for", "fitted", "shells", "faces", "area", "why"}};
   for (const character::CharacterPart& part : parts) {
-    rows.push_back({part.name.empty() ? "-" : part.name,
-                    part.material.empty() ? "-" : part.material,
+    rows.push_back({part.name.empty() ? "-" : PlainText(part.name),
+                    part.material.empty() ? "-" : PlainText(part.material),
                     std::string(character::PartKindName(part.kind)),
                     part.is_included ? "yes" : "no", absl::StrCat(part.shell_count),
-                    absl::StrCat(part.face_count), Percent(part.area_share), part.reason});
+                    absl::StrCat(part.face_count), Percent(part.area_share),
+                    PlainText(part.reason)});
   }
   return Aligned(rows, {false, false, false, false, true, true, true, false});
 }

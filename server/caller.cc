@@ -4,8 +4,8 @@
 #include <cstddef>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/plain_text.h"
 #include "core/base/status.h"
-#include "proto/wire/result_conversion.h"
 
 namespace capfit::server {
 namespace {
@@ -59,10 +59,9 @@ absl::StatusOr<bool> IsBulk(const grpc::CallbackServerContext& context) {
   const std::string word = MetadataOf(context, kPriorityKey);
   if (word.empty() || word == "interactive") return false;
   if (word == "bulk") return true;
-  return InvalidField(
-      ErrorReason::kUnknownValue, kPriorityKey,
-      absl::StrCat("is \"", wire::PlainText(word).substr(0, 40), "\", must be interactive or bulk"),
-      {{"limit", "interactive, bulk"}});
+  return InvalidField(ErrorReason::kUnknownValue, kPriorityKey,
+                      absl::StrCat("is \"", PlainText(word, 40), "\", must be interactive or bulk"),
+                      {{"limit", "interactive, bulk"}});
 }
 
 bool WantsFreshFit(const grpc::CallbackServerContext& context) {

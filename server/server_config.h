@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "server/call_record.h"
 #include "server/mesh_upload.h"
@@ -53,6 +54,7 @@ struct ServerConfig {
   LogFormat log_format = LogFormat::kText;
   bool channelz = false;       // gRPC's own tables of connections and calls, for whoever connects
   std::string metrics_listen;  // HOST:PORT for Prometheus; port 0: any free one; empty: nowhere
+  std::vector<std::string> warnings;  // about where these come from, to be logged at the start
 };
 
 // Size of one request message: bodies of 200,000 faces as arrays, or of 64,000 as text, fit into

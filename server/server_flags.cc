@@ -202,6 +202,9 @@ int Check(const ServerConfig& config) {
   if (const absl::Status status = CheckConfig(config); !status.ok()) {
     return Complain(std::string(status.message()));
   }
+  for (const std::string& warning : config.warnings) {
+    std::cerr << "capfit-server: warning: " << warning << '\n';
+  }
   std::cout << "the settings are good\n";
   return AfterPrinting();
 }
@@ -269,6 +272,7 @@ std::optional<int> ParseFlags(int argc, const char* const* argv, ServerConfig& c
     if (error.get_exit_code() == 0) return app.exit(error);  // help and version
     return Complain(error.what());
   }
+  config.warnings = DoubtfulVariables(app);
   config.upload.max_bytes = max_upload_mb * kMebibyte;
   config.max_held_bytes = max_held_mb * kMebibyte;
   config.cache_bytes = cache_mb * kMebibyte;

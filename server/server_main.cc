@@ -45,6 +45,7 @@ int Run(int argc, const char* const* argv) {
       std::make_shared<spdlog::logger>("capfit-server", std::make_shared<LogSink>()));
   SetLogFormat(config.log_format);
   spdlog::set_level(spdlog::level::from_str(config.log_level));
+  for (const std::string& warning : config.warnings) spdlog::warn("{}", warning);
   if (const absl::Status status = CheckConfig(config); !status.ok()) {
     spdlog::error("{}", std::string(status.message()));
     return 1;

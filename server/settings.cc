@@ -1,12 +1,17 @@
 #include "server/settings.h"
 
+#include <unistd.h>  // environ
+
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "core/base/did_you_mean.h"
 #include "core/base/status.h"
 
@@ -14,6 +19,15 @@ namespace capfit::server {
 namespace {
 
 constexpr char kFileFlag[] = "config";
+constexpr char kPrefix[] = "CAPFIT_";
+
+// What follows the prefix: "drain-seconds" is DRAIN_SECONDS.
+std::string VariableOf(std::string flag) {
+  std::transform(flag.begin(), flag.end(), flag.begin(), [](unsigned char letter) {
+    return letter == '-' ? '_' : static_cast<char>(std::toupper(letter));
+  });
+  return flag;
+}
 
 // Values by the long name of their option.
 using Values = std::map<std::string, std::vector<std::string>>;
@@ -113,11 +127,28 @@ std::string FilePath(const Values& given) {
 }  // namespace
 
 std::string EnvironmentName(const std::string& flag) {
-  std::string name = absl::StrCat("CAPFIT_", flag);
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char letter) {
-    return letter == '-' ? '_' : static_cast<char>(std::toupper(letter));
-  });
-  return name;
+  return absl::StrCat(kPrefix, VariableOf(flag));
+}
+
+std::vector<std::string> DoubtfulVariables(const CLI::App& app) {
+  // Without the prefix, which all share.
+  std::vector<std::string> known;
+  for (const std::string& name : ConfigurableNames(app)) known.push_back(VariableOf(name));
+  known.push_back(VariableOf(kFileFlag));
+  std::vector<std::string> doubtful;
+  for (char** variable = environ; variable != nullptr && *variable != nullptr; ++variable) {
+    absl::string_view text = *variable;
+    // CAPFIT_PORT=tcp://10.0.0.7:50051 is Kubernetes' way to tell where a Service is.
+    if (!absl::ConsumePrefix(&text, kPrefix) || absl::StrContains(text, "://")) continue;
+    const std::string name(text.substr(0, text.find('=')));
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string* const meant = NearestOf(name, known);
+    if (meant == nullptr) continue;
+    doubtful.push_back(
+        absl::StrCat(kPrefix, name, " is no setting; did you mean ", kPrefix, *meant, "?"));
+  }
+  std::sort(doubtful.begin(), doubtful.end());
+  return doubtful;
 }
 
 // CLI11's own order is the file before the environment, which would make a variable in a container

@@ -23,6 +23,11 @@ namespace capfit::server {
 // thrown as CLI11 throws it.
 [[nodiscard]] absl::Status ReadSettings(CLI::App& app, const std::vector<std::string>& arguments);
 
+// "CAPFIT_THREDS is no setting; did you mean CAPFIT_THREADS?" for each variable of the environment
+// that begins as settings do, is none, and looks like one of `app`, in alphabetical order. Others
+// are not ours to judge: Kubernetes makes some, as do the caller's own scripts.
+[[nodiscard]] std::vector<std::string> DoubtfulVariables(const CLI::App& app);
+
 }  // namespace capfit::server
 
 #endif  // CAPFIT_SERVER_SETTINGS_H_

@@ -22,7 +22,7 @@ int EditDistance(const std::string& a, const std::string& b) {
   return cost[a.size()][b.size()];
 }
 
-std::string DidYouMean(const std::string& word, const std::vector<std::string>& known) {
+const std::string* NearestOf(const std::string& word, const std::vector<std::string>& known) {
   const std::string* nearest = nullptr;
   int least = 1 + std::max(1, static_cast<int>(word.size()) / 3);
   for (const std::string& one : known) {
@@ -32,6 +32,11 @@ std::string DidYouMean(const std::string& word, const std::vector<std::string>& 
     least = distance;
     nearest = &one;
   }
+  return nearest;
+}
+
+std::string DidYouMean(const std::string& word, const std::vector<std::string>& known) {
+  const std::string* const nearest = NearestOf(word, known);
   return nearest == nullptr ? "" : "; did you mean " + *nearest + "?";
 }
 

@@ -10,8 +10,12 @@ namespace capfit {
 // How many letters must be changed, added, left out or swapped with their neighbour.
 [[nodiscard]] int EditDistance(const std::string& a, const std::string& b);
 
-// "; did you mean approximate?" for the nearest of `known` that `word` begins, or that is at most a
-// third of its letters away; "" where none is.
+// The nearest of `known` that `word` begins, or that is at most a third of its letters away;
+// nullptr where none is.
+[[nodiscard]] const std::string* NearestOf(const std::string& word,
+                                           const std::vector<std::string>& known);
+
+// "; did you mean approximate?" for that; "" where none is.
 [[nodiscard]] std::string DidYouMean(const std::string& word,
                                      const std::vector<std::string>& known);
 

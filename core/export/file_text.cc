@@ -9,7 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "core/export/json_text.h"
+#include "core/base/plain_text.h"
 
 namespace capfit::exports {
 namespace {

@@ -36,10 +36,4 @@ std::string JsonText(const OrderedJson& json) {
   return text + "\n}\n";
 }
 
-std::string ValidUtf8(const std::string& text) {
-  const std::string quoted =
-      OrderedJson(text).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-  return OrderedJson::parse(quoted).get<std::string>();
-}
-
 }  // namespace capfit::exports

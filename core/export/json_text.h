@@ -16,9 +16,6 @@ namespace capfit::exports {
 // bytes that are no UTF-8 become U+FFFD.
 [[nodiscard]] std::string JsonText(const nlohmann::ordered_json& json);
 
-// The same text, bytes that are no UTF-8 replaced by U+FFFD.
-[[nodiscard]] std::string ValidUtf8(const std::string& text);
-
 }  // namespace capfit::exports
 
 #endif  // CAPFIT_CORE_EXPORT_JSON_TEXT_H_

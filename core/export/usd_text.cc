@@ -3,8 +3,8 @@
 #include <cctype>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/plain_text.h"
 #include "core/export/file_text.h"
-#include "core/export/json_text.h"
 
 namespace capfit::exports {
 

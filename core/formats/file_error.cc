@@ -1,5 +1,7 @@
 #include "core/formats/file_error.h"
 
+#include "core/base/plain_text.h"
+
 namespace capfit::formats {
 namespace {
 
@@ -40,9 +42,7 @@ absl::Status TooManyTriangles(const FilePlace& place, const MeshLimits& limits) 
 }
 
 std::string Printable(std::string_view word, std::size_t most_characters) {
-  std::string printable;
-  for (const char c : word.substr(0, most_characters)) printable += c >= ' ' && c <= '~' ? c : '?';
-  return word.size() > most_characters ? printable + "..." : printable;
+  return ShortPlainText(word, most_characters);
 }
 
 std::string Quoted(std::string_view word) { return absl::StrCat("'", Printable(word), "'"); }

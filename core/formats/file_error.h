@@ -65,7 +65,7 @@ template <typename Value>
 // Where a TriangleCounter has had enough.
 [[nodiscard]] absl::Status TooManyTriangles(const FilePlace& place, const MeshLimits& limits);
 
-// A word of the file as it may stand in a message: short and printable.
+// A word of the file as it may stand in a message: short, and plain (see plain_text.h).
 [[nodiscard]] std::string Printable(std::string_view word, std::size_t most_characters = 20);
 // The same in quotes.
 [[nodiscard]] std::string Quoted(std::string_view word);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_format.h"
 #include "core/base/backlog.h"
 #include "core/base/status.h"
 #include "core/base/version.h"
@@ -301,6 +302,7 @@ class BodyFit {
     result_.metrics =
         metrics::Measure(*body_, *measure_ground_, set_, ToMeasure(), pool_, clock_, at_vertices_);
     result_.metrics.max_gap_m = max_gap_m_;
+    WarnOfTolerance();
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(clock_));
     if (options_.want_vertex_gaps) {
       result_.vertex_gaps =
@@ -308,6 +310,18 @@ class BodyFit {
                      metrics::SignedGaps(*body_, set_, options_.parts, pool_), caller_from_body_);
     }
     return CheckCancelled(clock_);
+  }
+
+  // Limbs are thin: what may stick out by three centimetres is nearly all of an arm.
+  void WarnOfTolerance() {
+    const double uncovered = result_.metrics.uncovered;
+    if (options_.fit != FitMode::kEnclose || uncovered < kHollow) return;
+    result_.warnings.push_back(
+        {"TOLERANCE_HOLLOWS",
+         absl::StrFormat("the tolerance of %.3g mm leaves %.0f %% of the fitted parts' volume "
+                         "outside of the set",
+                         1e3 * options_.tolerance_m, 100.0 * uncovered),
+         0});
   }
 
   absl::Status Bind(const formats::PolygonSoup& soup) {
@@ -329,6 +343,7 @@ class BodyFit {
   // Every polygon's share is weighed with at least so many; the rest is fitted when asked for.
   static constexpr int kCirclesFittedAhead = 2;
   static constexpr int kUsualPrimitives = 64;    // where the budget does not tell
+  static constexpr double kHollow = 0.2;         // see TOLERANCE_HOLLOWS in docs/errors.md
   static constexpr double kGapAccuracyM = 1e-3;  // of the best fit's certificate
 
   const FitOptions& asked_;

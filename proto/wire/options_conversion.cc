@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/plain_text.h"
 #include "core/base/status.h"
 #include "core/pipeline/engines.h"
 #include "proto/wire/enum_conversion.h"

@@ -5,8 +5,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/enum_index.h"
+#include "core/base/plain_text.h"
 #include "core/base/status.h"
-#include "core/export/json_text.h"
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/layout_conversion.h"
 #include "proto/wire/options_conversion.h"
@@ -14,19 +14,6 @@
 
 namespace capfit::wire {
 namespace {
-
-constexpr std::size_t kMaxTextBytes = 1000;
-
-// UTF-8: bytes of a letter, and its bytes after the first.
-constexpr std::size_t kLongestLetter = 4;
-bool IsWithinLetter(char byte) { return (static_cast<unsigned char>(byte) & 0xC0u) == 0x80u; }
-
-// U+0000 to U+001F, and U+007F to U+009F.
-bool IsControl(const std::string& letter) {
-  const auto first = static_cast<unsigned char>(letter[0]);
-  return first < 0x20 || first == 0x7F ||
-         (first == 0xC2 && letter.size() > 1 && static_cast<unsigned char>(letter[1]) < 0xA0);
-}
 
 void SetVector(const Eigen::Vector3d& vector, v1::Vector3& wire) {
   wire.set_x(vector.x());
@@ -177,19 +164,6 @@ bool EndsAreValid(const v1::Capsule& capsule, int sphere_count) {
 }
 
 }  // namespace
-
-std::string PlainText(const std::string& text) {
-  const std::string valid = exports::ValidUtf8(text.substr(0, kMaxTextBytes + kLongestLetter));
-  std::string plain;
-  for (std::size_t begin = 0, end = 0; begin < valid.size(); begin = end) {
-    end = begin + 1;
-    while (end < valid.size() && IsWithinLetter(valid[end])) ++end;
-    const std::string letter = valid.substr(begin, end - begin);
-    if (plain.size() + letter.size() > kMaxTextBytes) break;
-    plain += IsControl(letter) ? "?" : letter;
-  }
-  return plain;
-}
 
 v1::Warning WarningToWire(const Warning& warning) {
   v1::Warning wire;

@@ -12,11 +12,6 @@
 
 namespace capfit::wire {
 
-// Text that any client can read and any terminal show: UTF-8 (a file's names may be any bytes, of
-// which those that are none become U+FFFD) without control characters, which become '?'. Of more
-// than 1000 bytes the letters that fit into those are left.
-[[nodiscard]] std::string PlainText(const std::string& text);
-
 [[nodiscard]] v1::Warning WarningToWire(const Warning& warning);
 [[nodiscard]] v1::Landmarks LandmarksToWire(const pipeline::FitResult& result);
 [[nodiscard]] v1::FeaturePolygon PolygonToWire(const pipeline::PolygonResult& polygon);

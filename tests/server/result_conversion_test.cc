@@ -150,19 +150,5 @@ TEST(ResultConversion, WrongMessagesOfAServerAreRefused) {
   EXPECT_EQ(FieldOf(PrimitivesFromWire(set, result)), "primitives.spheres[2].part");
 }
 
-TEST(ResultConversion, PlainTextIsShortUtf8WithoutControlCharacters) {
-  EXPECT_EQ(PlainText("knee: 3 cm"), "knee: 3 cm");
-  EXPECT_EQ(PlainText("頭 Hüfte"), "頭 Hüfte");
-  EXPECT_EQ(PlainText("a\n\x01\x7f\xC2\x9B"), "a????");
-  EXPECT_EQ(PlainText("a\xff"), "a\xEF\xBF\xBD");
-  EXPECT_EQ(PlainText(std::string(5000, 'x')).size(), 1000U);
-  // Cut before a letter, not within it; "x" shifts its bytes by one.
-  std::string letters;
-  for (int i = 0; i < 1000; ++i) letters += "頭";
-  EXPECT_EQ(PlainText(letters), letters.substr(0, 999));
-  EXPECT_EQ(PlainText("x" + letters), "x" + letters.substr(0, 999));
-  EXPECT_EQ(PlainText("xx" + letters), "xx" + letters.substr(0, 996));
-}
-
 }  // namespace
 }  // namespace capfit::wire

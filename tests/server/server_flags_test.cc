@@ -128,6 +128,20 @@ TEST(ServerFlags, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_THAT(ErrorOf({}), HasSubstr("CAPFIT_LOG_LEVEL is wrong: loud not in"));
 }
 
+TEST(ServerFlags, VariablesThatLookLikeASettingAreAWarning) {
+  const Variable mistyped("CAPFIT_THREDS", "4");
+  const Variable begun("CAPFIT_DRAIN", "4");
+  const Variable good("CAPFIT_LOG_LEVEL", "warn");
+  const Variable file("CAPFIT_CONFIG", "");
+  const Variable of_others("CAPFIT_SERVICE_HOST", "10.0.0.7");
+  const Variable of_a_service("CAPFIT_PORT", "tcp://10.0.0.7:50051");
+  ServerConfig config;
+  EXPECT_EQ(Parse({}, config), std::nullopt);
+  EXPECT_THAT(config.warnings,
+              testing::ElementsAre("CAPFIT_DRAIN is no setting; did you mean CAPFIT_DRAIN_SECONDS?",
+                                   "CAPFIT_THREDS is no setting; did you mean CAPFIT_THREADS?"));
+}
+
 TEST(ServerFlags, TheAddressOfMetricsIsLookedAtWithTheOthers) {
   ServerConfig config;
   for (const char* const good : {"", "127.0.0.1:0", "[::1]:9100", "0.0.0.0:9100"}) {

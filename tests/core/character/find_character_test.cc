@@ -227,11 +227,11 @@ TEST(FindCharacterTest, FloorsAreLeftOut) {
 }
 
 TEST(FindCharacterTest, TwoPeopleAreRefusedByName) {
-  const PolygonSoup two = WomanWith(mesh::Moved(Woman(), {2.0, 0.0, 0.0}), "sister");
+  const PolygonSoup two = WomanWith(mesh::Moved(Woman(), {2.0, 0.0, 0.0}), "妹");
   const auto found = FindCharacter(two, {}, {}, ThreadPool(1));
   EXPECT_EQ(ReasonOf(found.status()), ErrorReason::kTwoBodies);
   EXPECT_THAT(std::string(found.status().message()),
-              testing::AllOf(testing::HasSubstr("\"base\""), testing::HasSubstr("\"sister\"")));
+              testing::AllOf(testing::HasSubstr("\"base\""), testing::HasSubstr("\"妹\"")));
 }
 
 TEST(FindCharacterTest, MasksAndPartsAgreeForAnyThreads) {

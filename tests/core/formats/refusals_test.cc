@@ -321,10 +321,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "MALFORMED_FILE [value=4000000000, limit=64, element=face] mesh.file element "
                 "'face': the file ends early: it claims 4000000000 records of at least 1 bytes, "
                 "but only 63 bytes follow"},
-        Refused{"UnprintableElement", MeshFormat::kPly,
-                Replaced(kLittle, "element face 1", "element f\xe4 9") + std::string(36, '\0'),
-                "MALFORMED_FILE [value=9, limit=1, element=f?] mesh.file element 'f?': the file "
-                "ends early: it claims 9 records of at least 1 bytes, but only 0 bytes follow"},
+        Refused{
+            "UnprintableElement", MeshFormat::kPly,
+            Replaced(kLittle, "element face 1", "element f\xe4 9") + std::string(36, '\0'),
+            "MALFORMED_FILE [value=9, limit=1, element=f\uFFFD] mesh.file element 'f\uFFFD': the "
+            "file ends early: it claims 9 records of at least 1 bytes, but only 0 bytes follow"},
         Refused{"ManyVertices", MeshFormat::kPly, kLittle + std::string(99, '\0'),
                 "TOO_LARGE [value=3, limit=2, element=vertex] mesh.file element 'vertex': brings "
                 "the file to 3 vertices, must have at most 2",

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 #include <string>
@@ -89,6 +90,20 @@ TEST(Fit, EnclosesTheMannequinWithinEveryBudget) {
     EXPECT_LE(FurthestOut(soup, result), kJudgeTolerance_m);
     EXPECT_LE(result.metrics.uncovered, 0.002);
   }
+}
+
+TEST(Fit, WarnsOfAToleranceThatHollowsTheSet) {
+  const auto warned = [](double tolerance_m) {
+    FitOptions options = AllParts(48);
+    options.tolerance_m = tolerance_m;
+    const FitResult result = FitOrDie(Mannequin(), options);
+    const auto is_it = [](const Warning& w) { return w.code == "TOLERANCE_HOLLOWS"; };
+    const auto warning = std::find_if(result.warnings.begin(), result.warnings.end(), is_it);
+    EXPECT_EQ(warning != result.warnings.end(), result.metrics.uncovered > 0.2) << tolerance_m;
+    return warning == result.warnings.end() ? "" : warning->message;
+  };
+  EXPECT_EQ(warned(0.002), "");
+  EXPECT_THAT(warned(0.06), testing::HasSubstr("the tolerance of 60 mm leaves"));
 }
 
 TEST(Fit, RefusesABudgetThatThePartsCannotFitInto) {
