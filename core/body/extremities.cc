@@ -182,7 +182,7 @@ std::vector<TipCandidate> Candidates(std::span<const Branch> branches,
 Extremities FromSources(const std::vector<GeodesicSource>& sources,
                         std::span<const double> vertex_areas, const SurfaceGraph& graph,
                         const ThreadPool& pool, const FitObserver& observer,
-                        const std::optional<RigEnds>& rig) {
+                        const std::optional<RigEnds>& rig, bool limbs_may_be_cut) {
   Extremities result;
   result.distance = graph.Distances(sources, pool, observer);
   if (observer.IsCancelled()) return result;
@@ -190,7 +190,7 @@ Extremities FromSources(const std::vector<GeodesicSource>& sources,
   if (observer.IsCancelled()) return result;
   std::vector<TipCandidate> candidates =
       Candidates(branches, result.distance, vertex_areas, graph, pool, rig);
-  const TipRoles found = FindTipRoles(branches, candidates, rig);
+  const TipRoles found = FindTipRoles(branches, candidates, rig, limbs_may_be_cut);
   result.misfit = found.misfit;
   for (int role = 0; role < kTipCount; ++role) {
     const int candidate = found.candidates[role];
@@ -225,17 +225,27 @@ Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
                             std::span<const double> vertex_areas, const SurfaceGraph& graph,
                             const ThreadPool& pool, const FitObserver& observer,
                             const std::optional<RigEnds>& rig) {
-  const auto from = [&](const std::vector<GeodesicSource>& sources) {
-    return FromSources(sources, vertex_areas, graph, pool, observer, rig);
+  const auto from = [&](const std::vector<GeodesicSource>& sources, bool limbs_may_be_cut = false) {
+    return FromSources(sources, vertex_areas, graph, pool, observer, rig, limbs_may_be_cut);
   };
   const std::vector<GeodesicSource> sources = MiddleOfTheBody(points);
   Extremities best = from(sources);
   if (observer.IsCancelled()) return best;
   if (best.misfit <= kGoodMisfit && best.found() == kTipCount) return best;
-  Extremities whole = from(MiddleOfTheSurface(best.distance, graph, pool, observer));
+  const std::vector<GeodesicSource> middle =
+      MiddleOfTheSurface(best.distance, graph, pool, observer);
+  Extremities whole = from(middle);
   if (observer.IsCancelled()) return best;
   // Only for a whole body is that middle near the waist.
   if (whole.found() == kTipCount && whole.misfit < best.misfit) best = std::move(whole);
+  // Of a body with an arm or a leg that is cut off there are still five tips.
+  if (best.found() < kTipCount || best.misfit > kFairMisfit) {
+    for (const std::vector<GeodesicSource>& start : {sources, middle}) {
+      Extremities cut = from(start, /*limbs_may_be_cut=*/true);
+      if (observer.IsCancelled()) return best;
+      if (cut.found() == kTipCount && cut.misfit < best.misfit) best = std::move(cut);
+    }
+  }
   if (best.misfit <= kFairMisfit) return best;
   const auto patches = PatchesOf(sources, points, vertex_areas, graph);
   for (std::size_t i = 0; i < patches.size() && i < kMaxMiddles; ++i) {

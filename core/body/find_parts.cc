@@ -68,6 +68,7 @@ class Anatomist {
   absl::Status Run() {
     const FitObserver& observer = *shape_.observer;
     shape_.stature_m = found_.stature_m;
+    shape_.distance_unit_m = found_.distance_unit_m;
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
     AssignSides(found_.extremities, found_.frame, shape_);
     CAPFIT_ASSIGN_OR_RETURN(body_.landmarks,

@@ -17,7 +17,7 @@ namespace capfit::body {
 namespace {
 
 // A limb with fewer sections than this is none.
-constexpr std::size_t kMinStations = 20;
+constexpr std::size_t kMinStations = 16;
 // Length along the surface, in units of the square root of the area, from the place where the arms
 // join to the top of the head (0.19 to 0.28) or to a cut through the neck (0.08).
 constexpr double kHeadLength = 0.135;
@@ -66,11 +66,11 @@ double Length(const Limb& limb) { return limb.tip_distance - limb.junction; }
 // On a lap the way from the waist to the knee is short, and the leg seems to begin there.
 bool LegsBeginTooFarDown(const Shape& shape) {
   double arms = 0.0;
-  double leg = std::numeric_limits<double>::infinity();
+  double leg = 0.0;  // the longer one: the other may be cut off
   for (const int side : {kLeft, kRight}) {
     if (!shape.legs[side] || !shape.arms[side]) return false;
     arms += 0.5 * Length(*shape.arms[side]);
-    leg = std::min(leg, Length(*shape.legs[side]));
+    leg = std::max(leg, Length(*shape.legs[side]));
   }
   return leg < kLeastLegOfArm * arms;
 }
@@ -78,13 +78,20 @@ bool LegsBeginTooFarDown(const Shape& shape) {
 // Instead, all that is nearer to a foot than where the ways from both feet meet: the inner sides of
 // the legs lead to the crotch however they are lifted.
 void MeasureLegsFromFeet(Shape& shape, Fields& fields) {
-  const std::array<std::vector<double>, 2> from_foot = DistancesFromFeet(shape);
+  std::array<std::vector<double>, 2> from_foot = DistancesFromFeet(shape);
+  for (const int side : {kLeft, kRight}) {
+    if (!IsCutShort(shape.legs, side)) continue;
+    // As if it were as long as the other.
+    const double missing = shape.legs[1 - side]->tip_distance - shape.legs[side]->tip_distance;
+    for (double& distance : from_foot[side]) distance += missing;
+  }
   double meeting = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < shape.points.size(); ++v) {
     meeting = std::min(meeting, std::max(from_foot[kLeft][v], from_foot[kRight][v]));
   }
   for (const int side : {kLeft, kRight}) {
-    Limb limb = {shape.legs[side]->tip, 0.0, meeting, {}, {}};
+    const std::uint32_t tip = shape.legs[side]->tip;
+    Limb limb = {tip, 0.0, meeting - from_foot[side][tip], {}, {}};
     std::vector<double>& distance = fields.legs[side].distance;
     distance.resize(shape.points.size());
     for (std::uint32_t v = 0; v < distance.size(); ++v) {
@@ -234,7 +241,10 @@ void FindLegRoots(Shape& shape, Landmarks& landmarks) {
 
 void FindThighs(const Shape& shape, Landmarks& landmarks) {
   for (const int side : {kLeft, kRight}) {
-    if (shape.legs[side]) FindThigh(shape, side, landmarks);
+    if (shape.legs[side]) FindHip(shape, side, landmarks);
+  }
+  for (const int side : {kLeft, kRight}) {
+    if (shape.legs[side]) FindKnee(shape, side, landmarks);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace capfit::body {
 namespace {
@@ -17,8 +18,8 @@ constexpr double kPalmWiderThanWrist = 1.25;
 
 // Foot. Where its direction and that of the shin are taken, and the turn (35 degrees) between them
 // that makes it one.
-constexpr double kFootFrom = 0.015;
-constexpr double kFootTo = 0.065;
+constexpr double kFootFrom = 0.045;  // past the middle of what a cut shin or thigh ends in
+constexpr double kFootTo = 0.095;
 constexpr double kShinFrom = 0.170;
 constexpr double kShinTo = 0.240;
 constexpr double kFootTurnCosine = 0.82;
@@ -28,6 +29,9 @@ constexpr double kAnkleTo = 0.165;
 constexpr double kHeelHeight = 0.012;
 // The ankle joint lies this far above the heel's greatest girth.
 constexpr double kAnkleAboveHeelGirth = 0.015;
+
+// A limb that is shorter than this share of the other has lost more than hand or foot.
+constexpr double kShortOfOther = 0.85;
 
 // Elbow: share of the way from wrist to shoulder (women 0.48, men 0.505).
 constexpr double kElbowShare = 0.495;
@@ -51,6 +55,19 @@ constexpr double kBendTolerance = 0.02;
 Eigen::Vector3d CutEnd(const LimbProfile& profile) {
   const Station& first = profile.stations.front();
   return first.center - first.arc * first.normal;
+}
+
+// The arc of the outer joint of a limb, or where it would be on a limb that is cut short: as far from
+// the trunk as that of the other one.
+double OuterArc(const Shape& shape, const std::array<std::optional<Limb>, 2>& limbs,
+                const std::array<std::optional<LimbProfile>, 2>& profiles, LandmarkId left_joint,
+                int side, const Landmarks& landmarks) {
+  const bool is_short = IsCutShort(limbs, side);
+  const int whole = is_short ? 1 - side : side;
+  const double arc = profiles[whole]->NearestArc(landmarks[Sided(left_joint, whole)]->position_m);
+  if (!is_short) return arc;
+  return arc -
+         shape.distance_unit_m * (limbs[whole]->tip_distance - limbs[side]->tip_distance);
 }
 
 // The arc at which the line passes nearest to a point beside it: past the end, what the point is
@@ -102,12 +119,28 @@ double BendArc(const LimbProfile& limb, double outer, double inner, double usual
 
 }  // namespace
 
+bool IsCutShort(const std::array<std::optional<Limb>, 2>& limbs, int side) {
+  if (!limbs[1 - side]) return false;
+  const double junction = std::min(limbs[kLeft]->junction, limbs[kRight]->junction);
+  return limbs[side]->tip_distance - junction <
+         kShortOfOther * (limbs[1 - side]->tip_distance - junction);
+}
+
+double WristArc(const Shape& shape, int side, const Landmarks& landmarks) {
+  return OuterArc(shape, shape.arms, shape.arm_profiles, LandmarkId::kLeftWrist, side, landmarks);
+}
+
+double AnkleArc(const Shape& shape, int side, const Landmarks& landmarks) {
+  return OuterArc(shape, shape.legs, shape.leg_profiles, LandmarkId::kLeftAnkle, side, landmarks);
+}
+
 void FindWrist(Shape& shape, int side, Landmarks& landmarks) {
   const LimbProfile& arm = *shape.arm_profiles[side];
   const double stature = shape.stature_m;
   const double arc = arm.NarrowestArc(kWristFrom * stature, kWristTo * stature);
   const double palm = arm.MaxGirth(kPalmFrom * stature, arc);
-  shape.has_hand[side] = palm > kPalmWiderThanWrist * arm.At(arc).girth;
+  shape.has_hand[side] = palm > kPalmWiderThanWrist * arm.At(arc).girth &&
+                         !IsCutShort(shape.arms, side);
   if (!shape.has_hand[side]) {
     Put(landmarks, Sided(LandmarkId::kLeftWrist, side), CutEnd(arm), 0.9);
     return;
@@ -134,7 +167,7 @@ void FindAnkle(Shape& shape, int side, Landmarks& landmarks) {
   const double heel_arc = leg.WidestArc(kAnkleFrom * stature, kAnkleTo * stature);
   const Eigen::Vector3d ankle = leg.At(heel_arc + kAnkleAboveHeelGirth * stature).center;
   const Eigen::Vector3d& toe = shape.points[shape.legs[side]->tip];
-  shape.has_foot[side] = EndsInFoot(leg, stature);
+  shape.has_foot[side] = EndsInFoot(leg, stature) && !IsCutShort(shape.legs, side);
   if (!shape.has_foot[side]) {
     Put(landmarks, Sided(LandmarkId::kLeftAnkle, side), CutEnd(leg), 0.9);
     return;
@@ -161,16 +194,14 @@ double Following(double own, const Landmark& other, double usual) {
 
 void FindElbow(const Shape& shape, int side, Landmarks& landmarks) {
   const LimbProfile& arm = *shape.arm_profiles[side];
-  const double wrist_arc =
-      arm.NearestArc(landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m);
   const Eigen::Vector3d shoulder = landmarks[Sided(LandmarkId::kLeftShoulder, side)]->position_m;
-  const double arc = BendArc(arm, wrist_arc, arm.ArcTo(shoulder), kElbowShare, kElbowShareSpread);
+  const double arc = BendArc(arm, WristArc(shape, side, landmarks), arm.ArcTo(shoulder),
+                             kElbowShare, kElbowShareSpread);
   Put(landmarks, Sided(LandmarkId::kLeftElbow, side), arm.At(arc).center,
       Following(0.8, *landmarks[Sided(LandmarkId::kLeftShoulder, side)], 0.7));
 }
 
-void FindThigh(const Shape& shape, int side, Landmarks& landmarks) {
-  const LimbProfile& leg = *shape.leg_profiles[side];
+void FindHip(const Shape& shape, int side, Landmarks& landmarks) {
   const double stature = shape.stature_m;
   const Eigen::Vector3d crotch = landmarks[Index(LandmarkId::kCrotch)]->position_m;
   const Eigen::Vector3d hip = crotch + stature * Eigen::Vector3d(SideSign(side) * kHipBeside,
@@ -178,8 +209,12 @@ void FindThigh(const Shape& shape, int side, Landmarks& landmarks) {
   const Landmark& base = *landmarks[Index(LandmarkId::kCrotch)];
   Put(landmarks, Sided(LandmarkId::kLeftHip, side), hip, Following(0.6, base, 0.9),
       LandmarkMethod::kRatio);
-  const double ankle_arc =
-      leg.NearestArc(landmarks[Sided(LandmarkId::kLeftAnkle, side)]->position_m);
+}
+
+void FindKnee(const Shape& shape, int side, Landmarks& landmarks) {
+  const LimbProfile& leg = *shape.leg_profiles[side];
+  const Landmark& base = *landmarks[Index(LandmarkId::kCrotch)];
+  const double ankle_arc = AnkleArc(shape, side, landmarks);
   const double arc = BendArc(leg, ankle_arc, ankle_arc + LegLength(shape, side, landmarks),
                              kKneeShare, kKneeShareSpread);
   Put(landmarks, Sided(LandmarkId::kLeftKnee, side), leg.At(arc).center, Following(0.8, base, 0.9));
@@ -190,7 +225,7 @@ double LegLength(const Shape& shape, int side, const Landmarks& landmarks) {
   // The height of the crotch on the thigh, wherever that points.
   const double inner = ArcAlong(leg, landmarks[Sided(LandmarkId::kLeftHip, side)]->position_m) -
                        kHipAboveCrotch * shape.stature_m;
-  return inner - leg.NearestArc(landmarks[Sided(LandmarkId::kLeftAnkle, side)]->position_m);
+  return inner - AnkleArc(shape, side, landmarks);
 }
 
 }  // namespace capfit::body

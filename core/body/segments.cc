@@ -34,6 +34,8 @@ constexpr double kBelowArmpit = 0.004;
 // should end at the armpit comes so far, a garment joins arm and trunk below it: then it ends
 // further down the arm, by so many steps of this length at most.
 constexpr double kInnermostOfArm = 0.6;
+// The same of the shoulder's cap, beside a raised arm: what is further in is neck and head.
+constexpr double kInnermostOfCap = 0.45;
 constexpr double kArmpitStep = 0.01;
 constexpr int kMostArmpitSteps = 8;
 constexpr double kArmRadius = 0.090;
@@ -57,11 +59,15 @@ struct Barrier {
   CutPlane plane;  // normal outward, away from the trunk
   double radius = 0.0;
   const std::vector<char>* in_limb = nullptr;                  // by node
-  double lowest_y = -std::numeric_limits<double>::infinity();  // what is lower stops it as well
+  // What is lower stops it as well, and what is not of the limb and further in, from `side` (1: left).
+  double lowest_y = -std::numeric_limits<double>::infinity();
+  double innermost_x = -std::numeric_limits<double>::infinity();
+  double side = 1.0;
   [[nodiscard]] bool Stops(std::uint32_t node, const Eigen::Vector3d& p) const {
     if (p.y() < lowest_y) return true;
     const bool is_inner = plane.Height(p) < 0.0;
     const bool is_of_limb = (*in_limb)[node] != 0;
+    if (!is_of_limb && side * p.x() < innermost_x) return true;
     if (is_of_limb != is_inner) return is_inner;  // most vertices
     const bool is_near = (p - plane.origin).norm() < radius;
     return is_of_limb == is_near;
@@ -151,9 +157,12 @@ class Labeller {
     for (int i = 1; i <= kMostArmpitSteps && HasRunIntoTrunk(beyond, side, inner_x); ++i) {
       beyond = Flood(shape_, tip, Across(armpit, outward, kArmpitMargin + i * kArmpitStep, radius));
     }
-    // The side of a wide chest lies beyond the cap's plane too, but below the armpit.
+    // The side of a wide chest lies beyond the cap's plane too, but below the armpit, and beside a
+    // raised arm neck and head do, but further in.
     Barrier at_cap = Across(shoulder, cap, -kCapInside, kShoulderRadius);
     at_cap.lowest_y = At(LandmarkId::kLeftArmpit, side).y() - kBelowArmpit * shape_.stature_m;
+    at_cap.innermost_x = kInnermostOfCap * std::abs(shoulder.x());
+    at_cap.side = SideSign(side);
     Label(OnSide(Segment::kLeftUpperArm, side), std::move(beyond), at_cap);
     Label(OnSide(Segment::kLeftForearm, side), tip,
           Across(elbow, wrist - shoulder, 0.0, kElbowRadius));

@@ -40,7 +40,8 @@ struct Shape {
   const CutSurface* surface = nullptr;        // of nodes
   const ThreadPool* pool = nullptr;
   const FitObserver* observer = nullptr;
-  double top_m = 0.0;  // extent along Y; the lowest point is at 0
+  double distance_unit_m = 1.0;  // in which the limbs' distances over the surface are
+  double top_m = 0.0;            // extent along Y; the lowest point is at 0
   // Height of the head's top, or of the neck's; top_m without either. Set by FindLandmarks.
   double crown_m = 0.0;
   // Height of the whole body: what is cut off is added, by proportion. Without legs it must be set

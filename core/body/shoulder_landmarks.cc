@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/body/cleft.h"
+#include "core/body/limb_landmarks.h"
 
 namespace capfit::body {
 namespace {
@@ -62,8 +63,7 @@ std::uint32_t NearestVertex(const Shape& shape, const std::vector<char>& in_limb
 std::optional<Armpit> CleftOfArm(const Shape& shape, int side, const Landmarks& landmarks) {
   const LimbProfile& profile = *shape.arm_profiles[side];
   const double stature = shape.stature_m;
-  const double wrist_arc =
-      profile.NearestArc(landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m);
+  const double wrist_arc = WristArc(shape, side, landmarks);
   const Station lower = profile.At(wrist_arc + kUpperArmFrom * stature);
   const Station upper = profile.At(wrist_arc + kUpperArmTo * stature);
   Armpit armpit;
@@ -145,7 +145,7 @@ Eigen::Vector3d ShoulderAlong(const Shape& shape, const LimbProfile& arm, double
 // How far the way from wrist to shoulder is from the usual, as a share of the stature.
 double ArmMisfit(const Shape& shape, int side, const Landmarks& landmarks) {
   const LimbProfile& arm = *shape.arm_profiles[side];
-  const double wrist = arm.NearestArc(landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m);
+  const double wrist = WristArc(shape, side, landmarks);
   const double shoulder = arm.ArcTo(landmarks[Sided(LandmarkId::kLeftShoulder, side)]->position_m);
   return std::abs((shoulder - wrist) / shape.stature_m - kArmLength);
 }
@@ -171,8 +171,7 @@ std::optional<Armpit> FindArmpit(const Shape& shape, int side, Landmarks& landma
     return armpit;
   }
   const LimbProfile& arm = *shape.arm_profiles[side];
-  const Eigen::Vector3d wrist = landmarks[Sided(LandmarkId::kLeftWrist, side)]->position_m;
-  const Eigen::Vector3d shoulder = ShoulderAlong(shape, arm, arm.NearestArc(wrist));
+  const Eigen::Vector3d shoulder = ShoulderAlong(shape, arm, WristArc(shape, side, landmarks));
   const Eigen::Vector3d below =
       shoulder - kArmpitBelowShoulder * shape.stature_m * Eigen::Vector3d::UnitY();
   Put(landmarks, armpit_at, below, 0.2, LandmarkMethod::kRatio);

@@ -21,6 +21,12 @@ constexpr double kUnequalPairCost = 0.5;
 // What it costs to leave a role empty, or a tip without a role, in units of the misfit.
 constexpr double kEmptyRoleCost = 0.12;
 constexpr double kUnusedTipCost = 0.10;
+// What it costs to take an arm, a leg or both legs for cut off: less than to leave its role empty and its tip
+// without one.
+constexpr double kCutCost = 0.16;
+// Of less no limb can be made: it has not sections enough. In units of the square root of the area.
+constexpr double kShortestCutArm = 0.10;
+constexpr double kShortestCutLeg = 0.20;
 // A role for a tip that the skeleton gives to another: more than leaving both without.
 constexpr double kContradictionCost = 0.40;
 
@@ -49,12 +55,15 @@ double UsualGirth(Tip tip) {
 
 using Roles = std::array<int, kTipCount>;  // candidate of each role, -1: none
 
+// Which roles are held by limbs that are cut off somewhere, so that their lengths tell nothing.
+using CutRoles = std::array<bool, kTipCount>;
+
 // Gives the roles to the tips so that the proportions fit best.
 class RoleFinder {
  public:
   RoleFinder(std::span<const Branch> branches, std::span<const TipCandidate> candidates,
-             const std::optional<RigEnds>& rig)
-      : branches_(branches), candidates_(candidates), rig_(rig) {}
+             const std::optional<RigEnds>& rig, bool limbs_may_be_cut)
+      : branches_(branches), candidates_(candidates), rig_(rig), limbs_may_be_cut_(limbs_may_be_cut) {}
 
   // Tries every way; equal roles (two hands) count once.
   TipRoles Run() {
@@ -66,12 +75,7 @@ class RoleFinder {
   void TryFrom(int role) {
     if (role == kTipCount) {
       if (CostOfGaps() >= best_misfit_) return;  // the rest only adds to it
-      const double without_ways = CostBesideWays();
-      if (without_ways >= best_misfit_) return;
-      const double misfit = WayDeviation() + without_ways;
-      if (misfit >= best_misfit_) return;
-      best_misfit_ = misfit;
-      best_ = roles_;
+      for (const CutRoles& cut : CutsToTry()) Offer(cut);
       return;
     }
     const bool is_second =
@@ -89,6 +93,39 @@ class RoleFinder {
     TryFrom(role + 1);
   }
 
+  void Offer(const CutRoles& cut) {
+    const double without_ways = CostBesideWays(cut);
+    if (without_ways >= best_misfit_) return;
+    const double misfit = WayDeviation(cut) + without_ways;
+    if (misfit >= best_misfit_) return;
+    best_misfit_ = misfit;
+    best_ = roles_;
+  }
+
+  // None; else the shorter arm, the shorter leg, or both legs. More at a time would let any tips
+  // stand for anything.
+  [[nodiscard]] std::vector<CutRoles> CutsToTry() const {
+    std::vector<CutRoles> cuts = {{}};
+    if (!limbs_may_be_cut_) return cuts;
+    for (const Tip first : {Tip::kHandA, Tip::kFootA}) {
+      const std::optional<int> shorter = ShorterOfPair(static_cast<int>(first));
+      if (!shorter) continue;
+      cuts.emplace_back()[*shorter] = true;
+      if (first == Tip::kFootA) cuts.push_back({false, false, false, true, true});
+    }
+    return cuts;
+  }
+
+  // Of the roles `first` and the next, where both are held by what is long enough.
+  [[nodiscard]] std::optional<int> ShorterOfPair(int first) const {
+    if (roles_[first] < 0 || roles_[first + 1] < 0) return std::nullopt;
+    const int shorter = TipDistance(first) < TipDistance(first + 1) ? first : first + 1;
+    const double length = TipDistance(shorter) - Junction(first, first + 1);
+    const bool is_arm = first == static_cast<int>(Tip::kHandA);
+    if (length < (is_arm ? kShortestCutArm : kShortestCutLeg)) return std::nullopt;
+    return shorter;
+  }
+
   [[nodiscard]] double Junction(int role_a, int role_b) const {
     return JunctionLevel(branches_, candidates_[roles_[role_a]].branch,
                          candidates_[roles_[role_b]].branch);
@@ -97,22 +134,25 @@ class RoleFinder {
     return branches_[candidates_[roles_[role]].branch].tip_distance;
   }
 
-  // |log(length / length)| of a pair of limbs, both counted from where they join.
-  [[nodiscard]] double Inequality(int role_a, int role_b) const {
-    if (roles_[role_a] < 0 || roles_[role_b] < 0) return 0.0;
+  // |log(length / length)| of a pair of limbs, both counted from where they join; 0 where one of
+  // them is cut.
+  [[nodiscard]] double Inequality(Tip a, const CutRoles& cut) const {
+    const int role_a = static_cast<int>(a);
+    const int role_b = role_a + 1;
+    if (roles_[role_a] < 0 || roles_[role_b] < 0 || cut[role_a] != cut[role_b]) return 0.0;
     const double level = Junction(role_a, role_b);
     return std::abs(std::log(std::max(TipDistance(role_a) - level, 1e-6) /
                              std::max(TipDistance(role_b) - level, 1e-6)));
   }
 
   // Standard deviation of log(way / usual way) over all pairs of roles.
-  [[nodiscard]] double WayDeviation() const {
+  [[nodiscard]] double WayDeviation(const CutRoles& cut) const {
     double sum = 0.0;
     double sum_of_squares = 0.0;
     int pairs = 0;
     for (int i = 0; i < kTipCount; ++i) {
       for (int j = i + 1; j < kTipCount; ++j) {
-        if (roles_[i] < 0 || roles_[j] < 0) continue;
+        if (roles_[i] < 0 || roles_[j] < 0 || cut[i] || cut[j]) continue;
         const double way = TipDistance(i) + TipDistance(j) - 2.0 * Junction(i, j);
         const double deviation =
             std::log(std::max(way, 1e-6) / UsualWay(static_cast<Tip>(i), static_cast<Tip>(j)));
@@ -170,16 +210,16 @@ class RoleFinder {
            kContradictionCost * Contradictions();
   }
 
-  [[nodiscard]] double CostBesideWays() const {
-    const double inequality =
-        Inequality(static_cast<int>(Tip::kHandA), static_cast<int>(Tip::kHandB)) +
-        Inequality(static_cast<int>(Tip::kFootA), static_cast<int>(Tip::kFootB));
-    return kUnequalPairCost * inequality + kGirthCost * GirthDeviation() + CostOfGaps();
+  [[nodiscard]] double CostBesideWays(const CutRoles& cut) const {
+    const double inequality = Inequality(Tip::kHandA, cut) + Inequality(Tip::kFootA, cut);
+    return kUnequalPairCost * inequality + kGirthCost * GirthDeviation() + CostOfGaps() +
+           (cut == CutRoles{} ? 0.0 : kCutCost);
   }
 
   std::span<const Branch> branches_;
   std::span<const TipCandidate> candidates_;
   const std::optional<RigEnds>& rig_;
+  bool limbs_may_be_cut_;
   Roles roles_ = {-1, -1, -1, -1, -1};
   Roles best_ = {-1, -1, -1, -1, -1};
   double best_misfit_ = std::numeric_limits<double>::infinity();
@@ -195,8 +235,8 @@ std::pair<RigEnd, RigEnd> EndsOf(Tip tip) {
 }
 
 TipRoles FindTipRoles(std::span<const Branch> branches, std::span<const TipCandidate> candidates,
-                      const std::optional<RigEnds>& rig) {
-  return RoleFinder(branches, candidates, rig).Run();
+                      const std::optional<RigEnds>& rig, bool limbs_may_be_cut) {
+  return RoleFinder(branches, candidates, rig, limbs_may_be_cut).Run();
 }
 
 }  // namespace capfit::body

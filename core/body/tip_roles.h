@@ -35,10 +35,11 @@ struct TipRoles {
 
 // The roles with which the proportions fit best: the lengths of the ways between the tips, the
 // girths, both of a pair alike, few tips without a role and few roles without a tip, and no
-// contradiction to the skeleton. Tries every way.
+// contradiction to the skeleton. Tries every way. `limbs_may_be_cut`: an arm, a leg or both
+// legs may end anywhere, and say nothing of the ways then.
 [[nodiscard]] TipRoles FindTipRoles(std::span<const Branch> branches,
                                     std::span<const TipCandidate> candidates,
-                                    const std::optional<RigEnds>& rig);
+                                    const std::optional<RigEnds>& rig, bool limbs_may_be_cut);
 
 }  // namespace capfit::body
 
