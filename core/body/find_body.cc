@@ -331,8 +331,8 @@ absl::StatusOr<Body> FindBody(const mesh::BodyMesh& mesh, const BodyOptions& opt
   CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
   body.height_m = body.mesh.box_max().y() - body.mesh.box_min().y();
   CAPFIT_RETURN_IF_ERROR(FindParts(options,
-                                   {found.rig, *found.graph, found.coarse, found.extremities,
-                                    frame, ways.stature_m, ways.from_copy.scale},
+                                   {found.rig, *found.graph, found.coarse, found.extremities, frame,
+                                    ways.stature_m, ways.from_copy.scale},
                                    pool, observer, body));
   return body;
 }

@@ -21,7 +21,7 @@ struct FramedBody {
   const CoarseSurface& coarse;  // in the body frame
   const Extremities& extremities;
   const IntrinsicFrame& frame;
-  double stature_m = 0.0;        // see Shape, as the next
+  double stature_m = 0.0;  // see Shape, as the next
   double distance_unit_m = 1.0;
 };
 

@@ -57,8 +57,8 @@ Eigen::Vector3d CutEnd(const LimbProfile& profile) {
   return first.center - first.arc * first.normal;
 }
 
-// The arc of the outer joint of a limb, or where it would be on a limb that is cut short: as far from
-// the trunk as that of the other one.
+// The arc of the outer joint of a limb, or where it would be on a limb that is cut short: as far
+// from the trunk as that of the other one.
 double OuterArc(const Shape& shape, const std::array<std::optional<Limb>, 2>& limbs,
                 const std::array<std::optional<LimbProfile>, 2>& profiles, LandmarkId left_joint,
                 int side, const Landmarks& landmarks) {
@@ -66,8 +66,7 @@ double OuterArc(const Shape& shape, const std::array<std::optional<Limb>, 2>& li
   const int whole = is_short ? 1 - side : side;
   const double arc = profiles[whole]->NearestArc(landmarks[Sided(left_joint, whole)]->position_m);
   if (!is_short) return arc;
-  return arc -
-         shape.distance_unit_m * (limbs[whole]->tip_distance - limbs[side]->tip_distance);
+  return arc - shape.distance_unit_m * (limbs[whole]->tip_distance - limbs[side]->tip_distance);
 }
 
 // The arc at which the line passes nearest to a point beside it: past the end, what the point is
@@ -139,8 +138,8 @@ void FindWrist(Shape& shape, int side, Landmarks& landmarks) {
   const double stature = shape.stature_m;
   const double arc = arm.NarrowestArc(kWristFrom * stature, kWristTo * stature);
   const double palm = arm.MaxGirth(kPalmFrom * stature, arc);
-  shape.has_hand[side] = palm > kPalmWiderThanWrist * arm.At(arc).girth &&
-                         !IsCutShort(shape.arms, side);
+  shape.has_hand[side] =
+      palm > kPalmWiderThanWrist * arm.At(arc).girth && !IsCutShort(shape.arms, side);
   if (!shape.has_hand[side]) {
     Put(landmarks, Sided(LandmarkId::kLeftWrist, side), CutEnd(arm), 0.9);
     return;

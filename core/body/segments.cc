@@ -58,8 +58,9 @@ constexpr double kJawAboveNeck = 0.035;
 struct Barrier {
   CutPlane plane;  // normal outward, away from the trunk
   double radius = 0.0;
-  const std::vector<char>* in_limb = nullptr;                  // by node
-  // What is lower stops it as well, and what is not of the limb and further in, from `side` (1: left).
+  const std::vector<char>* in_limb = nullptr;  // by node
+  // What is lower stops it as well, and what is not of the limb and further in, from `side` (1:
+  // left).
   double lowest_y = -std::numeric_limits<double>::infinity();
   double innermost_x = -std::numeric_limits<double>::infinity();
   double side = 1.0;

@@ -21,8 +21,8 @@ constexpr double kUnequalPairCost = 0.5;
 // What it costs to leave a role empty, or a tip without a role, in units of the misfit.
 constexpr double kEmptyRoleCost = 0.12;
 constexpr double kUnusedTipCost = 0.10;
-// What it costs to take an arm, a leg or both legs for cut off: less than to leave its role empty and its tip
-// without one.
+// What it costs to take an arm, a leg or both legs for cut off: less than to leave its role empty
+// and its tip without one.
 constexpr double kCutCost = 0.16;
 // Of less no limb can be made: it has not sections enough. In units of the square root of the area.
 constexpr double kShortestCutArm = 0.10;
@@ -63,7 +63,10 @@ class RoleFinder {
  public:
   RoleFinder(std::span<const Branch> branches, std::span<const TipCandidate> candidates,
              const std::optional<RigEnds>& rig, bool limbs_may_be_cut)
-      : branches_(branches), candidates_(candidates), rig_(rig), limbs_may_be_cut_(limbs_may_be_cut) {}
+      : branches_(branches),
+        candidates_(candidates),
+        rig_(rig),
+        limbs_may_be_cut_(limbs_may_be_cut) {}
 
   // Tries every way; equal roles (two hands) count once.
   TipRoles Run() {

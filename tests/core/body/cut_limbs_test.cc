@@ -17,8 +17,8 @@
 namespace capfit::body {
 namespace {
 
-using formats::PolygonSoup;
 using Eigen::Vector3d;
+using formats::PolygonSoup;
 
 PolygonSoup Mannequin() {
   mannequin::MannequinOptions options;
@@ -47,7 +47,8 @@ Vector3d At(const Body& body, LandmarkId id) {
 }
 
 // Without the faces whose middle is beyond the plane, as seen from the body.
-PolygonSoup Without(const PolygonSoup& soup, const std::function<bool(const Vector3d&)>& is_beyond) {
+PolygonSoup Without(const PolygonSoup& soup,
+                    const std::function<bool(const Vector3d&)>& is_beyond) {
   PolygonSoup rest = soup;
   rest.face_vertices.clear();
   rest.face_sizes.clear();
@@ -115,9 +116,9 @@ class CutLimbs : public testing::TestWithParam<Case> {
     ExpectPartsOf(*whole, *body);
     for (const LandmarkId id : {LandmarkId::kLeftKnee, LandmarkId::kRightKnee,
                                 LandmarkId::kLeftElbow, LandmarkId::kRightElbow}) {
-      const bool is_there = std::none_of(
-          GetParam().cuts.begin(), GetParam().cuts.end(),
-          [&](const Cut& cut) { return cut.HasBeyond(*whole, At(*whole, id)); });
+      const bool is_there =
+          std::none_of(GetParam().cuts.begin(), GetParam().cuts.end(),
+                       [&](const Cut& cut) { return cut.HasBeyond(*whole, At(*whole, id)); });
       // Where both legs are cut, nothing tells how far down the knees are.
       if (!is_there || GetParam().cuts.size() > 1) continue;
       EXPECT_LE((At(*body, id) - At(*whole, id)).norm(), 0.045) << LandmarkName(id);
@@ -171,7 +172,8 @@ INSTANTIATE_TEST_SUITE_P(
     Somewhere, CutLimbs,
     testing::Values(
         Case{"ForeArm", {{LandmarkId::kLeftElbow, LandmarkId::kLeftWrist, 0.5}}, {"the left hand"}},
-        Case{"Elbow", {{LandmarkId::kRightElbow, LandmarkId::kRightWrist, 0.2}}, {"the right hand"}},
+        Case{
+            "Elbow", {{LandmarkId::kRightElbow, LandmarkId::kRightWrist, 0.2}}, {"the right hand"}},
         Case{"Shin", {{LandmarkId::kLeftKnee, LandmarkId::kLeftAnkle, 0.5}}, {"the left foot"}},
         Case{"Knee", {{LandmarkId::kRightKnee, LandmarkId::kRightAnkle, 0.0}}, {"the right foot"}},
         Case{"BothKnees",
