@@ -78,6 +78,8 @@ class RoleFinder {
   void TryFrom(int role) {
     if (role == kTipCount) {
       if (CostOfGaps() >= best_misfit_) return;  // the rest only adds to it
+      Offer({});
+      if (!limbs_may_be_cut_) return;
       for (const CutRoles& cut : CutsToTry()) Offer(cut);
       return;
     }
@@ -105,11 +107,10 @@ class RoleFinder {
     best_ = roles_;
   }
 
-  // None; else the shorter arm, the shorter leg, or both legs. More at a time would let any tips
-  // stand for anything.
+  // The shorter arm, the shorter leg, both legs. More at a time would let any tips stand for
+  // anything.
   [[nodiscard]] std::vector<CutRoles> CutsToTry() const {
-    std::vector<CutRoles> cuts = {{}};
-    if (!limbs_may_be_cut_) return cuts;
+    std::vector<CutRoles> cuts;
     for (const Tip first : {Tip::kHandA, Tip::kFootA}) {
       const std::optional<int> shorter = ShorterOfPair(static_cast<int>(first));
       if (!shorter) continue;
