@@ -87,8 +87,7 @@ std::string PartsRows(const std::vector<character::CharacterPart>& parts) {
                     part.material.empty() ? "-" : PlainText(part.material),
                     std::string(character::PartKindName(part.kind)),
                     part.is_included ? "yes" : "no", absl::StrCat(part.shell_count),
-                    absl::StrCat(part.face_count), Percent(part.area_share),
-                    PlainText(part.reason)});
+                    absl::StrCat(part.face_count), Percent(part.area_share), part.reason});
   }
   return Aligned(rows, {false, false, false, false, true, true, true, false});
 }

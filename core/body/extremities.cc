@@ -240,8 +240,8 @@ Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
   if (whole.found() == kTipCount && whole.misfit < best.misfit) best = std::move(whole);
   // Of a body with an arm or a leg that is cut off there are still five tips.
   if (best.found() < kTipCount || best.misfit > kFairMisfit) {
-    for (const std::vector<GeodesicSource>& start : {sources, middle}) {
-      Extremities cut = from(start, /*limbs_may_be_cut=*/true);
+    for (const std::vector<GeodesicSource>* const start : {&sources, &middle}) {
+      Extremities cut = from(*start, /*limbs_may_be_cut=*/true);
       if (observer.IsCancelled()) return best;
       if (cut.found() == kTipCount && cut.misfit < best.misfit) best = std::move(cut);
     }

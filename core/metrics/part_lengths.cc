@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/enum_index.h"
+#include "core/capsule/build_primitives.h"
 
 namespace capfit::metrics {
 namespace {
@@ -10,24 +11,9 @@ namespace {
 using body::Part;
 using geometry::Interval;
 
-// The part that a part which is not fitted hands on to.
-Part NeighbourOf(Part part) {
-  switch (part) {
-    case Part::kLeftHand:
-      return Part::kLeftArm;
-    case Part::kRightHand:
-      return Part::kRightArm;
-    case Part::kLeftFoot:
-      return Part::kLeftLeg;
-    case Part::kRightFoot:
-      return Part::kRightLeg;
-    default:
-      return Part::kTorso;
-  }
-}
-
+// What is not fitted hands on to the chain that it hangs on.
 std::size_t HomeOf(Part part, const std::array<bool, body::kPartCount>& is_fitted) {
-  for (const Part one : {part, NeighbourOf(part)}) {
+  for (const Part one : {part, capsule::ChainAt(part)}) {
     if (is_fitted[Index(one)]) return Index(one);
   }
   const auto first = std::find(is_fitted.begin(), is_fitted.end(), true);

@@ -315,7 +315,7 @@ class BodyFit {
   // Limbs are thin: what may stick out by three centimetres is nearly all of an arm.
   void WarnOfTolerance() {
     const double uncovered = result_.metrics.uncovered;
-    if (options_.fit != FitMode::kEnclose || uncovered < kHollow) return;
+    if (options_.tolerance_m <= 0.0 || uncovered < kHollow) return;
     result_.warnings.push_back(
         {"TOLERANCE_HOLLOWS",
          absl::StrFormat("the tolerance of %.3g mm leaves %.0f %% of the fitted parts' volume "

@@ -11,7 +11,6 @@
 #include "proto/wire/enum_conversion.h"
 #include "proto/wire/export_conversion.h"
 #include "proto/wire/layout_conversion.h"
-#include "proto/wire/result_conversion.h"
 
 namespace capfit::wire {
 namespace {

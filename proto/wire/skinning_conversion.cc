@@ -7,7 +7,6 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/plain_text.h"
 #include "core/base/status.h"
-#include "proto/wire/result_conversion.h"
 
 namespace capfit::wire {
 namespace {
