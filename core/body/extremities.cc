@@ -15,6 +15,9 @@ namespace {
 
 // A limb stands out by at least this much; the longest finger has 0.06.
 constexpr double kMinPersistence = 0.068;
+// Of an upper body, which has about half of the area, fingers come to more. They join the others
+// farther out than this share of the farthest tip's distance; nothing else does.
+constexpr double kMaxJunctionOfUpperBody = 0.75;
 // The stump of a neck may be shorter. It is taken for one where it joins well inside the body
 // (fingers join far out, at 0.7 of the farthest tip and more), and for nothing but a head.
 constexpr double kMinStump = 0.018;
@@ -29,6 +32,10 @@ constexpr double kSourceShell = 1.3;
 // A piece as wide as a trunk (1.0) is no limb.
 constexpr double kMaxLimbGirth = 0.85;
 
+// Of an upper body: a piece more open than this is what is left of the trunk above its cut (.75 to
+// .85); heads have .1 to .4, thighs up to .55.
+constexpr double kMostOpen = 0.65;
+
 // A result worse than the first is not trusted before the middle that no pose moves has been tried,
 // one worse than the second before still others have.
 constexpr double kGoodMisfit = 0.17;
@@ -38,6 +45,8 @@ constexpr int kSweeps = 4;
 constexpr double kMiddleWidth = 0.03;
 // At most this many other middles.
 constexpr int kMaxMiddles = 4;
+// Of an upper body: head and hands.
+constexpr int kUpperTipCount = 3;
 
 // All vertices that can be reached from the tip without sinking to the level.
 std::vector<std::uint32_t> VerticesAbove(const SurfaceGraph& graph,
@@ -140,17 +149,35 @@ double FirstJunction(std::span<const Branch> branches, int branch, std::span<con
   return level;
 }
 
+// How large the opening is that a part of a closed surface leaves, relative to the part: what is
+// outside of it has the opposite area vector. Nearly 0 for a long limb, .5 for half of a ball.
+double OpennessOf(const CoarseSurface& surface, std::span<const std::uint32_t> part) {
+  std::vector<char> is_part(surface.points.size(), 0);
+  for (const std::uint32_t v : part) is_part[v] = 1;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double area = 0.0;
+  for (const mesh::Triangle& t : surface.triangles) {
+    if (!is_part[t[0]] || !is_part[t[1]] || !is_part[t[2]]) continue;
+    const Eigen::Vector3d& p = surface.points[t[0]];
+    const Eigen::Vector3d twice = (surface.points[t[1]] - p).cross(surface.points[t[2]] - p);
+    sum += twice;
+    area += twice.norm();
+  }
+  return area > 0.0 ? sum.norm() / area : 1.0;
+}
+
 // The tips that stand out, but for what is as wide as a trunk, and stumps after them.
 std::vector<TipCandidate> Candidates(std::span<const Branch> branches,
-                                     std::span<const double> distance,
-                                     std::span<const double> vertex_areas,
+                                     std::span<const double> distance, const CoarseSurface& surface,
                                      const SurfaceGraph& graph, const ThreadPool& pool,
-                                     const std::optional<RigEnds>& rig) {
+                                     const std::optional<RigEnds>& rig, Cut cut) {
+  const bool is_upper_body = cut == Cut::kUpperBody;
   std::vector<int> tall;
   std::vector<int> stumps;
   for (int b = 0; b < static_cast<int>(branches.size()); ++b) {
     if (branches[b].Persistence() >= kMinPersistence) {
-      tall.push_back(b);
+      const double junction = branches[b].saddle_distance / branches[0].tip_distance;
+      if (!is_upper_body || junction <= kMaxJunctionOfUpperBody) tall.push_back(b);
     } else if (branches[b].saddle_distance <= kMaxStumpJunction * branches[0].tip_distance) {
       stumps.push_back(b);
     }
@@ -165,33 +192,35 @@ std::vector<TipCandidate> Candidates(std::span<const Branch> branches,
     const double level = FirstJunction(branches, b, tall);
     std::vector<std::uint32_t> vertices = VerticesAbove(graph, distance, branches[b].tip, level);
     double area = 0.0;
-    for (const std::uint32_t v : vertices) area += vertex_areas[v];
+    for (const std::uint32_t v : vertices) area += surface.areas[v];
     const double girth = area / std::max(branches[b].tip_distance - level, 1e-6);
-    candidates[i] = {b, girth, is_stump, level, std::move(vertices), {}};
+    const double openness = is_upper_body ? OpennessOf(surface, vertices) : 0.0;
+    candidates[i] = {b, girth, is_stump, openness, level, std::move(vertices), {}};
     for (std::size_t end = 0; rig && end < rig->vertex.size(); ++end) {
       const std::vector<std::uint32_t>& held = candidates[i].vertices;
       candidates[i].holds[end] =
           rig->vertex[end] && std::binary_search(held.begin(), held.end(), *rig->vertex[end]);
     }
   });
-  std::erase_if(candidates,
-                [](const TipCandidate& c) { return !c.is_stump && c.girth > kMaxLimbGirth; });
+  std::erase_if(candidates, [](const TipCandidate& c) {
+    return (!c.is_stump && c.girth > kMaxLimbGirth) || c.openness > kMostOpen;
+  });
   return candidates;
 }
 
-Extremities FromSources(const std::vector<GeodesicSource>& sources,
-                        std::span<const double> vertex_areas, const SurfaceGraph& graph,
-                        const ThreadPool& pool, const FitObserver& observer,
-                        const std::optional<RigEnds>& rig, bool limbs_may_be_cut) {
+Extremities FromSources(const std::vector<GeodesicSource>& sources, const CoarseSurface& surface,
+                        const SurfaceGraph& graph, const ThreadPool& pool,
+                        const FitObserver& observer, const std::optional<RigEnds>& rig, Cut cut) {
   Extremities result;
   result.distance = graph.Distances(sources, pool, observer);
   if (observer.IsCancelled()) return result;
   const std::vector<Branch> branches = FindBranches(graph, result.distance, kMinStump, pool);
   if (observer.IsCancelled()) return result;
   std::vector<TipCandidate> candidates =
-      Candidates(branches, result.distance, vertex_areas, graph, pool, rig);
-  const TipRoles found = FindTipRoles(branches, candidates, rig, limbs_may_be_cut);
+      Candidates(branches, result.distance, surface, graph, pool, rig, cut);
+  const TipRoles found = FindTipRoles(branches, candidates, rig, cut);
   result.misfit = found.misfit;
+  result.legs_are_cut = found.legs_are_cut;
   for (int role = 0; role < kTipCount; ++role) {
     const int candidate = found.candidates[role];
     if (candidate < 0) continue;
@@ -221,14 +250,13 @@ int Extremities::found() const {
       std::count_if(limbs.begin(), limbs.end(), [](const auto& limb) { return limb.has_value(); }));
 }
 
-Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
-                            std::span<const double> vertex_areas, const SurfaceGraph& graph,
+Extremities FindExtremities(const CoarseSurface& surface, const SurfaceGraph& graph,
                             const ThreadPool& pool, const FitObserver& observer,
                             const std::optional<RigEnds>& rig) {
-  const auto from = [&](const std::vector<GeodesicSource>& sources, bool limbs_may_be_cut = false) {
-    return FromSources(sources, vertex_areas, graph, pool, observer, rig, limbs_may_be_cut);
+  const auto from = [&](const std::vector<GeodesicSource>& sources, Cut cut = Cut::kNothing) {
+    return FromSources(sources, surface, graph, pool, observer, rig, cut);
   };
-  const std::vector<GeodesicSource> sources = MiddleOfTheBody(points);
+  const std::vector<GeodesicSource> sources = MiddleOfTheBody(surface.points);
   Extremities best = from(sources);
   if (observer.IsCancelled()) return best;
   if (best.misfit <= kGoodMisfit && best.found() == kTipCount) return best;
@@ -238,16 +266,20 @@ Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
   if (observer.IsCancelled()) return best;
   // Only for a whole body is that middle near the waist.
   if (whole.found() == kTipCount && whole.misfit < best.misfit) best = std::move(whole);
-  // Of a body with an arm or a leg that is cut off there are still five tips.
   if (best.found() < kTipCount || best.misfit > kFairMisfit) {
+    // Of a body with an arm or a leg that is cut off there are still five tips.
     for (const std::vector<GeodesicSource>* const start : {&sources, &middle}) {
-      Extremities cut = from(*start, /*limbs_may_be_cut=*/true);
+      Extremities cut = from(*start, Cut::kLimbs);
       if (observer.IsCancelled()) return best;
       if (cut.found() == kTipCount && cut.misfit < best.misfit) best = std::move(cut);
     }
+    // What MiddleOfTheSurface says of an upper body lies in its chest, too near to the arms.
+    Extremities upper = from(sources, Cut::kUpperBody);
+    if (observer.IsCancelled()) return best;
+    if (upper.found() == kUpperTipCount && upper.misfit < best.misfit) best = std::move(upper);
   }
   if (best.misfit <= kFairMisfit) return best;
-  const auto patches = PatchesOf(sources, points, vertex_areas, graph);
+  const auto patches = PatchesOf(sources, surface.points, surface.areas, graph);
   for (std::size_t i = 0; i < patches.size() && i < kMaxMiddles; ++i) {
     Extremities other = from(patches[i]);
     if (observer.IsCancelled()) return best;

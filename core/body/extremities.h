@@ -12,6 +12,7 @@
 #include "core/base/enum_index.h"
 #include "core/base/fit_observer.h"
 #include "core/body/branches.h"
+#include "core/body/coarse_surface.h"
 #include "core/body/rig_ends.h"
 #include "core/body/surface_graph.h"
 
@@ -33,13 +34,14 @@ struct Limb {
 struct Extremities {
   std::vector<double> distance;  // from the middle of the body, for every vertex
   std::array<std::optional<Limb>, kTipCount> limbs;
-  double misfit = 0.0;  // how far the proportions are from a body's; 0.1 is usual
+  bool legs_are_cut = false;  // both of them, anywhere above the ankles
+  double misfit = 0.0;        // how far the proportions are from a body's; 0.1 is usual
 
   [[nodiscard]] const std::optional<Limb>& limb(Tip tip) const { return limbs[Index(tip)]; }
   [[nodiscard]] int found() const;
 };
 
-// `points` in a frame where the surface's area is 1 and the body's centroid lies at the origin.
+// `surface` in a frame where its area is 1 and the body's centroid lies at the origin.
 // Lengths along the surface do not change when limbs bend, so neither does the answer: tips are
 // the maxima of the geodesic distance from the middle, and their roles follow from the lengths of
 // the ways between them (the head is near the hands, the feet are far from all) and from how thick
@@ -47,10 +49,8 @@ struct Extremities {
 // does not hold the one of its role counts as a bad fit, and one that holds none (of a hat, a
 // sword, a tail) may go without a role. O(n log n). What comes back once the observer cancels means
 // nothing.
-[[nodiscard]] Extremities FindExtremities(std::span<const Eigen::Vector3d> points,
-                                          std::span<const double> vertex_areas,
-                                          const SurfaceGraph& graph, const ThreadPool& pool,
-                                          const FitObserver& observer,
+[[nodiscard]] Extremities FindExtremities(const CoarseSurface& surface, const SurfaceGraph& graph,
+                                          const ThreadPool& pool, const FitObserver& observer,
                                           const std::optional<RigEnds>& rig = std::nullopt);
 
 }  // namespace capfit::body

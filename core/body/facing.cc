@@ -64,15 +64,19 @@ double HeadFacing(const LevelCentroids& head, const Eigen::Vector3d& tip, const 
 double Facing(const Rings& rings, std::span<const Eigen::Vector3d> points,
               const Extremities& extremities, const Eigen::Vector3d& up,
               const Eigen::Vector3d& forward) {
+  const bool has_legs =
+      !extremities.legs_are_cut && (extremities.limb(Tip::kFootA) || extremities.limb(Tip::kFootB));
   double evidence = 0.0;
   for (const Tip tip : {Tip::kFootA, Tip::kFootB}) {
-    if (!rings.limb(tip)) continue;
+    if (!rings.limb(tip) || !has_legs) continue;
     evidence += LegFacing(*rings.limb(tip), points[extremities.limb(tip)->tip], forward);
   }
   for (const Tip tip : {Tip::kHandA, Tip::kHandB}) {
     if (rings.limb(tip)) evidence += ArmFacing(*rings.limb(tip), forward);
   }
-  if (rings.limb(Tip::kHead)) {
+  // Without legs the middle that the rings are told from lies in the chest, and the head's do not
+  // begin at the neck: they are wrong as often as not.
+  if (rings.limb(Tip::kHead) && has_legs) {
     evidence +=
         HeadFacing(*rings.limb(Tip::kHead), points[extremities.limb(Tip::kHead)->tip], up, forward);
   }

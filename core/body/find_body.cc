@@ -33,6 +33,9 @@ constexpr double kFacingTrust = 0.35;
 // Length of an arm along the surface, from where it leaves the trunk: 0.21 of the height without
 // hand, 0.26 to 0.33 with.
 constexpr double kArmShare = 0.26;
+// The way from the top of the head to a hand, as short as what joins them has it: 0.38 to 0.50 of
+// the height of bodies cut anywhere between waist and knees.
+constexpr double kHeadToHandShare = 0.44;
 // A told axis this near to the body's own (5 degrees) is taken as it is. Beyond that the body
 // leans, and its own axis serves better: at 13 degrees landmarks were up to 15 cm off along the
 // told one.
@@ -104,14 +107,18 @@ void TurnToToldSides(const BodyOptions& options, const Found& found, IntrinsicFr
 
 // Height of a body that ends above its legs, from what reaches out of the trunk; rough.
 double StatureWithoutLegs(const Extremities& extremities) {
+  const std::optional<Limb>& head = extremities.limb(Tip::kHead);
   double sum = 0.0;
   int count = 0;
   for (const Tip tip : {Tip::kHandA, Tip::kHandB}) {
-    if (!extremities.limb(tip)) continue;
-    sum += extremities.limb(tip)->tip_distance - extremities.limb(tip)->junction;
+    const std::optional<Limb>& arm = extremities.limb(tip);
+    if (!arm) continue;
+    const double arm_length = arm->tip_distance - arm->junction;
+    sum += head ? (arm_length + head->tip_distance - arm->junction) / kHeadToHandShare
+                : arm_length / kArmShare;
     ++count;
   }
-  return count > 0 ? sum / count / kArmShare : 0.0;
+  return count > 0 ? sum / count : 0.0;
 }
 
 double VolumeOf(const WorkingCopy& copy) {
@@ -172,7 +179,8 @@ absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const Work
     return extent;
   };
   const auto [low, high] = SumOverChunks(pool, copy.points.size(), Extent{}, extent_of);
-  const bool has_legs = extremities.limb(Tip::kFootA) || extremities.limb(Tip::kFootB);
+  const bool has_legs =
+      !extremities.legs_are_cut && (extremities.limb(Tip::kFootA) || extremities.limb(Tip::kFootB));
   const double stature =
       std::max(has_legs ? 0.0 : StatureWithoutLegs(extremities), high - low) * copy.frame.unit;
   CAPFIT_ASSIGN_OR_RETURN(const LengthUnit unit, ChooseUnit(options.unit, stature));
@@ -286,8 +294,7 @@ absl::Status SearchSurface(const ThreadPool& pool, const FitObserver& observer, 
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
     found.rig_ends = FindRigEnds(found.rig, found.copy, coarse, pool);
     CAPFIT_RETURN_IF_ERROR(CheckCancelled(observer));
-    found.extremities =
-        FindExtremities(coarse.points, coarse.areas, *found.graph, pool, observer, found.rig_ends);
+    found.extremities = FindExtremities(coarse, *found.graph, pool, observer, found.rig_ends);
     return CheckCancelled(observer);
   };
   absl::Status status;

@@ -24,6 +24,7 @@ void AssignSides(const Extremities& extremities, const IntrinsicFrame& frame, Sh
   shape.arms[1 - first_hand] = extremities.limb(Tip::kHandB);
   shape.legs[first_foot] = extremities.limb(Tip::kFootA);
   shape.legs[1 - first_foot] = extremities.limb(Tip::kFootB);
+  shape.legs_are_cut = extremities.legs_are_cut;
 }
 
 absl::Status CheckRequired(const Body& body, const PartSelection& required) {

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -56,6 +57,32 @@ Eigen::Vector3d TrunkDirection(const Rings& rings) {
   return top - roots({Tip::kFootA, Tip::kFootB}).value_or(middle);
 }
 
+// Of what is not left out, as seen along an axis.
+struct Spread {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // across the axis
+};
+
+Spread SpreadAcross(const Eigen::Vector3d& axis, std::span<const Eigen::Vector3d> points,
+                    std::span<const double> areas, const std::vector<char>& is_left_out) {
+  Spread spread;
+  double total = 0.0;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (is_left_out[v]) continue;
+    spread.center += areas[v] * points[v];
+    total += areas[v];
+  }
+  if (total <= 0.0) return spread;
+  spread.center /= total;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (is_left_out[v]) continue;
+    Eigen::Vector3d across = points[v] - spread.center;
+    across -= across.dot(axis) * axis;
+    spread.covariance += areas[v] / total * across * across.transpose();
+  }
+  return spread;
+}
+
 // The direction in which the trunk is widest, across its own axis, and by how much it is wider than
 // deep (ratio of standard deviations).
 struct TrunkWidth {
@@ -66,26 +93,12 @@ struct TrunkWidth {
 
 TrunkWidth MeasureTrunk(std::span<const Eigen::Vector3d> points, std::span<const double> areas,
                         const std::vector<char>& is_limb, const Eigen::Vector3d& axis) {
-  TrunkWidth width;
-  double total = 0.0;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (is_limb[v]) continue;
-    width.center += areas[v] * points[v];
-    total += areas[v];
-  }
-  if (total <= 0.0) return width;
-  width.center /= total;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (is_limb[v]) continue;
-    Eigen::Vector3d across = points[v] - width.center;
-    across -= across.dot(axis) * axis;
-    covariance += areas[v] / total * across * across.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  width.direction = solver.eigenvectors().col(2);
-  width.ratio = std::sqrt(solver.eigenvalues()[2] / std::max(solver.eigenvalues()[1], 1e-12));
-  return width;
+  const Spread spread = SpreadAcross(axis, points, areas, is_limb);
+  if (spread.covariance.isZero(0.0)) return {};
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread.covariance);
+  const double ratio =
+      std::sqrt(solver.eigenvalues()[2] / std::max(solver.eigenvalues()[1], 1e-12));
+  return {solver.eigenvectors().col(2), spread.center, ratio};
 }
 
 // A point seen along the left axis: forward and up.
@@ -185,9 +198,27 @@ bool IsLeft(const Rings& rings, Tip a, Tip b, const IntrinsicFrame& frame) {
   return x > 0.0;
 }
 
+// Of a body without legs: where trunk and head are longest in the symmetry plane, towards the head.
+// The trunk's middle and where the head begins are too near to each other to tell.
+Eigen::Vector3d UpperBodyAxis(const CoarseSurface& coarse, const Extremities& extremities,
+                              const Eigen::Vector3d& left) {
+  constexpr std::array kHands = {Tip::kHandA, Tip::kHandB};
+  const Spread spread = SpreadAcross(left, coarse.points, coarse.areas,
+                                     LimbMask(coarse.points.size(), extremities, kHands));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread.covariance);
+  const Eigen::Vector3d axis = solver.eigenvectors().col(2);
+  const Eigen::Vector3d& crown = coarse.points[extremities.limb(Tip::kHead)->tip];
+  return axis.dot(crown - spread.center) < 0.0 ? Eigen::Vector3d(-axis) : axis;
+}
+
 // From the hips to the neck.
-Eigen::Vector3d TrunkAxis(const Rings& rings, const std::optional<RigEnds>& rig) {
-  const Eigen::Vector3d axis = TrunkDirection(rings).normalized();
+Eigen::Vector3d TrunkAxis(const CoarseSurface& coarse, const Extremities& extremities,
+                          const Rings& rings, const MirrorPlane& plane,
+                          const std::optional<RigEnds>& rig) {
+  const bool has_legs = extremities.limb(Tip::kFootA) || extremities.limb(Tip::kFootB);
+  const Eigen::Vector3d axis = !has_legs && extremities.limb(Tip::kHead)
+                                   ? UpperBodyAxis(coarse, extremities, plane.normal)
+                                   : TrunkDirection(rings).normalized();
   return rig && !(rig->up.dot(axis) >= kTakenCosineToRig) ? rig->up : axis;
 }
 
@@ -213,7 +244,7 @@ IntrinsicFrame FindIntrinsicFrame(const WorkingCopy& copy, const CoarseSurface& 
   MirrorPlane plane = SymmetryPlane(rings, pool);
   if (mirror != nullptr) plane = SharpenedPlane(plane, *mirror, pool);
   IntrinsicFrame frame;
-  const Eigen::Vector3d trunk = TrunkAxis(rings, rig);
+  const Eigen::Vector3d trunk = TrunkAxis(coarse, extremities, rings, plane, rig);
   const TrunkWidth width = MeasureTrunk(points, coarse.areas, is_limb, trunk);
   const Eigen::Vector3d across = (plane.normal - plane.normal.dot(trunk) * trunk).normalized();
   if (width.ratio > kClearlyWide && std::abs(width.direction.dot(across)) < kMinCosineToWidth) {

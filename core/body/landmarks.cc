@@ -21,6 +21,8 @@ constexpr std::size_t kMinStations = 16;
 // Length along the surface, in units of the square root of the area, from the place where the arms
 // join to the top of the head (0.19 to 0.28) or to a cut through the neck (0.08).
 constexpr double kHeadLength = 0.135;
+// Of an upper body, as a share of the stature: 0.09 to 0.15, and 0.07.
+constexpr double kHeadLengthOfUpperBody = 0.08;
 // The section that stands for the lower end of a trunk without legs is taken this far above it, as
 // a share of the stature.
 constexpr double kAboveTrunkEnd = 0.02;
@@ -111,9 +113,11 @@ void FindEnds(Shape& shape, Landmarks& landmarks) {
   }
 }
 
-// What head and feet would add to the extent. Without legs the arms tell the height, or the head.
+// What head and feet would add to the extent. Without legs, or with what is left of them, arms and
+// head have told it.
 double Stature(const Shape& shape) {
-  if (!shape.legs[kLeft] && !shape.legs[kRight]) return shape.stature_m;
+  const bool has_legs = shape.legs[kLeft] || shape.legs[kRight];
+  if (!has_legs || shape.legs_are_cut) return shape.stature_m;
   double share = 1.0;
   if (!shape.has_head) share -= kHeadShare;
   if (!shape.has_foot[kLeft] && !shape.has_foot[kRight]) share -= kFootShare;
@@ -127,6 +131,14 @@ double CrownHeight(const Shape& shape) {
   VisitVertices(shape, *shape.head,
                 [&](const Eigen::Vector3d& p) { crown = std::max(crown, p.y()); });
   return crown;
+}
+
+bool HasHead(const Shape& shape) {
+  if (!shape.head) return false;
+  const double length = shape.head->tip_distance - shape.head->junction;
+  const bool has_legs = shape.legs[kLeft] || shape.legs[kRight];
+  return has_legs ? length > kHeadLength
+                  : length * shape.distance_unit_m > kHeadLengthOfUpperBody * shape.stature_m;
 }
 
 void WarnOfMissing(const std::string& what, const std::string& consequence,
@@ -211,7 +223,8 @@ void FindTrunkBase(Shape& shape, Landmarks& landmarks) {
 // Height of a body that stood up from what it sits or squats on; its extent where it stands.
 double UnfoldedStature(const Shape& shape, const Landmarks& landmarks) {
   const auto& crotch = landmarks[Index(LandmarkId::kCrotch)];
-  if (!shape.legs[kLeft] || !shape.legs[kRight] || !crotch) return shape.stature_m;
+  const bool has_legs = shape.legs[kLeft] && shape.legs[kRight] && !shape.legs_are_cut;
+  if (!has_legs || !crotch) return shape.stature_m;
   double legs = std::numeric_limits<double>::infinity();
   for (const int side : {kLeft, kRight}) {
     legs = std::min(legs, LegLength(shape, side, landmarks));
@@ -280,7 +293,7 @@ absl::Status FindAll(const Fields& fields, Shape& shape, Landmarks& landmarks,
 
 absl::Status FindLandmarks(const Extremities& extremities, Shape& shape, Landmarks& landmarks,
                            std::vector<Warning>& warnings) {
-  shape.has_head = shape.head && shape.head->tip_distance - shape.head->junction > kHeadLength;
+  shape.has_head = HasHead(shape);
   shape.has_foot = {true, true};
   shape.crown_m = CrownHeight(shape);
   shape.stature_m = Stature(shape);

@@ -166,7 +166,8 @@ void FindAnkle(Shape& shape, int side, Landmarks& landmarks) {
   const double heel_arc = leg.WidestArc(kAnkleFrom * stature, kAnkleTo * stature);
   const Eigen::Vector3d ankle = leg.At(heel_arc + kAnkleAboveHeelGirth * stature).center;
   const Eigen::Vector3d& toe = shape.points[shape.legs[side]->tip];
-  shape.has_foot[side] = EndsInFoot(leg, stature) && !IsCutShort(shape.legs, side);
+  shape.has_foot[side] =
+      EndsInFoot(leg, stature) && !IsCutShort(shape.legs, side) && !shape.legs_are_cut;
   if (!shape.has_foot[side]) {
     Put(landmarks, Sided(LandmarkId::kLeftAnkle, side), CutEnd(leg), 0.9);
     return;

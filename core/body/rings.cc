@@ -64,9 +64,11 @@ LevelCentroids TrunkCentroids(std::span<const Eigen::Vector3d> points,
 
 }  // namespace
 
-std::vector<char> LimbMask(std::size_t count, const Extremities& extremities) {
+std::vector<char> LimbMask(std::size_t count, const Extremities& extremities,
+                           std::span<const Tip> tips) {
   std::vector<char> is_limb(count, 0);
-  for (const auto& limb : extremities.limbs) {
+  for (const Tip tip : tips) {
+    const auto& limb = extremities.limb(tip);
     if (!limb) continue;
     for (const std::uint32_t v : limb->vertices) is_limb[v] = 1;
   }

@@ -29,8 +29,11 @@ struct Rings {
   }
 };
 
-// 1 for each vertex of a limb.
-[[nodiscard]] std::vector<char> LimbMask(std::size_t count, const Extremities& extremities);
+// 1 for each vertex of the limbs at these tips.
+inline constexpr std::array<Tip, kTipCount> kAllTips = {Tip::kHead, Tip::kHandA, Tip::kHandB,
+                                                        Tip::kFootA, Tip::kFootB};
+[[nodiscard]] std::vector<char> LimbMask(std::size_t count, const Extremities& extremities,
+                                         std::span<const Tip> tips = kAllTips);
 
 // `areas` by vertex; `is_limb`: LimbMask. O(vertices).
 [[nodiscard]] Rings RingsOf(std::span<const Eigen::Vector3d> points, std::span<const double> areas,

@@ -46,6 +46,7 @@ struct Shape {
   double crown_m = 0.0;
   // Height of the whole body: what is cut off is added, by proportion. Without legs it must be set
   // before landmarks are looked for; with them it follows from the extent.
+  bool legs_are_cut = false;  // both, so that they do not tell the stature
   double stature_m = 0.0;
   // By side; nothing where the limb is missing. Profiles run from the tip to the trunk.
   std::array<std::optional<Limb>, 2> arms;

@@ -27,6 +27,14 @@ constexpr double kCutCost = 0.16;
 // Of less no limb can be made: it has not sections enough. In units of the square root of the area.
 constexpr double kShortestCutArm = 0.10;
 constexpr double kShortestCutLeg = 0.20;
+// What it costs to take a body for one that ends above its knees. What is left of its thighs needs
+// no role then.
+constexpr double kUpperBodyCost = 0.16;
+constexpr double kLongestStub = 0.30;
+// Stubs that join the head this much before what would be the arms are stubs of arms.
+constexpr double kClearlyBefore = 0.05;
+// A longer one speaks against it.
+constexpr double kLimbBesideCost = 0.40;
 // A role for a tip that the skeleton gives to another: more than leaving both without.
 constexpr double kContradictionCost = 0.40;
 
@@ -62,24 +70,22 @@ using CutRoles = std::array<bool, kTipCount>;
 class RoleFinder {
  public:
   RoleFinder(std::span<const Branch> branches, std::span<const TipCandidate> candidates,
-             const std::optional<RigEnds>& rig, bool limbs_may_be_cut)
-      : branches_(branches),
-        candidates_(candidates),
-        rig_(rig),
-        limbs_may_be_cut_(limbs_may_be_cut) {}
+             const std::optional<RigEnds>& rig, Cut cut)
+      : branches_(branches), candidates_(candidates), rig_(rig), cut_(cut) {}
 
   // Tries every way; equal roles (two hands) count once.
   TipRoles Run() {
     TryFrom(0);
-    return {best_, best_misfit_};
+    return {best_, best_cut_[Index(Tip::kFootA)] && best_cut_[Index(Tip::kFootB)], best_misfit_};
   }
 
  private:
   void TryFrom(int role) {
-    if (role == kTipCount) {
+    const bool is_upper_body = cut_ == Cut::kUpperBody;
+    if (role == (is_upper_body ? static_cast<int>(Tip::kFootA) : kTipCount)) {
       if (CostOfGaps() >= best_misfit_) return;  // the rest only adds to it
       Offer({});
-      if (!limbs_may_be_cut_) return;
+      if (cut_ != Cut::kLimbs) return;
       for (const CutRoles& cut : CutsToTry()) Offer(cut);
       return;
     }
@@ -90,21 +96,29 @@ class RoleFinder {
     const int count = static_cast<int>(candidates_.size());
     for (int tip = first; tip < count && !first_is_empty; ++tip) {
       if (std::find(roles_.begin(), roles_.begin() + role, tip) != roles_.begin() + role) continue;
-      if (candidates_[tip].is_stump && role != static_cast<int>(Tip::kHead)) continue;
+      if (candidates_[tip].is_stump && (is_upper_body || role != static_cast<int>(Tip::kHead)))
+        continue;
       roles_[role] = tip;
       TryFrom(role + 1);
     }
     roles_[role] = -1;
-    TryFrom(role + 1);
+    if (!is_upper_body) TryFrom(role + 1);
   }
 
   void Offer(const CutRoles& cut) {
-    const double without_ways = CostBesideWays(cut);
-    if (without_ways >= best_misfit_) return;
-    const double misfit = WayDeviation(cut) + without_ways;
+    // The area of an upper body does not tell its size, so that its ways have to.
+    const bool is_upper_body = cut_ == Cut::kUpperBody;
+    if (is_upper_body && HasStubsOfArms()) return;
+    double misfit = CostBesideWays(cut);
+    if (!is_upper_body) misfit += kGirthCost * GirthDeviation(1.0);
+    if (misfit >= best_misfit_) return;
+    const Ways ways = WaysBetween(cut);
+    misfit += ways.deviation;
+    if (is_upper_body) misfit += kGirthCost * GirthDeviation(std::exp(ways.mean_log));
     if (misfit >= best_misfit_) return;
     best_misfit_ = misfit;
     best_ = roles_;
+    best_cut_ = cut;
   }
 
   // The shorter arm, the shorter leg, both legs. More at a time would let any tips stand for
@@ -149,8 +163,13 @@ class RoleFinder {
                              std::max(TipDistance(role_b) - level, 1e-6)));
   }
 
-  // Standard deviation of log(way / usual way) over all pairs of roles.
-  [[nodiscard]] double WayDeviation(const CutRoles& cut) const {
+  // Mean and standard deviation of log(way / usual way) over all pairs of roles.
+  struct Ways {
+    double mean_log = 0.0;
+    double deviation = 0.0;
+  };
+
+  [[nodiscard]] Ways WaysBetween(const CutRoles& cut) const {
     double sum = 0.0;
     double sum_of_squares = 0.0;
     int pairs = 0;
@@ -165,29 +184,71 @@ class RoleFinder {
         ++pairs;
       }
     }
-    if (pairs == 0) return 0.0;
+    if (pairs == 0) return {};
     const double mean = sum / pairs;
-    return std::sqrt(std::max(0.0, sum_of_squares / pairs - mean * mean));
+    return {mean, std::sqrt(std::max(0.0, sum_of_squares / pairs - mean * mean))};
   }
 
-  // Mean of |log(girth / usual girth)|.
-  [[nodiscard]] double GirthDeviation() const {
+  // Mean of |log(girth / usual girth)|, of a body that is larger than usual by `scale`.
+  [[nodiscard]] double GirthDeviation(double scale) const {
     double sum = 0.0;
     int count = 0;
     for (int i = 0; i < kTipCount; ++i) {
       if (roles_[i] < 0) continue;
-      sum += std::abs(
-          std::log(std::max(candidates_[roles_[i]].girth, 1e-6) / UsualGirth(static_cast<Tip>(i))));
+      sum += std::abs(std::log(std::max(candidates_[roles_[i]].girth, 1e-6) /
+                               (scale * UsualGirth(static_cast<Tip>(i)))));
       ++count;
     }
     return count > 0 ? sum / count : 0.0;
   }
 
+  [[nodiscard]] double LengthOf(const TipCandidate& candidate) const {
+    return branches_[candidate.branch].tip_distance - candidate.junction;
+  }
+
+  // What may be left of a thigh.
+  [[nodiscard]] bool IsStub(const TipCandidate& candidate) const {
+    return cut_ == Cut::kUpperBody && !candidate.is_stump && LengthOf(candidate) < kLongestStub;
+  }
+
+  [[nodiscard]] bool IsUsed(int candidate) const {
+    return std::find(roles_.begin(), roles_.end(), candidate) != roles_.end();
+  }
+
+  [[nodiscard]] std::vector<const TipCandidate*> Stubs() const {
+    std::vector<const TipCandidate*> stubs;
+    for (int c = 0; c < static_cast<int>(candidates_.size()); ++c) {
+      if (IsStub(candidates_[c]) && !IsUsed(c)) stubs.push_back(&candidates_[c]);
+    }
+    return stubs;
+  }
+
+  // |log(length / length)| and of the girths, of two stubs: those of both thighs are alike, head
+  // and thigh are not.
+  [[nodiscard]] double InequalityOfStubs() const {
+    const std::vector<const TipCandidate*> stubs = Stubs();
+    if (stubs.size() != 2) return 0.0;
+    return std::abs(std::log(LengthOf(*stubs[0]) / LengthOf(*stubs[1]))) +
+           std::abs(std::log(stubs[0]->girth / stubs[1]->girth));
+  }
+
+  // Both legs would be arms then.
+  [[nodiscard]] bool HasStubsOfArms() const {
+    const std::vector<const TipCandidate*> stubs = Stubs();
+    const double arms = Junction(Index(Tip::kHead), Index(Tip::kHandA));
+    const auto joins_before = [&](const TipCandidate* stub) {
+      const int head = candidates_[roles_[Index(Tip::kHead)]].branch;
+      return JunctionLevel(branches_, head, stub->branch) > arms + kClearlyBefore;
+    };
+    return stubs.size() == 2 && std::all_of(stubs.begin(), stubs.end(), joins_before);
+  }
+
   [[nodiscard]] int UnusedTips() const {
     int unused = 0;
     for (int c = 0; c < static_cast<int>(candidates_.size()); ++c) {
-      if (candidates_[c].is_stump || (rig_ && !HoldsAny(candidates_[c]))) continue;
-      if (std::find(roles_.begin(), roles_.end(), c) == roles_.end()) ++unused;
+      if (candidates_[c].is_stump || IsStub(candidates_[c])) continue;
+      if (rig_ && !HoldsAny(candidates_[c])) continue;
+      if (!IsUsed(c)) ++unused;
     }
     return unused;
   }
@@ -210,22 +271,25 @@ class RoleFinder {
   [[nodiscard]] double CostOfGaps() const {
     const int used =
         static_cast<int>(std::count_if(roles_.begin(), roles_.end(), [](int r) { return r >= 0; }));
-    return kEmptyRoleCost * (kTipCount - used) + kUnusedTipCost * UnusedTips() +
+    const bool is_upper_body = cut_ == Cut::kUpperBody;
+    return (is_upper_body ? kUpperBodyCost : kEmptyRoleCost * (kTipCount - used)) +
+           (is_upper_body ? kLimbBesideCost : kUnusedTipCost) * UnusedTips() +
            kContradictionCost * Contradictions();
   }
 
   [[nodiscard]] double CostBesideWays(const CutRoles& cut) const {
-    const double inequality = Inequality(Tip::kHandA, cut) + Inequality(Tip::kFootA, cut);
-    return kUnequalPairCost * inequality + kGirthCost * GirthDeviation() + CostOfGaps() +
-           (cut == CutRoles{} ? 0.0 : kCutCost);
+    const double inequality =
+        Inequality(Tip::kHandA, cut) + Inequality(Tip::kFootA, cut) + InequalityOfStubs();
+    return kUnequalPairCost * inequality + CostOfGaps() + (cut == CutRoles{} ? 0.0 : kCutCost);
   }
 
   std::span<const Branch> branches_;
   std::span<const TipCandidate> candidates_;
   const std::optional<RigEnds>& rig_;
-  bool limbs_may_be_cut_;
+  Cut cut_;
   Roles roles_ = {-1, -1, -1, -1, -1};
   Roles best_ = {-1, -1, -1, -1, -1};
+  CutRoles best_cut_ = {};
   double best_misfit_ = std::numeric_limits<double>::infinity();
 };
 
@@ -239,8 +303,8 @@ std::pair<RigEnd, RigEnd> EndsOf(Tip tip) {
 }
 
 TipRoles FindTipRoles(std::span<const Branch> branches, std::span<const TipCandidate> candidates,
-                      const std::optional<RigEnds>& rig, bool limbs_may_be_cut) {
-  return RoleFinder(branches, candidates, rig, limbs_may_be_cut).Run();
+                      const std::optional<RigEnds>& rig, Cut cut) {
+  return RoleFinder(branches, candidates, rig, cut).Run();
 }
 
 }  // namespace capfit::body

@@ -3,15 +3,13 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <functional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/base/enum_index.h"
-#include "core/formats/read_mesh.h"
-#include "core/mannequin/mannequin.h"
-#include "core/mesh/prepare_mesh.h"
 #include "tests/core/body/body_files.h"
+#include "tests/core/body/cut_bodies.h"
 #include "tests/support/bodies.h"
 
 namespace capfit::body {
@@ -19,56 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 using formats::PolygonSoup;
-
-PolygonSoup Mannequin() {
-  mannequin::MannequinOptions options;
-  options.faces = 12'000;
-  const auto soup = mannequin::MakeMannequin(options);
-  EXPECT_TRUE(soup.ok()) << soup.status();
-  return *soup;
-}
-
-PolygonSoup Real(const std::string& file) {
-  const std::string bytes = test_support::ReadFile(test_support::BodiesFolder() / file);
-  const auto soup = formats::ReadMesh(std::as_bytes(std::span(bytes)), formats::MeshFormat::kObj);
-  EXPECT_TRUE(soup.ok()) << soup.status();
-  return *soup;
-}
-
-mesh::BodyMesh Prepared(const PolygonSoup& soup) {
-  auto prepared = mesh::PrepareMesh(soup);
-  EXPECT_TRUE(prepared.ok()) << prepared.status();
-  return std::move(prepared->mesh);
-}
-
-// Where the whole body has a landmark, in the caller's frame.
-Vector3d At(const Body& body, LandmarkId id) {
-  return body.body_from_caller.Inverse().Apply(body.landmark(id)->position_m);
-}
-
-// Without the faces whose middle is beyond the plane, as seen from the body.
-PolygonSoup Without(const PolygonSoup& soup,
-                    const std::function<bool(const Vector3d&)>& is_beyond) {
-  PolygonSoup rest = soup;
-  rest.face_vertices.clear();
-  rest.face_sizes.clear();
-  std::size_t begin = 0;
-  for (std::size_t f = 0; f < soup.face_count(); ++f) {
-    const std::size_t corners = soup.face_sizes.empty() ? 3 : soup.face_sizes[f];
-    Vector3d middle = Vector3d::Zero();
-    for (std::size_t k = 0; k < corners; ++k) {
-      middle += soup.positions[soup.face_vertices[begin + k]] / static_cast<double>(corners);
-    }
-    if (!is_beyond(middle)) {
-      rest.face_sizes.push_back(static_cast<std::uint32_t>(corners));
-      for (std::size_t k = 0; k < corners; ++k) {
-        rest.face_vertices.push_back(soup.face_vertices[begin + k]);
-      }
-    }
-    begin += corners;
-  }
-  return rest;
-}
 
 // All beyond a share of the way from one landmark to another.
 struct Cut {
@@ -99,7 +47,7 @@ class CutLimbs : public testing::TestWithParam<Case> {
   static void ExpectLimbsOf(const PolygonSoup& soup) {
     const auto whole = Find(Prepared(soup));
     ASSERT_TRUE(whole.ok()) << whole.status();
-    const PolygonSoup rest = Without(soup, [&](const Vector3d& middle) {
+    const PolygonSoup rest = Without(soup, [&](const Vector3d& middle, std::uint32_t) {
       return std::any_of(GetParam().cuts.begin(), GetParam().cuts.end(),
                          [&](const Cut& cut) { return cut.HasBeyond(*whole, middle); });
     });
@@ -145,13 +93,13 @@ class CutLimbs : public testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(CutLimbs, AreFoundAsFarAsTheyAreThere) { ExpectLimbsOf(Mannequin()); }
+TEST_P(CutLimbs, AreFoundAsFarAsTheyAreThere) { ExpectLimbsOf(MannequinSoup()); }
 
 TEST_P(CutLimbs, AreFoundOnRealBodies) {
   CAPFIT_REQUIRE_BODIES();
   for (const char* const file : {"female_average_tpose.obj", "male_average_rest.obj"}) {
     SCOPED_TRACE(file);
-    ExpectLimbsOf(Real(file));
+    ExpectLimbsOf(RealSoup(file));
   }
 }
 

@@ -81,7 +81,7 @@ constexpr BrokenInput kInputs[] = {
     {"turned_37.obj", "OK", ""},
     {"two_people.obj", "FAILED_PRECONDITION TWO_BODIES", "send one body"},
     {"unused_vertices.obj", "OK UNUSED_VERTICES", ""},
-    {"upper_half.obj", "OK FACING_UNSURE PART_MISSING PART_MISSING", ""},
+    {"upper_half.obj", "OK PART_MISSING PART_MISSING", ""},
     {"upper_half_open.obj", "OK HOLES_CLOSED PART_MISSING PART_MISSING", ""},
     {"upside_down.obj", "OK", ""},
     {"z_up.obj", "OK", ""},
