@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/enum_index.h"
 #include "core/body/cross_section.h"
 #include "core/body/inside.h"
 #include "core/geometry/snap.h"
@@ -20,6 +21,8 @@ constexpr double kNearEnd = 0.12;
 // From the neck over the middle of the hips, knee and ankle: 0.95 to 1.1 of bare bodies.
 constexpr double kShortestWay = 0.65;
 constexpr double kLongestWay = 1.35;
+// Of an upper body, whose area is a third to two thirds of the whole one's, 1.2 to 1.9.
+constexpr double kLongestWayOfUpperBody = 2.1;
 // Joints are set by eye (3 cm), and this share of the bones may run outside.
 constexpr double kNearBone = 0.025;
 constexpr int kPlacesOnEach = 5;
@@ -43,11 +46,13 @@ class RigInCopy {
   [[nodiscard]] const std::optional<Eigen::Vector3d>& head() const { return head_; }
 
   // From joint to joint.
-  [[nodiscard]] std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Bones() const {
+  [[nodiscard]] std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Bones(
+      bool with_legs) const {
     std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> bones = {
         {at(LandmarkId::kNeck), Middle(LandmarkId::kLeftHip)}};
     for (const LandmarkId left : {LandmarkId::kLeftShoulder, LandmarkId::kLeftElbow,
                                   LandmarkId::kLeftHip, LandmarkId::kLeftKnee}) {
+      if (!with_legs && left >= LandmarkId::kLeftHip) break;
       for (const LandmarkId id : {left, MirrorLandmark(left)}) {
         // Landmarks of a side follow each other by two.
         bones.emplace_back(at(id), at(static_cast<LandmarkId>(static_cast<int>(id) + 2)));
@@ -91,9 +96,10 @@ std::optional<std::uint32_t> NodeNear(const Eigen::Vector3d& at, const CoarseSur
   return least <= kNearEnd * kNearEnd ? std::optional(nearest) : std::nullopt;
 }
 
-bool RunsInside(const RigInCopy& rig, const CoarseSurface& coarse, const ThreadPool& pool) {
+bool RunsInside(const RigInCopy& rig, bool with_legs, const CoarseSurface& coarse,
+                const ThreadPool& pool) {
   const CutSurface surface(coarse.points, coarse.triangles, pool);
-  const auto bones = rig.Bones();
+  const auto bones = rig.Bones(with_legs);
   int outside = 0;
   for (const auto& [from, to] : bones) {
     outside += PlacesOutside(surface, from, to, kNearBone, kPlacesOnEach);
@@ -107,14 +113,20 @@ std::optional<RigEnds> FindRigEnds(const Rig& rig, const WorkingCopy& copy,
                                    const CoarseSurface& coarse, const ThreadPool& pool) {
   const RigInCopy in_copy(rig, copy);
   if (!in_copy.IsWhole()) return std::nullopt;
+  // Of an upper body both ankles are far from everything, and so are the knees.
+  const auto is_far = [&](LandmarkId id) { return !NodeNear(in_copy.at(id), coarse); };
+  const bool has_legs = !(is_far(LandmarkId::kLeftAnkle) && is_far(LandmarkId::kRightAnkle) &&
+                          is_far(LandmarkId::kLeftKnee) && is_far(LandmarkId::kRightKnee));
   const double way = in_copy.NeckToAnkle();
-  if (!(way > kShortestWay && way < kLongestWay)) return std::nullopt;
+  const double longest = has_legs ? kLongestWay : kLongestWayOfUpperBody;
+  if (!(way > kShortestWay && way < longest)) return std::nullopt;
   RigEnds ends;
   const std::array<std::optional<Eigen::Vector3d>, kRigEndCount> joints = {
       in_copy.head(), in_copy.at(LandmarkId::kLeftWrist), in_copy.at(LandmarkId::kRightWrist),
       in_copy.at(LandmarkId::kLeftAnkle), in_copy.at(LandmarkId::kRightAnkle)};
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    if (!joints[i]) continue;
+    const bool is_foot = i >= Index(RigEnd::kLeftFoot);
+    if (!joints[i] || (is_foot && !has_legs)) continue;
     ends.vertex[i] = NodeNear(*joints[i], coarse);
     if (!ends.vertex[i]) return std::nullopt;
   }
@@ -123,7 +135,7 @@ std::optional<RigEnds> FindRigEnds(const Rig& rig, const WorkingCopy& copy,
                                in_copy.at(LandmarkId::kRightShoulder) +
                                in_copy.at(LandmarkId::kLeftHip) - in_copy.at(LandmarkId::kRightHip);
   if (!(up.norm() > 0.0 && left.norm() > 0.0)) return std::nullopt;
-  if (!RunsInside(in_copy, coarse, pool)) return std::nullopt;
+  if (!RunsInside(in_copy, has_legs, coarse, pool)) return std::nullopt;
   ends.up = up.normalized();
   ends.left = left.normalized();
   ends.middle =

@@ -20,7 +20,8 @@ inline constexpr int kRigEndCount = 5;
 // In the working copy's coordinates.
 struct RigEnds {
   // The node nearest to the head's joint, each wrist and each ankle. Nothing for the head where the
-  // skeleton has no joint of a known name for it.
+  // skeleton has no joint of a known name for it, and for ankles where the body ends above its
+  // knees.
   std::array<std::optional<std::uint32_t>, kRigEndCount> vertex = {};
   // From the hips to the neck, and from right to left through shoulders and hips; of length 1.
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();

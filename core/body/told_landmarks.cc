@@ -180,11 +180,13 @@ struct JudgedBone {
   std::optional<std::string> objection;
 };
 
+bool IsOfLeg(LandmarkId id) { return id >= LandmarkId::kLeftHip && id <= LandmarkId::kRightAnkle; }
+
 // Those bones that are credible and not told already. Where most are not, it is another body's
 // skeleton, or none, and the others are near by chance.
 void AddBones(const std::map<LandmarkId, Eigen::Vector3d>& bones,
-              const geometry::Similarity& body_from_caller, const Judge& judge, Landmarks& told,
-              std::vector<Warning>& warnings) {
+              const geometry::Similarity& body_from_caller, const Judge& judge, bool has_legs,
+              Landmarks& told, std::vector<Warning>& warnings) {
   std::vector<JudgedBone> judged;
   std::size_t bad = 0;
   Landmarks all;
@@ -201,6 +203,10 @@ void AddBones(const std::map<LandmarkId, Eigen::Vector3d>& bones,
     std::optional<std::string>& objection = judged.back().objection;
     if (objection && limbs.Vouches(id)) objection = std::nullopt;
     if (!objection && !judge.IsInBody(at)) objection = "lies outside the body";
+    if (objection && !has_legs && IsOfLeg(id)) {  // that the legs are missing is told once
+      judged.pop_back();
+      continue;
+    }
     bad += judged.back().objection.has_value() ? 1 : 0;
   }
   const bool is_anothers =
@@ -239,7 +245,8 @@ absl::StatusOr<Landmarks> ToldLandmarks(const BodyOptions& options, const Rig& r
     }
     told[Index(id)] = Landmark{at, LandmarkMethod::kCaller, 1.0};
   }
-  AddBones(bones, body_from_caller, judge, told, warnings);
+  const bool has_legs = shape.legs[kLeft] || shape.legs[kRight];
+  AddBones(bones, body_from_caller, judge, has_legs, told, warnings);
   return told;
 }
 

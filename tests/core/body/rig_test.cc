@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
 #include "tests/core/body/body_files.h"
+#include "tests/core/body/cut_bodies.h"
 
 namespace capfit::body {
 namespace {
@@ -244,6 +247,30 @@ TEST(Rig, TellsFrontFromBack) {
 }
 
 // Hands that have crossed to the other side stay the hands that the skeleton says they are.
+// Knees and ankles are there only in the skeleton.
+TEST(Rig, GoesWithAnUpperBody) {
+  Rigged rigged = PlainMannequin();
+  const Vector3d hip = rigged.at(LandmarkId::kLeftHip);
+  rigged.soup = Without(rigged.soup, [&](const Vector3d& middle, std::uint32_t) {
+    return middle.y() < hip.y() && std::abs(middle.x()) < 2.5 * hip.x();
+  });
+  const auto body = rigged.Found();
+  ASSERT_TRUE(body.ok()) << body.status();
+  const auto count_of = [&](const std::string& code) {
+    return std::count_if(body->warnings.begin(), body->warnings.end(),
+                         [&](const Warning& w) { return w.code == code; });
+  };
+  EXPECT_EQ(Ignored(*body), 0);
+  EXPECT_EQ(count_of("FACING_UNSURE"), 0);
+  EXPECT_EQ(count_of("PART_MISSING"), 2);  // both legs
+  EXPECT_FALSE(body->landmark(LandmarkId::kLeftKnee));
+  for (const LandmarkId id : {LandmarkId::kNeck, LandmarkId::kRightElbow, LandmarkId::kLeftWrist}) {
+    ASSERT_TRUE(body->landmark(id)) << LandmarkName(id);
+    EXPECT_EQ(body->landmark(id)->method, LandmarkMethod::kSkeleton) << LandmarkName(id);
+    EXPECT_LE(OffMm(*body, id, rigged.at(id)), 0.01) << LandmarkName(id);
+  }
+}
+
 TEST(Rig, KeepsTheSidesOfCrossedHands) {
   Rigged rigged = PlainMannequin();
   // Hands alone exchange their names: a skeleton of crossed forearms.

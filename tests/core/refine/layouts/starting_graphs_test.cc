@@ -74,6 +74,32 @@ TEST(StartingGraphs, TooLittleToSpareServesWhereThereIsNoOther) {
   EXPECT_EQ(Enclosing(largest - 10, {.least_spared = 100}).front(), largest);
 }
 
+// No landmark of it lies below the bust.
+TEST(StartingGraphs, TheTrunkOfAnUpperBodyIsHungDownToItsEnd) {
+  body::Body body = Mannequin();
+  for (int i = 0; i < body::kLandmarkCount; ++i) {
+    const auto id = static_cast<body::LandmarkId>(i);
+    const bool is_of_legs = id >= body::LandmarkId::kLeftHip && id <= body::LandmarkId::kRightAnkle;
+    const bool is_below = id >= body::LandmarkId::kCrotch && id <= body::LandmarkId::kHip &&
+                          id != body::LandmarkId::kBust;
+    const bool is_of_feet = id >= body::LandmarkId::kLeftToe;
+    if (is_of_legs || is_below || is_of_feet) body.landmarks[i].reset();
+  }
+  body.chains[static_cast<int>(body::Part::kLeftLeg)].reset();
+  body.chains[static_cast<int>(body::Part::kRightLeg)].reset();
+  const double end_y = body.chain(body::Part::kTorso)->PointAt(0.0).y();
+  const double bust_y = body.landmark(body::LandmarkId::kBust)->position_m.y();
+  const body::PartSelection torso{.arms = false, .legs = false};
+  for (const capsule::MirroredSet& graph :
+       StartingGraphs(FitKind::kEnclose, body, torso, Primitives(64), {}, ThreadPool(1))) {
+    double lowest = bust_y;
+    for (const geometry::Sphere& sphere : graph.spheres()) {
+      lowest = std::min(lowest, sphere.center_m.y() - sphere.radius_m);
+    }
+    EXPECT_LE(lowest, end_y + 0.1 * (bust_y - end_y));
+  }
+}
+
 TEST(StartingGraphs, OneWithTooMuchToSpareIsLeftOut) {
   const std::vector<int> all = Enclosing(160, {});
   const std::vector<int> few = Enclosing(160, {.most_spared = 1});
