@@ -250,6 +250,10 @@ int Extremities::found() const {
       std::count_if(limbs.begin(), limbs.end(), [](const auto& limb) { return limb.has_value(); }));
 }
 
+bool Extremities::has_whole_leg() const {
+  return !legs_are_cut && (limb(Tip::kFootA) || limb(Tip::kFootB));
+}
+
 Extremities FindExtremities(const CoarseSurface& surface, const SurfaceGraph& graph,
                             const ThreadPool& pool, const FitObserver& observer,
                             const std::optional<RigEnds>& rig) {

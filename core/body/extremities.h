@@ -39,6 +39,8 @@ struct Extremities {
 
   [[nodiscard]] const std::optional<Limb>& limb(Tip tip) const { return limbs[Index(tip)]; }
   [[nodiscard]] int found() const;
+  // Whether there is a leg, and not both of them are cut off.
+  [[nodiscard]] bool has_whole_leg() const;
 };
 
 // `surface` in a frame where its area is 1 and the body's centroid lies at the origin.
@@ -47,8 +49,9 @@ struct Extremities {
 // the ways between them (the head is near the hands, the feet are far from all) and from how thick
 // the limbs are. Where a skeleton tells which vertices belong to head, hands and feet, a tip that
 // does not hold the one of its role counts as a bad fit, and one that holds none (of a hat, a
-// sword, a tail) may go without a role. O(n log n). What comes back once the observer cancels means
-// nothing.
+// sword, a tail) may go without a role. Where that fits badly, it is tried whether limbs are cut
+// off, or all below the trunk (tip_roles.h). O(n log n). What comes back once the observer cancels
+// means nothing.
 [[nodiscard]] Extremities FindExtremities(const CoarseSurface& surface, const SurfaceGraph& graph,
                                           const ThreadPool& pool, const FitObserver& observer,
                                           const std::optional<RigEnds>& rig = std::nullopt);

@@ -64,8 +64,7 @@ double HeadFacing(const LevelCentroids& head, const Eigen::Vector3d& tip, const 
 double Facing(const Rings& rings, std::span<const Eigen::Vector3d> points,
               const Extremities& extremities, const Eigen::Vector3d& up,
               const Eigen::Vector3d& forward) {
-  const bool has_legs =
-      !extremities.legs_are_cut && (extremities.limb(Tip::kFootA) || extremities.limb(Tip::kFootB));
+  const bool has_legs = extremities.has_whole_leg();
   double evidence = 0.0;
   for (const Tip tip : {Tip::kFootA, Tip::kFootB}) {
     if (!rings.limb(tip) || !has_legs) continue;

@@ -179,10 +179,9 @@ absl::StatusOr<WaysToBody> FindWaysToBody(const BodyOptions& options, const Work
     return extent;
   };
   const auto [low, high] = SumOverChunks(pool, copy.points.size(), Extent{}, extent_of);
-  const bool has_legs =
-      !extremities.legs_are_cut && (extremities.limb(Tip::kFootA) || extremities.limb(Tip::kFootB));
   const double stature =
-      std::max(has_legs ? 0.0 : StatureWithoutLegs(extremities), high - low) * copy.frame.unit;
+      std::max(extremities.has_whole_leg() ? 0.0 : StatureWithoutLegs(extremities), high - low) *
+      copy.frame.unit;
   CAPFIT_ASSIGN_OR_RETURN(const LengthUnit unit, ChooseUnit(options.unit, stature));
   if (options.unit != Unit::kAuto) {
     const double volume = VolumeOf(copy) * copy.frame.unit * copy.frame.unit * copy.frame.unit;

@@ -31,10 +31,10 @@ constexpr double kShortestCutLeg = 0.20;
 // no role then.
 constexpr double kUpperBodyCost = 0.16;
 constexpr double kLongestStub = 0.30;
-// Stubs that join the head this much before what would be the arms are stubs of arms.
-constexpr double kClearlyBefore = 0.05;
-// A longer one speaks against it.
+// What is longer, beside head and arms, speaks against it.
 constexpr double kLimbBesideCost = 0.40;
+// Two stubs that join the head this much before what would be the arms are those of arms.
+constexpr double kClearlyBefore = 0.05;
 // A role for a tip that the skeleton gives to another: more than leaving both without.
 constexpr double kContradictionCost = 0.40;
 
@@ -228,8 +228,11 @@ class RoleFinder {
   [[nodiscard]] double InequalityOfStubs() const {
     const std::vector<const TipCandidate*> stubs = Stubs();
     if (stubs.size() != 2) return 0.0;
-    return std::abs(std::log(LengthOf(*stubs[0]) / LengthOf(*stubs[1]))) +
-           std::abs(std::log(stubs[0]->girth / stubs[1]->girth));
+    const auto inequality = [](double a, double b) {
+      return std::abs(std::log(std::max(a, 1e-6) / std::max(b, 1e-6)));
+    };
+    return inequality(LengthOf(*stubs[0]), LengthOf(*stubs[1])) +
+           inequality(stubs[0]->girth, stubs[1]->girth);
   }
 
   // Both legs would be arms then.
