@@ -45,8 +45,6 @@ constexpr int kSweeps = 4;
 constexpr double kMiddleWidth = 0.03;
 // At most this many other middles.
 constexpr int kMaxMiddles = 4;
-// Of an upper body: head and hands.
-constexpr int kUpperTipCount = 3;
 
 // All vertices that can be reached from the tip without sinking to the level.
 std::vector<std::uint32_t> VerticesAbove(const SurfaceGraph& graph,
@@ -280,7 +278,7 @@ Extremities FindExtremities(const CoarseSurface& surface, const SurfaceGraph& gr
     // What MiddleOfTheSurface says of an upper body lies in its chest, too near to the arms.
     Extremities upper = from(sources, Cut::kUpperBody);
     if (observer.IsCancelled()) return best;
-    if (upper.found() == kUpperTipCount && upper.misfit < best.misfit) best = std::move(upper);
+    if (upper.misfit < best.misfit) best = std::move(upper);
   }
   if (best.misfit <= kFairMisfit) return best;
   const auto patches = PatchesOf(sources, surface.points, surface.areas, graph);

@@ -21,15 +21,13 @@ constexpr double kUnequalPairCost = 0.5;
 // What it costs to leave a role empty, or a tip without a role, in units of the misfit.
 constexpr double kEmptyRoleCost = 0.12;
 constexpr double kUnusedTipCost = 0.10;
-// What it costs to take an arm, a leg or both legs for cut off: less than to leave its role empty
-// and its tip without one.
+// What it costs to take an arm, a leg or both legs for cut off, or all below the trunk: less than
+// to leave a role empty and its tip without one.
 constexpr double kCutCost = 0.16;
 // Of less no limb can be made: it has not sections enough. In units of the square root of the area.
 constexpr double kShortestCutArm = 0.10;
 constexpr double kShortestCutLeg = 0.20;
-// What it costs to take a body for one that ends above its knees. What is left of its thighs needs
-// no role then.
-constexpr double kUpperBodyCost = 0.16;
+// What is left of the thighs of an upper body needs no role.
 constexpr double kLongestStub = 0.30;
 // What is longer, beside head and arms, speaks against it.
 constexpr double kLimbBesideCost = 0.40;
@@ -275,7 +273,7 @@ class RoleFinder {
     const int used =
         static_cast<int>(std::count_if(roles_.begin(), roles_.end(), [](int r) { return r >= 0; }));
     const bool is_upper_body = cut_ == Cut::kUpperBody;
-    return (is_upper_body ? kUpperBodyCost : kEmptyRoleCost * (kTipCount - used)) +
+    return (is_upper_body ? kCutCost : kEmptyRoleCost * (kTipCount - used)) +
            (is_upper_body ? kLimbBesideCost : kUnusedTipCost) * UnusedTips() +
            kContradictionCost * Contradictions();
   }

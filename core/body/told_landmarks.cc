@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -199,15 +200,12 @@ void AddBones(const std::map<LandmarkId, Eigen::Vector3d>& bones,
   for (const auto& [id, position] : bones) {
     if (told[Index(id)]) continue;
     const Eigen::Vector3d& at = all[Index(id)]->position_m;
-    judged.push_back({id, at, judge.Objection(id, at, kSkeletonReach)});
-    std::optional<std::string>& objection = judged.back().objection;
+    std::optional<std::string> objection = judge.Objection(id, at, kSkeletonReach);
     if (objection && limbs.Vouches(id)) objection = std::nullopt;
     if (!objection && !judge.IsInBody(at)) objection = "lies outside the body";
-    if (objection && !has_legs && IsOfLeg(id)) {  // that the legs are missing is told once
-      judged.pop_back();
-      continue;
-    }
-    bad += judged.back().objection.has_value() ? 1 : 0;
+    if (objection && !has_legs && IsOfLeg(id)) continue;  // that the legs are missing is told once
+    bad += objection.has_value() ? 1 : 0;
+    judged.push_back({id, at, std::move(objection)});
   }
   const bool is_anothers =
       static_cast<double>(bad) > kMostBadBones * static_cast<double>(judged.size());

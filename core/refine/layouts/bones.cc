@@ -43,11 +43,10 @@ Joints JointsOf(const body::Body& body, Side side) {
   if (!j.hip_center) j.hip_center = Mean(j.hip, at(LandmarkId::kRightHip));
   j.waist = at(LandmarkId::kWaist);
   j.bust = at(LandmarkId::kBust);
-  if (const auto& torso = body.chain(body::Part::kTorso); torso && !j.hip_center && !j.waist) {
-    // A body that ends above its legs: its trunk is hung from where it ends.
-    j.hip_center = torso->PointAt(0.0);
-    j.waist = Mean(j.hip_center, at(LandmarkId::kBust));
-  }
+  // A body that ends above its legs has its trunk hung from where that ends.
+  const auto& torso = body.chain(body::Part::kTorso);
+  if (!j.hip_center && torso) j.hip_center = torso->PointAt(0.0);
+  if (!j.waist) j.waist = Mean(j.hip_center, j.bust);
   j.neck = at(LandmarkId::kNeck);
   j.head_top = at(LandmarkId::kHeadTop);
   j.collar = Mean(j.bust, j.neck);

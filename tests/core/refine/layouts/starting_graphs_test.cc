@@ -8,6 +8,7 @@
 #include "core/body/find_body.h"
 #include "core/mannequin/mannequin.h"
 #include "core/mesh/prepare_mesh.h"
+#include "core/refine/layouts/bones.h"
 #include "tests/core/capsule/mirrored.h"
 
 namespace capfit::refine {
@@ -74,29 +75,47 @@ TEST(StartingGraphs, TooLittleToSpareServesWhereThereIsNoOther) {
   EXPECT_EQ(Enclosing(largest - 10, {.least_spared = 100}).front(), largest);
 }
 
-// No landmark of it lies below the bust.
-TEST(StartingGraphs, TheTrunkOfAnUpperBodyIsHungDownToItsEnd) {
+// Without the landmarks that a body without legs lacks; a skeleton may know the hips all the same.
+body::Body UpperBody(bool with_hips) {
   body::Body body = Mannequin();
   for (int i = 0; i < body::kLandmarkCount; ++i) {
     const auto id = static_cast<body::LandmarkId>(i);
-    const bool is_of_legs = id >= body::LandmarkId::kLeftHip && id <= body::LandmarkId::kRightAnkle;
-    const bool is_below = id >= body::LandmarkId::kCrotch && id <= body::LandmarkId::kHip &&
-                          id != body::LandmarkId::kBust;
-    const bool is_of_feet = id >= body::LandmarkId::kLeftToe;
-    if (is_of_legs || is_below || is_of_feet) body.landmarks[i].reset();
+    const bool is_of_leg = id >= body::LandmarkId::kLeftHip && id <= body::LandmarkId::kRightAnkle;
+    const bool is_hip = is_of_leg && id <= body::LandmarkId::kRightHip;
+    const bool is_below_bust = id == body::LandmarkId::kCrotch || id == body::LandmarkId::kWaist ||
+                               id == body::LandmarkId::kHip;
+    const bool is_of_foot = id >= body::LandmarkId::kLeftToe;
+    if ((is_of_leg && !(is_hip && with_hips)) || is_below_bust || is_of_foot) {
+      body.landmarks[i].reset();
+    }
   }
   body.chains[static_cast<int>(body::Part::kLeftLeg)].reset();
   body.chains[static_cast<int>(body::Part::kRightLeg)].reset();
-  const double end_y = body.chain(body::Part::kTorso)->PointAt(0.0).y();
-  const double bust_y = body.landmark(body::LandmarkId::kBust)->position_m.y();
-  const body::PartSelection torso{.arms = false, .legs = false};
-  for (const capsule::MirroredSet& graph :
-       StartingGraphs(FitKind::kEnclose, body, torso, Primitives(64), {}, ThreadPool(1))) {
-    double lowest = bust_y;
-    for (const geometry::Sphere& sphere : graph.spheres()) {
-      lowest = std::min(lowest, sphere.center_m.y() - sphere.radius_m);
+  return body;
+}
+
+// Its bones run on from where it ends, or from the hips where they are known, to the bust.
+TEST(StartingGraphs, TheTrunkOfAnUpperBodyIsHungDownToItsEnd) {
+  for (const bool with_hips : {false, true}) {
+    SCOPED_TRACE(with_hips);
+    const body::Body body = UpperBody(with_hips);
+    const Skeleton skeleton(body);
+    const auto& belly = skeleton.bone(BoneId::kBelly, Side::kLeft);
+    const auto& ribs = skeleton.bone(BoneId::kRibs, Side::kLeft);
+    ASSERT_TRUE(belly && ribs);
+    EXPECT_EQ(belly->to_m, ribs->from_m);
+    EXPECT_EQ(ribs->to_m, body.landmark(body::LandmarkId::kBust)->position_m);
+    const Eigen::Vector3d end = body.chain(body::Part::kTorso)->PointAt(0.0);
+    if (!with_hips) EXPECT_EQ(belly->from_m, end);
+    const body::PartSelection torso{.arms = false, .legs = false};
+    for (const capsule::MirroredSet& graph :
+         StartingGraphs(FitKind::kEnclose, body, torso, Primitives(64), {}, ThreadPool(1))) {
+      double lowest = ribs->to_m.y();
+      for (const geometry::Sphere& sphere : graph.spheres()) {
+        lowest = std::min(lowest, sphere.center_m.y() - sphere.radius_m);
+      }
+      EXPECT_LE(lowest, end.y() + 0.1 * (ribs->to_m.y() - end.y()));
     }
-    EXPECT_LE(lowest, end_y + 0.1 * (bust_y - end_y));
   }
 }
 
