@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <iterator>
 #include <limits>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
 
+#include "core/base/enum_index.h"
 #include "core/base/work_meter.h"
 #include "core/refine/enclosing/enclosing_moves.h"
+#include "core/refine/enclosing/joined_graph.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/refine/internal.h"
 
@@ -21,6 +23,7 @@ namespace {
 constexpr int kGrowthSteps = 3;
 constexpr int kSparingSteps = 3;
 constexpr int kTrialSteps = 3;
+constexpr int kJoinedSteps = 5;
 constexpr int kTakeInSteps = 2;
 constexpr int kStartSteps = 8;
 constexpr int kLooseSteps = 2;     // that show where ties would win
@@ -80,7 +83,9 @@ class Search {
     Spare(kept.front().graph);  // if no renewed one fits
     Tie(kept.front());
     std::vector<capsule::MirroredSet> graphs;
-    for (Attempt& attempt : kept) graphs.push_back(std::move(attempt.graph));
+    for (Attempt& attempt : kept) {
+      if (std::cmp_less(graphs.size(), plan_.found)) graphs.push_back(std::move(attempt.graph));
+    }
     return graphs;
   }
 
@@ -88,7 +93,7 @@ class Search {
   // A graph whose shape is found, and what it is worth with its points taken in.
   struct Attempt {
     capsule::MirroredSet graph;
-    double value = std::numeric_limits<double>::max();
+    GraphValue value = {std::numeric_limits<double>::max(), {}};
   };
 
   Attempt Settled(capsule::MirroredSet graph, std::uint64_t seed) const {
@@ -134,8 +139,8 @@ class Search {
     std::size_t kept = 1;
     for (std::size_t i = 1; i < attempts.size() && std::cmp_less(kept, plan_.kept); ++i) {
       if (budget_.Excess(attempts[i].graph.count()) > 0) break;
-      const double least = (1.0 + kLeastImprovement) * attempts[kept - 1].value;
-      if (attempts[i].value > least) std::swap(attempts[kept++], attempts[i]);
+      const double least = (1.0 + kLeastImprovement) * attempts[kept - 1].value.total_m3;
+      if (attempts[i].value.total_m3 > least) std::swap(attempts[kept++], attempts[i]);
     }
     attempts.resize(kept);
   }
@@ -147,8 +152,8 @@ class Search {
   // The best first; those that do not fit the budget last.
   void Sort(std::vector<Attempt>& attempts) const {
     std::stable_sort(attempts.begin(), attempts.end(), [this](const Attempt& a, const Attempt& b) {
-      return std::tuple(budget_.Excess(a.graph.count()), a.value) <
-             std::tuple(budget_.Excess(b.graph.count()), b.value);
+      return std::tuple(budget_.Excess(a.graph.count()), a.value.total_m3) <
+             std::tuple(budget_.Excess(b.graph.count()), b.value.total_m3);
     });
   }
 
@@ -274,32 +279,73 @@ class Search {
   // Each of the kept graphs, in half of the ways where there are several: in the other half next
   // time. The best of the old and the new ones are kept.
   void Renew(int round, std::vector<Attempt>& kept) {
-    const std::size_t apart = plan_.kept > 1 ? 2 : 1;
-    const std::size_t ways = kRenewals.size() / apart;
-    std::vector<Attempt> attempts(kept.size() * ways);
+    const std::size_t ways = kRenewals.size();
+    std::vector<Attempt> attempts(plan_.kept > 1 ? plan_.kept : ways);
+    const bool joins = round > 0;
     meter_.Expect(until_ * (kGrown + (kRenewed - kGrown) * (round + 1) / plan_.rounds),
-                  WorkOf(kStepsOfGrowth * attempts.size(), kept.front().graph));
+                  WorkOf(kStepsOfGrowth * attempts.size(), kept.front().graph) +
+                      (joins ? WorkOfJoins(kept.front().graph) : 0));
     pool_.ForEach(attempts.size(), [&](std::size_t i) {
-      const std::size_t from = i / ways;
-      const std::size_t way = i % ways * apart + (from + round) % apart;
-      attempts[i] = Renewed(kept[from].graph, kRenewals[way], seed_ + i);
+      const Renewal& way = kRenewals[(i + round) % ways];
+      attempts[i] = Renewed(kept[i % kept.size()].graph, way, seed_ + i);
     });
     seed_ += attempts.size();
     if (meter_.IsCancelled()) return;
-    const auto is_none = [](const Attempt& a) { return a.graph.spheres().empty(); };
-    std::erase_if(attempts, is_none);
-    std::move(attempts.begin(), attempts.end(), std::back_inserter(kept));
+    MoveFound(attempts, kept);
+    if (joins) Join(kept);
     KeepBest(kept);
+  }
+
+  static void MoveFound(std::vector<Attempt>& attempts, std::vector<Attempt>& to) {
+    for (Attempt& attempt : attempts) {
+      if (!attempt.graph.spheres().empty()) to.push_back(std::move(attempt));
+    }
+  }
+
+  // Adds graphs that take each region of the body from whichever attempt is best there: no renewal
+  // is lucky everywhere, and what a region costs hardly depends on the others.
+  void Join(std::vector<Attempt>& attempts) {
+    std::vector<Attempt> joined(kDivisions.size());
+    pool_.ForEach(joined.size(),
+                  [&](std::size_t i) { joined[i] = Joined(attempts, kDivisions[i]); });
+    ++seed_;
+    if (!meter_.IsCancelled()) MoveFound(joined, attempts);
+  }
+
+  [[nodiscard]] Attempt Joined(const std::vector<Attempt>& attempts,
+                               const RegionGroups& groups) const {
+    std::vector<Donor> donors;
+    for (const Attempt& attempt : attempts) donors.push_back(DonorOf(attempt, groups));
+    std::optional<capsule::MirroredSet> graph = JoinedGraph(donors, budget_);
+    if (!graph) return {};
+    Simplify(*graph);
+    CutLoosest(budget_, primitives_, task_.Weigh(*graph).edge_gap, *graph);
+    task_.FindShape(kJoinedSteps, 1.0, seed_, pool_, meter_, *graph);
+    Simplify(*graph);
+    return Settled(*std::move(graph), seed_);
+  }
+
+  [[nodiscard]] Donor DonorOf(const Attempt& attempt, const RegionGroups& groups) const {
+    Donor donor{&attempt.graph, task_.RegionsOf(attempt.graph), {}};
+    for (Region& region : donor.regions) region = groups[Index(region)];
+    for (std::size_t r = 0; r < kRegionCount; ++r) {
+      donor.costs[Index(groups[r])] += attempt.value.of_region_m3[r];
+    }
+    return donor;
+  }
+
+  static std::int64_t WorkOfJoins(const capsule::MirroredSet& graph) {
+    return WorkOf(kDivisions.size() * (kJoinedSteps + kTakeInSteps), graph);
   }
 
   // The best of the attempts takes the place of `best`, if it is better; whether it was.
   bool TakeBest(std::span<Attempt> attempts, Attempt& best) {
     seed_ += attempts.size();
-    const auto found =
-        std::min_element(attempts.begin(), attempts.end(),
-                         [](const Attempt& a, const Attempt& b) { return a.value < b.value; });
+    const auto found = std::min_element(
+        attempts.begin(), attempts.end(),
+        [](const Attempt& a, const Attempt& b) { return a.value.total_m3 < b.value.total_m3; });
     if (found == attempts.end() || meter_.IsCancelled() ||
-        found->value >= (1.0 - kLeastImprovement) * best.value) {
+        found->value.total_m3 >= (1.0 - kLeastImprovement) * best.value.total_m3) {
       return false;
     }
     best = std::move(*found);

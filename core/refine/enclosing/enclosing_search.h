@@ -17,6 +17,7 @@ struct RenewalPlan {
   // So many graphs, the best, are renewed side by side and the best of all kept: each change of
   // topology leads to a local optimum, and the best may come of what was not best before.
   int kept = 1;
+  int found = 1;  // so many of them are given back, the best
   // The first rounds, and the starts, keep only to the sum of the limits of spheres and capsules
   // where a budget has both: a set finds its way out of a local optimum more easily where either
   // kind may make room for the other.

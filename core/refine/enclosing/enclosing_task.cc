@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/enum_index.h"
 #include "core/refine/enclosing/added_capsule.h"
 #include "core/refine/graph/points_apart.h"
 #include "core/refine/internal.h"
@@ -45,16 +46,20 @@ constexpr double kApart = 0.03;  // of the worst points, relative to the body's 
 }  // namespace
 
 EnclosingTask::EnclosingTask(const tighten::CoverTarget& target, bool symmetric, double tolerance_m,
-                             double spacing, const tighten::FullCells* full)
-    : EnclosingTask(ThinnedPointsOf(target, symmetric, spacing), tolerance_m, full) {}
+                             double spacing, const tighten::FullCells* full,
+                             const BodyRegions& regions)
+    : EnclosingTask(ThinnedPointsOf(target, symmetric, spacing), tolerance_m, full, regions) {}
 
 EnclosingTask::EnclosingTask(ThinnedPoints thinned, double tolerance_m,
-                             const tighten::FullCells* full)
+                             const tighten::FullCells* full, const BodyRegions& regions)
     : size_m_(thinned.size_m),
       areas_m2_(std::move(thinned.areas_m2)),
       tolerance_m_(tolerance_m),
       full_(full),
-      grid_(thinned.points_m) {}
+      grid_(thinned.points_m),
+      regions_(regions) {
+  for (const Vec3& point : grid_.points_m()) point_regions_.push_back(regions.RegionAt(point));
+}
 
 void EnclosingTask::Settle(const tighten::TightenPhase& phase, std::uint64_t seed,
                            const ThreadPool& pool, const WorkMeter& meter,
@@ -125,22 +130,33 @@ std::vector<double> EnclosingTask::GainsOf(const capsule::MirroredSet& graph,
   return gains;
 }
 
-double EnclosingTask::Value(const capsule::MirroredSet& graph, const ThreadPool& pool) const {
+GraphValue EnclosingTask::Value(const capsule::MirroredSet& graph, const ThreadPool& pool) const {
   capsule::PrimitiveSet set = graph.set();
   const tighten::SetVariables variables(set);
   const tighten::UnionDistances at =
       grid_.DistancesTo(capsule::Solids(set), -kFurthestGrowth * size_m_, pool);
-  double outside = 0.0;
+  GraphValue value;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
-    const std::uint32_t point = grid_.order()[i];
-    outside += areas_m2_[point] * std::max(0.0, at.distance_m[i] - tolerance_m_);
+    const double area = areas_m2_[grid_.order()[i]];
+    const double outside = kOutsidePrice * area * std::max(0.0, at.distance_m[i] - tolerance_m_);
+    value.total_m3 += outside;
+    value.of_region_m3[Index(point_regions_[i])] +=
+        outside + area * std::max(0.0, -at.distance_m[i]);
   }
   const double primitives = std::max(1, graph.primitive_count());
   const double spacing_m = size_m_ * std::clamp(kSampleSpacing / std::sqrt(primitives),
                                                 kLeastSampleSpacing, kMostSampleSpacing);
-  return tighten::UnionVolumeGradient(set, variables, spacing_m, /*seed=*/7, pool, full_)
-             .volume_m3 +
-         kOutsidePrice * outside;
+  value.total_m3 +=
+      tighten::UnionVolumeGradient(set, variables, spacing_m, /*seed=*/7, pool, full_).volume_m3;
+  return value;
+}
+
+std::vector<Region> EnclosingTask::RegionsOf(const capsule::MirroredSet& graph) const {
+  std::vector<Region> regions;
+  for (const geometry::Sphere& sphere : graph.spheres()) {
+    regions.push_back(regions_.RegionAt(sphere.center_m));
+  }
+  return regions;
 }
 
 GraphWorth EnclosingTask::Weigh(const capsule::MirroredSet& graph) const {

@@ -48,13 +48,14 @@ constexpr int kHungFineSteps = 6;  // coverage takes in what these leave out
 // Of an enclosing search: rounds of giving up and spending anew, one for so many primitives (where
 // there are more of them, more can be placed better; of few a round costs little), and how much of
 // the time it takes.
-constexpr int kPrimitivesPerRound = 50;
+constexpr int kPrimitivesPerRound = 40;
 constexpr int kFewOfEnclosing = 60;
-constexpr RenewalPlan kRenewalsOfFew = {.rounds = 3, .kept = 6, .free_rounds = 1};
+constexpr RenewalPlan kRenewalsOfFew = {.rounds = 4, .kept = 6, .found = 3, .free_rounds = 1};
 constexpr int kSomeOfEnclosing = 80;
-constexpr RenewalPlan kRenewalsOfSome = {.rounds = 3, .kept = 2, .free_rounds = 1};
-constexpr int kLeastRounds = 2;
+constexpr RenewalPlan kRenewalsOfSome = {.rounds = 3, .kept = 4, .found = 2, .free_rounds = 1};
+constexpr int kLeastRounds = 3;
 constexpr int kMostRounds = 6;
+constexpr int kKeptOfMany = 2;
 constexpr int kQuickRounds = 1;
 constexpr double kSearched = 0.92;
 constexpr double kFillingShare = 0.75;  // of the budget, that a standard layout must use
@@ -85,7 +86,8 @@ RenewalPlan RenewalsFor(bool thorough, int primitives) {
   if (!thorough) return {.rounds = kQuickRounds};
   if (primitives <= kFewOfEnclosing) return kRenewalsOfFew;
   if (primitives <= kSomeOfEnclosing) return kRenewalsOfSome;
-  return {.rounds = std::clamp(primitives / kPrimitivesPerRound, kLeastRounds, kMostRounds)};
+  return {.rounds = std::clamp(primitives / kPrimitivesPerRound, kLeastRounds, kMostRounds),
+          .kept = kKeptOfMany};
 }
 
 // No more than this is spared where a standard layout serves, beyond the budget.
@@ -142,6 +144,7 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
   const int primitives = options.budget.UsualPrimitives();
   const RenewalPlan plan = RenewalsFor(options.thorough, primitives);
   const Spacings spacings = SpacingsFor(primitives);
+  const BodyRegions regions(body);
   tighten::FullCells full;
   // Each thins the points out on one thread, for some milliseconds on large meshes.
   std::optional<EnclosingTask> usual, fine, rough;
@@ -156,7 +159,7 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
     } else if (i <= tasks) {
       const auto& [task, spacing] = task_of[i - 1];
       task->emplace(target, body.is_symmetric, options.tolerance_m, spacing,
-                    may_be_hollow ? &full : nullptr);
+                    may_be_hollow ? &full : nullptr, regions);
     } else {
       const double cell_m = kFullCell * tighten::SizeOf(target);
       full = FullCellsOf(MakeOccupancyGrid(body, options.parts, cell_m, body.is_symmetric, pool));
@@ -177,7 +180,7 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
     JoinNearPairs(graphs[i]);  // what that saves is spent again
     CutLoosest(options.budget, primitives, fine->Weigh(graphs[i]).edge_gap, graphs[i]);
     fine->TakeIn(kFineTakeInSteps, /*seed=*/2, pool, meter, graphs[i]);
-    if (graphs.size() > 1) values[i] = fine->Value(graphs[i], pool);
+    if (graphs.size() > 1) values[i] = fine->Value(graphs[i], pool).total_m3;
   });
   capsule::MirroredSet& best =
       graphs[std::min_element(values.begin(), values.end()) - values.begin()];

@@ -168,7 +168,7 @@ class EnclosingLayoutSearch {
 
   [[nodiscard]] double ValueOf(std::size_t subject, const capsule::MirroredSet& graph) const {
     const Subject& s = subjects_[subject];
-    const double beyond = s.enclosing->Value(graph, alone_) / s.grid.volume_m3 - 1.0;
+    const double beyond = s.enclosing->Value(graph, alone_).total_m3 / s.grid.volume_m3 - 1.0;
     // A union that is smaller than the body is hollow: many spheres along the skin and none inside.
     return beyond < 0.0 ? std::numeric_limits<double>::max() : beyond;
   }

@@ -43,7 +43,7 @@ TEST(EnclosingTaskTest, TheValueOfWhatEnclosesIsItsVolume) {
   const double r = 1.1 * kRadius;
   const double volume =
       std::numbers::pi * r * r * kLength + 4.0 / 3.0 * std::numbers::pi * r * r * r;
-  EXPECT_NEAR(TubeTask().Value(Around(r), Alone()), volume, 0.005 * volume);
+  EXPECT_NEAR(TubeTask().Value(Around(r), Alone()).total_m3, volume, 0.005 * volume);
 }
 
 // Each square metre of the tube is as far out as its radius lacks, and a cubic metre outside costs
@@ -54,14 +54,29 @@ TEST(EnclosingTaskTest, WhatSticksOutCostsItsAreaTimesItsDepth) {
   const double volume =
       std::numbers::pi * r * r * kLength + 4.0 / 3.0 * std::numbers::pi * r * r * r;
   const double outside = 2.0 * std::numbers::pi * kRadius * kLength * lacking;
-  EXPECT_NEAR(TubeTask().Value(Around(r), Alone()), volume + 4.0 * outside, 0.1 * 4.0 * outside);
+  EXPECT_NEAR(TubeTask().Value(Around(r), Alone()).total_m3, volume + 4.0 * outside,
+              0.1 * 4.0 * outside);
+}
+
+// The room between a wider capsule and the tube, and what is left outside of a thinner one at four
+// times its price; without a body all is trunk.
+TEST(EnclosingTaskTest, ARegionIsWorthTheRoomInIt) {
+  for (const double r : {0.9 * kRadius, 1.1 * kRadius}) {
+    const GraphValue value = TubeTask().Value(Around(r), Alone());
+    const double room = 2.0 * std::numbers::pi * kRadius * kLength * std::abs(r - kRadius);
+    const double price = r < kRadius ? 4.0 : 1.0;
+    EXPECT_NEAR(value.of_region_m3[0], price * room, 0.1 * price * room) << r;
+    for (int region = 1; region < kRegionCount; ++region) {
+      EXPECT_EQ(value.of_region_m3[region], 0.0);
+    }
+  }
 }
 
 TEST(EnclosingTaskTest, TurningAllChangesNoValue) {
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()));
   const EnclosingTask turned(Turned(Tube(), turn), /*symmetric=*/false, 0.0, 0.03);
-  const double here = TubeTask().Value(Chain(4), Alone());
-  EXPECT_NEAR(turned.Value(Turned(Chain(4), turn), Alone()), here, 0.02 * here);
+  const double here = TubeTask().Value(Chain(4), Alone()).total_m3;
+  EXPECT_NEAR(turned.Value(Turned(Chain(4), turn), Alone()).total_m3, here, 0.02 * here);
 }
 
 TEST(EnclosingTaskTest, FindingTheShapeAndTakingInLowerTheValue) {
@@ -73,10 +88,10 @@ TEST(EnclosingTaskTest, FindingTheShapeAndTakingInLowerTheValue) {
     for (const double y : {0.1, 0.6, 0.9}) graph.AddSphere({{0, y, 0.02}, 0.14}, true);
     graph.AddCapsule(0, 1);
     graph.AddCapsule(1, 2);
-    const double before = task.Value(graph, Alone());
+    const double before = task.Value(graph, Alone()).total_m3;
     task.FindShape(10, 1.0, /*seed=*/1, Alone(), meter, graph);
     task.TakeIn(3, /*seed=*/2, Alone(), meter, graph);
-    EXPECT_LT(task.Value(graph, Alone()), 0.95 * before);
+    EXPECT_LT(task.Value(graph, Alone()).total_m3, 0.95 * before);
     EXPECT_TRUE(!is_mirrored || capsule::IsExactlyMirrored(graph));
     for (const Eigen::Vector3d& p : Tube().points_m) EXPECT_LT(UnionDistance(graph, p), 0.004f);
   }

@@ -5,24 +5,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/body/find_body.h"
-#include "core/mannequin/mannequin.h"
-#include "core/mesh/prepare_mesh.h"
 #include "core/refine/layouts/bones.h"
 #include "tests/core/capsule/mirrored.h"
+#include "tests/core/refine/mannequin_body.h"
 
 namespace capfit::refine {
 namespace {
-
-const body::Body& Mannequin() {
-  static const body::Body body = [] {
-    mannequin::MannequinOptions options;
-    options.faces = 5000;
-    const auto prepared = mesh::PrepareMesh(*mannequin::MakeMannequin(options));
-    return *body::FindBody(prepared->mesh, {}, ThreadPool(1), NullObserver());
-  }();
-  return body;
-}
 
 capsule::Budget Primitives(int count) { return {count, capsule::kNoLimit, capsule::kNoLimit}; }
 
@@ -35,8 +23,8 @@ std::vector<int> SizesOf(const std::vector<capsule::MirroredSet>& graphs) {
 
 std::vector<int> Enclosing(int budget, const StartSizes& sizes) {
   const body::PartSelection all{.head = true, .hands = true, .feet = true};
-  const std::vector<capsule::MirroredSet> graphs =
-      StartingGraphs(FitKind::kEnclose, Mannequin(), all, Primitives(budget), sizes, ThreadPool(2));
+  const std::vector<capsule::MirroredSet> graphs = StartingGraphs(
+      FitKind::kEnclose, MannequinBody(), all, Primitives(budget), sizes, ThreadPool(2));
   for (const capsule::MirroredSet& graph : graphs) {
     EXPECT_TRUE(capsule::IsExactlyMirrored(graph));
   }
@@ -77,7 +65,7 @@ TEST(StartingGraphs, TooLittleToSpareServesWhereThereIsNoOther) {
 
 // Without the landmarks that a body without legs lacks; a skeleton may know the hips all the same.
 body::Body UpperBody(bool with_hips) {
-  body::Body body = Mannequin();
+  body::Body body = MannequinBody();
   for (int i = 0; i < body::kLandmarkCount; ++i) {
     const auto id = static_cast<body::LandmarkId>(i);
     const bool is_of_leg = id >= body::LandmarkId::kLeftHip && id <= body::LandmarkId::kRightAnkle;
