@@ -97,7 +97,7 @@ constexpr double kFirstOffSurface = 0.012;
 constexpr double kLastOffSurface = 0.003;
 constexpr int kSharpenings = 6;
 // As many nodes tell the plane to a fraction of a millimetre.
-constexpr std::size_t kSharpeners = 2000;
+constexpr std::size_t kSharpeners = 1000;
 constexpr std::size_t kSharpenerChunk = 250;
 // An image and the surface beside it look the same way, to within 45 degrees.
 constexpr double kSameSideCosine = 0.7;

@@ -16,8 +16,8 @@ struct RefineOptions {
   capsule::Budget budget;    // at least 3 spheres' worth
   double tolerance_m = 0.0;  // how far a vertex may stick out when enclosing; [0, 0.1]
   body::PartSelection parts;
-  // False: one of the eight rounds that improve what the layouts lead to, and one exchange
-  // or none in a best fit: less than half the time, and some hundredths more E_r.
+  // False: one round, in place of three to eight, that improves what the layouts lead to, and one
+  // exchange or none in a best fit: less than half the time, and some hundredths more E_r.
   bool thorough = true;
   // The set is to be carried to other poses. What a thorough search wins last it wins by hugging
   // the pose at hand: of E_r .5 % less in that pose and 1 % more in others.

@@ -36,8 +36,7 @@ constexpr double kLeastSpared = 0.06;  // of the graph
 constexpr int kUsedUp = 3;             // a graph this near to the budget is not grown
 constexpr double kLeastImprovement = 1e-4;
 constexpr std::size_t kTies = 8;
-// Much is given up and spent anew at once, in these ways side by side. Of one graph, half as many
-// in twice the rounds lead to no better sets and keep fewer threads busy.
+// Much is given up and spent anew at once, in one of these ways or another.
 struct Renewal {
   double given_up;   // part of the primitives
   double tie_share;  // part of those that goes into ties and leaves
@@ -276,12 +275,12 @@ class Search {
     return Settled(std::move(graph), seed);
   }
 
-  // Each of the kept graphs, in half of the ways where there are several: in the other half next
-  // time. The best of the old and the new ones are kept.
+  // Each of the kept graphs in one way, in the next one next time; one alone in all ways. The best
+  // of the old and the new ones are kept.
   void Renew(int round, std::vector<Attempt>& kept) {
     const std::size_t ways = kRenewals.size();
     std::vector<Attempt> attempts(plan_.kept > 1 ? plan_.kept : ways);
-    const bool joins = round > 0;
+    const bool joins = round > 0;  // before, they would make all graphs alike too soon
     meter_.Expect(until_ * (kGrown + (kRenewed - kGrown) * (round + 1) / plan_.rounds),
                   WorkOf(kStepsOfGrowth * attempts.size(), kept.front().graph) +
                       (joins ? WorkOfJoins(kept.front().graph) : 0));

@@ -46,15 +46,15 @@ constexpr int kFineStepsAlone = 4;
 constexpr int kHungSteps = 8;      // for a layout that is kept
 constexpr int kHungFineSteps = 6;  // coverage takes in what these leave out
 // Of an enclosing search: rounds of giving up and spending anew, one for so many primitives (where
-// there are more of them, more can be placed better; of few a round costs little), and how much of
-// the time it takes.
-constexpr int kPrimitivesPerRound = 40;
+// there are more of them, more can be placed better; of few a round costs little, and each place
+// matters more), and how much of the time it takes.
+constexpr int kPrimitivesPerRound = 36;
 constexpr int kFewOfEnclosing = 60;
 constexpr RenewalPlan kRenewalsOfFew = {.rounds = 4, .kept = 6, .found = 3, .free_rounds = 1};
 constexpr int kSomeOfEnclosing = 80;
 constexpr RenewalPlan kRenewalsOfSome = {.rounds = 3, .kept = 4, .found = 2, .free_rounds = 1};
 constexpr int kLeastRounds = 3;
-constexpr int kMostRounds = 6;
+constexpr int kMostRounds = 8;
 constexpr int kKeptOfMany = 2;
 constexpr int kQuickRounds = 1;
 constexpr double kSearched = 0.92;
