@@ -12,6 +12,7 @@
 #include "core/base/enum_index.h"
 #include "core/base/work_meter.h"
 #include "core/refine/enclosing/enclosing_moves.h"
+#include "core/refine/enclosing/give_up.h"
 #include "core/refine/enclosing/joined_graph.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/refine/internal.h"
@@ -179,56 +180,10 @@ class Search {
       const int spared =
           static_cast<int>(std::max(kSparedShare * excess, kLeastSpared * graph.primitive_count()));
       const int target = std::max(0, excess - std::max(1, spared));
-      if (!GiveUpExcess(rough_, target, graph)) return;
+      if (!GiveUpExcess(rough_, budget_, target, graph)) return;
       rough_.FindShape(kSparingSteps, 1.0, /*seed=*/3, pool_, meter_, graph);
       Simplify(graph);
     }
-  }
-
-  enum class Spared { kAny, kSpheres };
-
-  // Gives up what is least missed until no more than `left` is too much; false where nothing may go
-  // any more.
-  bool GiveUpExcess(const EnclosingTask& task, int left, capsule::MirroredSet& graph) const {
-    // Capsules may stay as they are where there are only too many spheres.
-    const bool only_spheres = graph.primitive_count() <= budget_.max_primitives &&
-                              graph.capsule_count() <= budget_.max_capsules;
-    return GiveUp(
-        task, [&](const auto& g) { return budget_.Excess(g.count()) - left; },
-        only_spheres ? Spared::kSpheres : Spared::kAny, graph);
-  }
-
-  // Gives up what is least missed until nothing is too much; false where nothing may go any more.
-  // Half of what is too much goes by what each was missed at first, the rest after another look.
-  template <typename TooMuch>
-  bool GiveUp(const EnclosingTask& task, const TooMuch& too_much, Spared spared,
-              capsule::MirroredSet& graph) const {
-    while (too_much(graph) > 0) {
-      const int before = graph.primitive_count();
-      GiveUpDownTo(too_much(graph) / 2, task, too_much, spared, graph);
-      if (graph.primitive_count() == before) return false;
-    }
-    return true;
-  }
-
-  // Nothing beside what has just gone: it is missed more now.
-  template <typename TooMuch>
-  void GiveUpDownTo(int left, const EnclosingTask& task, const TooMuch& too_much, Spared spared,
-                    capsule::MirroredSet& graph) const {
-    std::vector<Removal> removals = RemovalsOf(graph, task.Weigh(graph));
-    if (spared == Spared::kSpheres) {  // capsules alone as a last resort
-      std::stable_partition(removals.begin(), removals.end(), [](const Removal& removal) {
-        return removal.edit.kind == EditKind::kDissolve;
-      });
-    }
-    SparedGraph rest(graph);
-    for (const Removal& removal : removals) {
-      if (too_much(rest.graph()) <= left) break;
-      const bool last_resort = spared == Spared::kSpheres && removal.edit.kind == EditKind::kUnlink;
-      if (last_resort && rest.graph().primitive_count() < graph.primitive_count()) break;
-      rest.Remove(removal.edit);
-    }
-    graph = rest.graph();
   }
 
   // Spends up to a number of primitives, the first `ties` of them on ties and leaves, the rest on
@@ -266,10 +221,8 @@ class Search {
                   std::uint64_t seed) const {
     capsule::MirroredSet graph = from;
     const auto given_up = static_cast<int>(renewal.given_up * from.primitive_count());
-    const int kept = from.primitive_count() - given_up;
-    GiveUpExcess(task_, 0, graph);  // `from` may be of a round that was less bound
-    GiveUp(
-        task_, [kept](const auto& g) { return g.primitive_count() - kept; }, Spared::kAny, graph);
+    GiveUpExcess(task_, budget_, 0, graph);  // `from` may be of a round that was less bound
+    GiveUpTo(task_, from.primitive_count() - given_up, graph);
     Extend(primitives_, static_cast<int>(renewal.tie_share * given_up), seed, graph);
     if (!budget_.Allows(graph.count())) return {};
     return Settled(std::move(graph), seed);

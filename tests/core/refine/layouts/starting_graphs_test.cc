@@ -94,7 +94,9 @@ TEST(StartingGraphs, TheTrunkOfAnUpperBodyIsHungDownToItsEnd) {
     EXPECT_EQ(belly->to_m, ribs->from_m);
     EXPECT_EQ(ribs->to_m, body.landmark(body::LandmarkId::kBust)->position_m);
     const Eigen::Vector3d end = body.chain(body::Part::kTorso)->PointAt(0.0);
-    if (!with_hips) EXPECT_EQ(belly->from_m, end);
+    if (!with_hips) {
+      EXPECT_EQ(belly->from_m, end);
+    }
     const body::PartSelection torso{.arms = false, .legs = false};
     for (const capsule::MirroredSet& graph :
          StartingGraphs(FitKind::kEnclose, body, torso, Primitives(64), {}, ThreadPool(1))) {
