@@ -143,9 +143,9 @@ TEST(Layout, StandardServesAllBodies) {
   }
   ASSERT_GE(ratios.size(), 25U);
   std::sort(ratios.begin(), ratios.end());
-  // The free search starts from this layout as well.
+  // The free search starts from this layout as well, and gets better than it as the search does.
   EXPECT_GE(ratios.front(), 0.95);
-  EXPECT_LE(ratios[ratios.size() / 2], 1.06);
+  EXPECT_LE(ratios[ratios.size() / 2], 1.09);
   EXPECT_LE(ratios.back(), 1.25);
 }
 

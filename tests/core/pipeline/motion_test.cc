@@ -208,18 +208,22 @@ TEST(Motion, AWalkIsEnclosed) {
   }
 }
 
-// With radii of each frame's own the frames' sets are hardly larger than the one of rest alone.
-TEST(Motion, AWalkWithRadiiOfEachFrameIsEnclosedTightly) {
-  CAPFIT_REQUIRE_BODIES();
-  const Walk walk;
+struct MovingErrors {
+  double at_rest = 0.0;    // E_r of the fit that knows of no motion
+  double of_frames = 0.0;  // mean E_r with radii of each frame's own
+};
+
+MovingErrors ErrorsOfWalk(const Walk& walk, int primitives) {
   FitOptions options = WholeBody();
+  options.max_primitives = primitives;
   const auto rest = FitMoving(walk.soup, options);
-  ASSERT_TRUE(rest.ok()) << rest.status();
+  EXPECT_TRUE(rest.ok()) << rest.status();
   walk.motion->radii = motion::MotionRadii::kPerFrame;
   options.motion = walk.motion;
   auto result = FitMoving(walk.soup, options);
-  ASSERT_TRUE(result.ok()) << result.status();
-  ASSERT_EQ(result->motion->radii_m.size(), walk.motion->frames.size());
+  EXPECT_TRUE(result.ok()) << result.status();
+  if (!rest.ok() || !result.ok()) return {};
+  EXPECT_EQ(result->motion->radii_m.size(), walk.motion->frames.size());
   const double body_at_rest = VolumeOf(walk.soup, FloatsOf(walk.soup));
   double bodies = 0.0;
   for (std::size_t f = 0; f < walk.motion->frames.size(); ++f) {
@@ -231,12 +235,28 @@ TEST(Motion, AWalkWithRadiiOfEachFrameIsEnclosedTightly) {
   }
   bodies /= static_cast<double>(walk.motion->frames.size());
   // All is enclosed, so E_r is the union's volume over the body's, less 1.
-  const double mean_E_r =
-      (1.0 + rest->metrics.E_r) * result->motion->mean_volume_ratio / bodies - 1.0;
-  std::printf("E_r at rest %.3f, in the mean of the frames %.3f\n", rest->metrics.E_r, mean_E_r);
+  return {rest->metrics.E_r,
+          (1.0 + rest->metrics.E_r) * result->motion->mean_volume_ratio / bodies - 1.0};
+}
+
+// With radii of each frame's own the frames' sets are hardly larger than the one of rest alone.
+// What one budget comes to is the search's luck, so the limits are those of several together.
+TEST(Motion, AWalkWithRadiiOfEachFrameIsEnclosedTightly) {
+  CAPFIT_REQUIRE_BODIES();
+  const Walk walk;
+  MovingErrors mean;
+  const std::vector<int> budgets = {60, 64, 68};
+  for (const int budget : budgets) {
+    SCOPED_TRACE(budget);
+    const MovingErrors errors = ErrorsOfWalk(walk, budget);
+    std::printf("%d primitives: E_r at rest %.3f, in the mean of the frames %.3f\n", budget,
+                errors.at_rest, errors.of_frames);
+    mean.at_rest += errors.at_rest / static_cast<double>(budgets.size());
+    mean.of_frames += errors.of_frames / static_cast<double>(budgets.size());
+  }
   // The tighter the fit of rest alone, the more of it is of that pose; so a limit of its own too.
-  EXPECT_LE(mean_E_r, 0.38);
-  EXPECT_LE(mean_E_r, 1.14 * rest->metrics.E_r);
+  EXPECT_LE(mean.of_frames, 0.38);
+  EXPECT_LE(mean.of_frames, 1.14 * mean.at_rest);
 }
 
 // The joints of the six kinds of rigs that avatars have, by what they are called there.
@@ -371,7 +391,8 @@ TEST_P(RigMotionTest, IsEnclosedInEveryFrame) {
   // Of these, parts slide along each other, and so move otherwise than what is beside them.
   const std::map<std::string, double> loose = {
       {"accessories_man", 1.15},  {"dressed_deleted_man", 1.14}, {"dressed_deleted_woman", 1.17},
-      {"dressed_full_man", 1.14}, {"dressed_full_woman", 1.17},  {"robot_like", 1.59}};
+      {"dressed_full_man", 1.14}, {"dressed_full_woman", 1.17},  {"robot_like", 1.59},
+      {"skirt_woman", 1.14}};
   const auto limit = loose.find(GetParam());
   EXPECT_LE(mean_E_r, (limit == loose.end() ? 1.12 : limit->second) * rest->metrics.E_r);
 }
