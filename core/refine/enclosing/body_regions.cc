@@ -7,24 +7,23 @@ namespace capfit::refine {
 namespace {
 
 Region RegionOf(BoneId bone, Side side) {
-  switch (bone) {
-    case BoneId::kRibs:
-    case BoneId::kChest:
-    case BoneId::kHead:
-    case BoneId::kClavicle:
+  if (bone == BoneId::kBelly || bone == BoneId::kPelvis) return Region::kBelly;
+  switch (PartOf(bone, side)) {
+    case body::Part::kTorso:
+    case body::Part::kHead:
       return Region::kTrunk;
-    case BoneId::kBelly:
-    case BoneId::kPelvis:
-      return Region::kBelly;
-    case BoneId::kUpperArm:
-    case BoneId::kForearm:
-    case BoneId::kHand:
-      return side == Side::kLeft ? Region::kLeftArm : Region::kRightArm;
-    case BoneId::kThigh:
-    case BoneId::kShin:
-    case BoneId::kFoot:
-    case BoneId::kHeel:
-      return side == Side::kLeft ? Region::kLeftLeg : Region::kRightLeg;
+    case body::Part::kLeftArm:
+    case body::Part::kLeftHand:
+      return Region::kLeftArm;
+    case body::Part::kRightArm:
+    case body::Part::kRightHand:
+      return Region::kRightArm;
+    case body::Part::kLeftLeg:
+    case body::Part::kLeftFoot:
+      return Region::kLeftLeg;
+    case body::Part::kRightLeg:
+    case body::Part::kRightFoot:
+      return Region::kRightLeg;
   }
   return Region::kTrunk;
 }

@@ -233,7 +233,7 @@ class Search {
   void Renew(int round, std::vector<Attempt>& kept) {
     const std::size_t ways = kRenewals.size();
     std::vector<Attempt> attempts(plan_.kept > 1 ? plan_.kept : ways);
-    const bool joins = round > 0;  // before, they would make all graphs alike too soon
+    const bool joins = plan_.Joins(round);
     meter_.Expect(until_ * (kGrown + (kRenewed - kGrown) * (round + 1) / plan_.rounds),
                   WorkOf(kStepsOfGrowth * attempts.size(), kept.front().graph) +
                       (joins ? WorkOfJoins(kept.front().graph) : 0));

@@ -24,6 +24,10 @@ struct RenewalPlan {
   // kind may make room for the other.
   int free_rounds = 0;
 
+  // Whether a round joins graphs by the regions of the body. The first one would make them alike
+  // too soon.
+  [[nodiscard]] bool Joins(int round) const { return round > 0; }
+
   [[nodiscard]] capsule::Budget BudgetOfRound(int round, const capsule::Budget& budget) const {
     return round < free_rounds ? budget.OfAnyKind() : budget;
   }

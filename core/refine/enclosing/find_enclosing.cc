@@ -144,7 +144,6 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
   const int primitives = options.budget.UsualPrimitives();
   const RenewalPlan plan = RenewalsFor(options.thorough, primitives);
   const Spacings spacings = SpacingsFor(primitives);
-  const BodyRegions regions(body);
   tighten::FullCells full;
   // Each thins the points out on one thread, for some milliseconds on large meshes.
   std::optional<EnclosingTask> usual, fine, rough;
@@ -158,8 +157,9 @@ capsule::MirroredSet FindEnclosing(const body::Body& body, const tighten::CoverT
       starts = StartsOf(body, options, plan.BudgetOfRound(0, options.budget), primitives, pool);
     } else if (i <= tasks) {
       const auto& [task, spacing] = task_of[i - 1];
+      const bool joins = task == &usual && plan.Joins(plan.rounds - 1);
       task->emplace(target, body.is_symmetric, options.tolerance_m, spacing,
-                    may_be_hollow ? &full : nullptr, regions);
+                    may_be_hollow ? &full : nullptr, joins ? BodyRegions(body) : BodyRegions());
     } else {
       const double cell_m = kFullCell * tighten::SizeOf(target);
       full = FullCellsOf(MakeOccupancyGrid(body, options.parts, cell_m, body.is_symmetric, pool));
