@@ -16,8 +16,9 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 // and the chord between its ends. Green's theorem then gives the area of disc-and-outline as
 // twice_inside / 2 + r^2 angle / 2, signs included, wherever the centre lies.
 //
-// Angles of one outside stretch telescope: only its ends need an arc tangent, and the turns in
-// between are counted where the walk crosses the negative x axis.
+// Angles of one outside stretch telescope: only its ends matter, and the turns in between are
+// counted where the walk crosses the negative x axis. Those ends are directions, whose angles add
+// up as complex numbers multiply: one arc tangent serves the whole walk.
 class Walk {
  public:
   explicit Walk(double radius) : radius_(radius), radius2_(radius * radius) {}
@@ -42,7 +43,8 @@ class Walk {
 
   [[nodiscard]] OutsideArea Result() const {
     OutsideArea result;
-    const double outside_angle = kTwoPi * (1.0 - turns_) - angle_;
+    const double angle = std::atan2(direction_y_ + 0.0, direction_x_);  // no -0.0
+    const double outside_angle = kTwoPi * (1.0 - turns_) - angle;
     result.area_m2 = std::clamp(0.5 * radius2_ * outside_angle - 0.5 * twice_inside_, 0.0,
                                 std::numbers::pi * radius2_);
     result.by_radius_m = radius_ * outside_angle;
@@ -81,20 +83,33 @@ class Walk {
     }
   }
 
-  // An outside stretch ends, respectively begins, at this point of the circle. Adding 0.0 turns
-  // -0.0 into +0.0, so that the arc tangent and the crossing count agree on the side.
+  // An outside stretch ends, respectively begins, at this point of the circle.
   void Enter(double x, double y) {
-    angle_ += std::atan2(y + 0.0, x);
-    Chord(x, y, 1.0);
-  }
-  void Leave(double x, double y) {
-    angle_ -= std::atan2(y + 0.0, x);
-    Chord(x, y, -1.0);
-  }
-  void Chord(double x, double y, double sign) {
-    const double scale = sign / std::sqrt(x * x + y * y);
+    const double scale = 1.0 / std::sqrt(x * x + y * y);
     chord_x_ += scale * x;
     chord_y_ += scale * y;
+    AddAngle(scale * x, scale * y);
+  }
+  void Leave(double x, double y) {
+    const double scale = 1.0 / std::sqrt(x * x + y * y);
+    chord_x_ -= scale * x;
+    chord_y_ -= scale * y;
+    // Half a turn is the angle of the negative x axis from both sides: it is taken as negative here.
+    if (y == 0.0 && x < 0.0) --turns_;
+    AddAngle(scale * x, -scale * y);
+  }
+  // Angles lie in (-pi, pi]; where a sum leaves them a turn is counted. That needs two of the same
+  // sign, not both short of a quarter turn, and is certain with both beyond it.
+  void AddAngle(double x, double y) {
+    const double sum_x = direction_x_ * x - direction_y_ * y;
+    const double sum_y = direction_x_ * y + direction_y_ * x;
+    const bool is_left = y >= 0.0;
+    if ((direction_y_ >= 0.0) == is_left && !(direction_x_ > 0.0 && x > 0.0)) {
+      const bool is_sure = direction_x_ < 0.0 && x < 0.0;
+      if (is_sure || (sum_y >= 0.0) != is_left) turns_ += is_left ? 1 : -1;
+    }
+    direction_x_ = sum_x;
+    direction_y_ = sum_y;
   }
   void CountCrossing(double from_y, double to_y, double cross) {
     if (from_y >= 0.0 && to_y < 0.0 && cross > 0.0) ++turns_;
@@ -104,7 +119,8 @@ class Walk {
   double radius_;
   double radius2_;
   double twice_inside_ = 0.0;
-  double angle_ = 0.0;
+  double direction_x_ = 1.0;  // whose angle is that of the stretches' ends but for turns
+  double direction_y_ = 0.0;
   double chord_x_ = 0.0;
   double chord_y_ = 0.0;
   int turns_ = 0;
