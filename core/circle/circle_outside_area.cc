@@ -9,6 +9,10 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
+constexpr int kEdges = 16;                           // at once
+using Lanes = Eigen::Array<double, kEdges, 1>;       // of edges
+using Block = Eigen::Array<double, kEdges + 1, 1>;   // of their ends
+
 // What walking along the outline, seen from the circle's centre, adds up to.
 //
 // The part of the walk inside the disc sweeps triangles (eq. 3's A_tri), twice whose area goes to
@@ -23,22 +27,28 @@ class Walk {
  public:
   explicit Walk(double radius) : radius_(radius), radius2_(radius * radius) {}
 
-  // The edge from u to v, given with their squared lengths. Nearly all edges lie wholly inside or
-  // wholly outside and are done in a few operations.
-  void Edge(double ux, double uy, double u2, double vx, double vy, double v2) {
-    const bool u_inside = u2 <= radius2_;
-    const bool v_inside = v2 <= radius2_;
-    if (u_inside && v_inside) {
-      twice_inside_ += ux * vy - uy * vx;
-      return;
-    }
-    const double ex = vx - ux;
-    const double ey = vy - uy;
-    const double length2 = ex * ex + ey * ey;
+  // The edges from each point to the next, given around the circle's centre. Nearly all lie wholly
+  // inside or wholly outside and are done together, a few operations each.
+  void Edges(const Block& x, const Block& y) {
+    const auto ux = x.head<kEdges>();
+    const auto uy = y.head<kEdges>();
+    const auto vx = x.tail<kEdges>();
+    const auto vy = y.tail<kEdges>();
+    const Block square = x * x + y * y;
+    const auto u2 = square.head<kEdges>();
+    const auto v2 = square.tail<kEdges>();
+    const Lanes inside = (u2.max(v2) <= radius2_).select(ux * vy - uy * vx, Lanes::Zero());
+    twice_inside_ += inside.sum();
     // No point of an edge is nearer than its nearer end by more than Pythagoras allows.
-    const bool is_far = 4.0 * (std::min(u2, v2) - radius2_) > length2;
-    if (is_far && (uy < 0.0) == (vy < 0.0)) return;
-    Clip(ux, uy, u2, vx, vy, u_inside, v_inside, length2);
+    const Lanes length2 = (vx - ux).square() + (vy - uy).square();
+    const Lanes clearance = 4.0 * (u2.min(v2) - radius2_) - length2;
+    for (int i = 0; i < kEdges; ++i) {
+      const bool u_inside = square[i] <= radius2_;
+      const bool v_inside = square[i + 1] <= radius2_;
+      if (u_inside && v_inside) continue;
+      if (clearance[i] > 0.0 && (y[i] < 0.0) == (y[i + 1] < 0.0)) continue;
+      Clip(x[i], y[i], square[i], x[i + 1], y[i + 1], u_inside, v_inside, length2[i]);
+    }
   }
 
   [[nodiscard]] OutsideArea Result() const {
@@ -131,20 +141,22 @@ class Walk {
 OutsideArea CircleOutsideAreaWithGradient(const Circle& circle, const section::Polygon& outline) {
   if (!(circle.radius_m > 0.0)) return {};
   const std::span<const Eigen::Vector2d> vertices = outline.vertices();
-  const double cx = circle.center_m.x();
-  const double cy = circle.center_m.y();
   Walk walk(circle.radius_m);
-  double ux = vertices.back().x() - cx;
-  double uy = vertices.back().y() - cy;
-  double u2 = ux * ux + uy * uy;
-  for (const Eigen::Vector2d& vertex : vertices) {
-    const double vx = vertex.x() - cx;
-    const double vy = vertex.y() - cy;
-    const double v2 = vx * vx + vy * vy;
-    walk.Edge(ux, uy, u2, vx, vy, v2);
-    ux = vx;
-    uy = vy;
-    u2 = v2;
+  Block x;
+  Block y;
+  const auto put = [&](Eigen::Index at, const Eigen::Vector2d& vertex) {
+    x[at] = vertex.x() - circle.center_m.x();
+    y[at] = vertex.y() - circle.center_m.y();
+  };
+  put(kEdges, vertices.back());
+  for (std::size_t begin = 0; begin < vertices.size(); begin += kEdges) {
+    x[0] = x[kEdges];
+    y[0] = y[kEdges];
+    // After the last vertex edges of length 0, which add nothing.
+    for (std::size_t i = 0; i < kEdges; ++i) {
+      put(static_cast<Eigen::Index>(i) + 1, vertices[std::min(begin + i, vertices.size() - 1)]);
+    }
+    walk.Edges(x, y);
   }
   return walk.Result();
 }
