@@ -17,7 +17,7 @@ namespace {
 // area.
 constexpr int kTableRadii = 10;
 
-double Rounded(double value, double quantum) { return std::round(value / quantum) * quantum; }
+double Rounded(double value, double quantum) { return std::rint(value / quantum) * quantum; }
 
 // Outside area of circles around one centre as a function of the radius.
 class AreaByRadius {
