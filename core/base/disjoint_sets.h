@@ -32,10 +32,12 @@ class DisjointSets {
 
   [[nodiscard]] std::uint32_t Find(std::uint32_t i) { return FollowLinks(parent_, i); }
 
-  void Join(std::uint32_t a, std::uint32_t b) {
+  // False where they were together already.
+  bool Join(std::uint32_t a, std::uint32_t b) {
     a = Find(a);
     b = Find(b);
     parent_[std::max(a, b)] = std::min(a, b);
+    return a != b;
   }
 
   // Who stands for each.

@@ -249,11 +249,7 @@ class Coarsener {
     std::size_t pieces = sets.size();
     for (const std::uint32_t i : chosen_) {
       const mesh::Triangle t = NodesOf(i);
-      for (const std::uint32_t n : {t[1], t[2]}) {
-        if (sets.Find(t[0]) == sets.Find(n)) continue;
-        sets.Join(t[0], n);
-        --pieces;
-      }
+      for (const std::uint32_t n : {t[1], t[2]}) pieces -= sets.Join(t[0], n) ? 1 : 0;
     }
     return pieces == 1;
   }

@@ -54,10 +54,11 @@ std::optional<SectionLoop> TrunkLoop(std::vector<SectionLoop> section) {
   return std::nullopt;
 }
 
-std::vector<std::optional<SectionLoop>> TrunkLoops(const Shape& shape,
-                                                   std::span<const CutPlane> planes) {
+std::vector<std::optional<SectionLoop>> TrunkLoops(const CutSurface& surface,
+                                                   std::span<const CutPlane> planes,
+                                                   const ThreadPool& pool) {
   std::vector<std::optional<SectionLoop>> loops;
-  for (std::vector<SectionLoop>& section : shape.mesh_surface->CutAll(planes, *shape.pool)) {
+  for (std::vector<SectionLoop>& section : surface.CutAll(planes, pool)) {
     loops.push_back(TrunkLoop(std::move(section)));
   }
   return loops;
@@ -192,18 +193,46 @@ CutPlane NeckPlane(double y) {
           Eigen::Vector3d(0, std::cos(kNeckLeanRad), std::sin(kNeckLeanRad))};
 }
 
-std::vector<NeckLevel> NeckLevels(const Shape& shape, double from_y) {
-  const double to_y = shape.crown_m - (shape.has_head ? kNeckBelowTop * shape.stature_m : 0.0);
+std::vector<NeckLevel> CutNeck(const CutSurface& surface, std::span<const double> heights,
+                               const ThreadPool& pool) {
   std::vector<CutPlane> planes;
-  for (double y = from_y; y < to_y; y += kTrunkLevelStep * shape.stature_m) {
-    planes.push_back(NeckPlane(y));
-  }
-  std::vector<std::optional<SectionLoop>> loops = TrunkLoops(shape, planes);
+  for (const double y : heights) planes.push_back(NeckPlane(y));
+  std::vector<std::optional<SectionLoop>> loops = TrunkLoops(surface, planes, pool);
   std::vector<NeckLevel> levels;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (loops[i]) levels.push_back({planes[i].origin.y(), *std::move(loops[i])});
+    if (loops[i]) levels.push_back({heights[i], *std::move(loops[i])});
   }
   return levels;
+}
+
+NeckLevel Narrowest(std::vector<NeckLevel> levels) {
+  return std::move(*std::min_element(
+      levels.begin(), levels.end(),
+      [](const NeckLevel& a, const NeckLevel& b) { return a.loop.girth < b.loop.girth; }));
+}
+
+// Of the neck's sections the narrowest, or the uppermost whole one where there is no head: looked
+// for among those of nodes, then cut through all triangles.
+std::optional<NeckLevel> NeckMiddle(const Shape& shape, double from_y) {
+  const double step = kTrunkLevelStep * shape.stature_m;
+  const double to_y = shape.crown_m - (shape.has_head ? kNeckBelowTop * shape.stature_m : 0.0);
+  std::vector<double> heights;
+  for (double y = from_y; y < to_y; y += step) heights.push_back(y);
+  std::vector<NeckLevel> levels = CutNeck(*shape.surface, heights, *shape.pool);
+  if (levels.empty()) return std::nullopt;
+  if (!shape.has_head) {
+    while (levels.size() > 1 &&
+           levels.back().loop.area < kWholeNeckShare * levels[levels.size() - 2].loop.area) {
+      levels.pop_back();
+    }
+    heights = {levels.back().y};
+  } else {
+    const double narrowest = Narrowest(std::move(levels)).y;
+    std::erase_if(heights, [&](double y) { return std::abs(y - narrowest) > 1.5 * step; });
+  }
+  levels = CutNeck(*shape.mesh_surface, heights, *shape.pool);
+  if (levels.empty()) return std::nullopt;
+  return Narrowest(std::move(levels));
 }
 
 double MeanArmpitHeight(const Shape& shape, const Landmarks& landmarks) {
@@ -223,26 +252,18 @@ double MeanArmpitHeight(const Shape& shape, const Landmarks& landmarks) {
 
 void FindNeck(Shape& shape, Landmarks& landmarks) {
   const double stature = shape.stature_m;
-  std::vector<NeckLevel> levels =
-      NeckLevels(shape, MeanArmpitHeight(shape, landmarks) + kNeckAboveArmpit * stature);
-  if (levels.empty()) return;
+  const std::optional<NeckLevel> middle =
+      NeckMiddle(shape, MeanArmpitHeight(shape, landmarks) + kNeckAboveArmpit * stature);
+  if (!middle) return;
+  shape.neck_middle_m = middle->loop.centroid;
   if (!shape.has_head) {
-    while (levels.size() > 1 &&
-           levels.back().loop.area < kWholeNeckShare * levels[levels.size() - 2].loop.area) {
-      levels.pop_back();
-    }
-    shape.neck_middle_m = levels.back().loop.centroid;
     shape.neck_base_m =
         *shape.neck_middle_m - kNeckBaseBelowNarrowest * stature * NeckPlane(0).normal;
     Put(landmarks, Index(LandmarkId::kNeck), *shape.neck_middle_m, shape.head ? 0.8 : 0.3);
     return;
   }
-  const auto narrowest = std::min_element(
-      levels.begin(), levels.end(),
-      [](const NeckLevel& a, const NeckLevel& b) { return a.loop.girth < b.loop.girth; });
-  shape.neck_middle_m = narrowest->loop.centroid;
   const auto base = TrunkLoop(
-      shape.mesh_surface->Cut(NeckPlane(narrowest->y - kNeckBaseBelowNarrowest * stature)));
+      shape.mesh_surface->Cut(NeckPlane(middle->y - kNeckBaseBelowNarrowest * stature)));
   Put(landmarks, Index(LandmarkId::kNeck), base ? base->centroid : *shape.neck_middle_m, 0.8);
   shape.neck_base_m = landmarks[Index(LandmarkId::kNeck)]->position_m;
   Eigen::Vector3d top = Eigen::Vector3d::Zero();
@@ -297,7 +318,7 @@ void FindTrunkSections(const Shape& shape, Landmarks& landmarks) {
   const auto cut = [&](const std::vector<std::size_t>& levels) {
     std::vector<CutPlane> planes;
     for (const std::size_t level : levels) planes.push_back(Level(heights[level]));
-    const std::vector<std::optional<SectionLoop>> loops = TrunkLoops(shape, planes);
+    const std::vector<std::optional<SectionLoop>> loops = TrunkLoops(*shape.mesh_surface, planes, *shape.pool);
     for (std::size_t i = 0; i < loops.size(); ++i) {
       if (loops[i]) offer(levels[i], *loops[i]);
     }
