@@ -262,8 +262,8 @@ void FindNeck(Shape& shape, Landmarks& landmarks) {
     Put(landmarks, Index(LandmarkId::kNeck), *shape.neck_middle_m, shape.head ? 0.8 : 0.3);
     return;
   }
-  const auto base = TrunkLoop(
-      shape.mesh_surface->Cut(NeckPlane(middle->y - kNeckBaseBelowNarrowest * stature)));
+  const auto base =
+      TrunkLoop(shape.mesh_surface->Cut(NeckPlane(middle->y - kNeckBaseBelowNarrowest * stature)));
   Put(landmarks, Index(LandmarkId::kNeck), base ? base->centroid : *shape.neck_middle_m, 0.8);
   shape.neck_base_m = landmarks[Index(LandmarkId::kNeck)]->position_m;
   Eigen::Vector3d top = Eigen::Vector3d::Zero();
@@ -318,7 +318,8 @@ void FindTrunkSections(const Shape& shape, Landmarks& landmarks) {
   const auto cut = [&](const std::vector<std::size_t>& levels) {
     std::vector<CutPlane> planes;
     for (const std::size_t level : levels) planes.push_back(Level(heights[level]));
-    const std::vector<std::optional<SectionLoop>> loops = TrunkLoops(*shape.mesh_surface, planes, *shape.pool);
+    const std::vector<std::optional<SectionLoop>> loops =
+        TrunkLoops(*shape.mesh_surface, planes, *shape.pool);
     for (std::size_t i = 0; i < loops.size(); ++i) {
       if (loops[i]) offer(levels[i], *loops[i]);
     }

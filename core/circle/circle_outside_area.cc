@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-constexpr int kEdges = 16;                           // at once
-using Lanes = Eigen::Array<double, kEdges, 1>;       // of edges
-using Block = Eigen::Array<double, kEdges + 1, 1>;   // of their ends
+constexpr int kEdges = 16;                          // at once
+using Lanes = Eigen::Array<double, kEdges, 1>;      // of edges
+using Block = Eigen::Array<double, kEdges + 1, 1>;  // of their ends
 
 // What walking along the outline, seen from the circle's centre, adds up to.
 //
@@ -104,7 +104,8 @@ class Walk {
     const double scale = 1.0 / std::sqrt(x * x + y * y);
     chord_x_ -= scale * x;
     chord_y_ -= scale * y;
-    // Half a turn is the angle of the negative x axis from both sides: it is taken as negative here.
+    // Half a turn is the angle of the negative x axis from both sides: it is taken as negative
+    // here.
     if (y == 0.0 && x < 0.0) --turns_;
     AddAngle(scale * x, -scale * y);
   }

@@ -164,6 +164,7 @@ int Main(int argc, char** argv) {
   options.quality = pipeline::Quality::kTight;
   app.add_option("--quality", options.quality)
       ->transform(CLI::CheckedTransformer(client::QualityWords()));
+  app.add_option("--fit", options.fit)->transform(CLI::CheckedTransformer(client::FitModeWords()));
   CLI11_PARSE(app, argc, argv);
   if (primitives.empty() && !options.max_spheres && !options.max_capsules) primitives = {64};
 
