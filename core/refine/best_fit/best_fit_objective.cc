@@ -23,7 +23,7 @@ int StepsOf(Effort effort, int primitives) {
     case Effort::kRough:
       return 80;
     case Effort::kFinish:
-      return 120 + std::max(0, primitives - 64);
+      return 240 + std::max(0, primitives - 64);
   }
   return 0;
 }

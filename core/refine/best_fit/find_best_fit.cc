@@ -74,7 +74,7 @@ int ExchangesFor(const RefineOptions& options, int excess) {
 GrowthOptions PlanGrowth(const RefineOptions& options, int excess) {
   GrowthOptions plan;
   plan.piece_cost = kPieceCost;
-  plan.thorough_share = 0.15;
+  plan.thorough_share = 0.3;
   plan.exchanges = ExchangesFor(options, excess);
   return plan;
 }

@@ -26,14 +26,14 @@ constexpr double kSpareShare = 2.0;
 constexpr double kLeastLoss = 1e-4;
 // Of what a graph has too many so much goes by one look, but for what lies beside what has just
 // gone; at least so many primitives.
-constexpr double kSparedAtOnce = 0.5;
+constexpr double kSparedAtOnce = 0.3;
 constexpr int kLeastSpared = 4;
 // An exchange gives up this share of all primitives.
 constexpr double kExchangeShare = 0.1;
 // So many exchanges in a row may fail before no more are tried.
 constexpr std::size_t kMostFailures = 4;
 // Of the removals glanced at, how many are tried thoroughly.
-constexpr double kSpareThoroughShare = 0.15;
+constexpr double kSpareThoroughShare = 0.3;
 // So often capsules are cut and all is settled again.
 constexpr int kCuttingRounds = 3;
 // A round of trials is taken for this share of what is left of the work, until it shows how far it
