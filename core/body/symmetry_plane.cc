@@ -116,7 +116,7 @@ std::vector<Eigen::Vector3d> NodeNormals(const CoarseSurface& surface) {
 // A node and the one that lies beside its image.
 struct ImagePair {
   std::size_t node = 0;
-  std::size_t beside = 0;
+  std::uint32_t beside = 0;
 };
 
 class Sharpener {
@@ -124,11 +124,15 @@ class Sharpener {
   explicit Sharpener(const MirrorSurface& surface) : surface_(surface) {}
 
   void FindPairs(const MirrorPlane& plane, const ThreadPool& pool) {
+    const bool is_first = pairs_.empty();
     const std::size_t stride = std::max<std::size_t>(1, surface_.points.size() / kSharpeners);
     pairs_.resize((surface_.points.size() + stride - 1) / stride);
     pool.ForChunks(pairs_.size(), kSharpenerChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        pairs_[i] = {i * stride, surface_.nearest.At(ImageOf(surface_.points[i * stride], plane))};
+        const Eigen::Vector3d image = ImageOf(surface_.points[i * stride], plane);
+        const mesh::NearestVertex& nearest = surface_.nearest;
+        pairs_[i] = {i * stride,
+                     is_first ? nearest.At(image) : nearest.At(image, pairs_[i].beside)};
       }
     });
   }

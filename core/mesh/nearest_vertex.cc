@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-6;
 
 }  // namespace
 
-NearestVertex::NearestVertex(std::span<const Eigen::Vector3d> vertices) {
+NearestVertex::NearestVertex(std::span<const Eigen::Vector3d> vertices) : given_(vertices) {
   Eigen::Vector3d high = vertices[0];
   low_ = vertices[0];
   for (const Eigen::Vector3d& v : vertices) {
@@ -69,33 +69,38 @@ double NearestVertex::SquaredBeside(const Eigen::Vector3d& point, int axis, int 
 }
 
 std::uint32_t NearestVertex::At(const Eigen::Vector3d& point) const {
+  return Search(point, {std::numeric_limits<double>::infinity(), 0});
+}
+
+std::uint32_t NearestVertex::At(const Eigen::Vector3d& point, std::uint32_t near) const {
+  return Search(point, {(given_[near] - point).squaredNorm(), near});
+}
+
+std::uint32_t NearestVertex::Search(const Eigen::Vector3d& point, Best best) const {
   const Cell middle = CellOf(point);
   // What the point lies beside the box is as far from every cell.
-  double best_squared = std::numeric_limits<double>::infinity();
-  std::uint32_t best = 0;
   const auto look = [&](const Cell& cell) {
     const std::size_t index = IndexOf(cell);
     for (std::uint32_t i = begin_[index]; i < begin_[index + 1]; ++i) {
       const double squared = (vertices_[i] - point).squaredNorm();
-      if (squared > best_squared || (squared == best_squared && order_[i] > best)) continue;
-      best_squared = squared;
-      best = order_[i];
+      if (squared > best.squared || (squared == best.squared && order_[i] > best.vertex)) continue;
+      best = {squared, order_[i]};
     }
   };
   const int rings = std::max({size_[0], size_[1], size_[2]});
   for (int ring = 0; ring <= rings; ++ring) {
     // Nothing in this ring of cells, nor beyond, is nearer than that.
     const double at_least = (ring - 1) * cell_;
-    if (ring > 0 && at_least * at_least > best_squared) break;
+    if (ring > 0 && at_least * at_least > best.squared) break;
     const auto low = [&](std::size_t k) { return std::max(0, middle[k] - ring); };
     const auto high = [&](std::size_t k) { return std::min(size_[k] - 1, middle[k] + ring); };
     for (int z = low(2); z <= high(2); ++z) {
       const double beside_z = SquaredBeside(point, 2, z);
-      if (beside_z > best_squared) continue;
+      if (beside_z > best.squared) continue;
       for (int y = low(1); y <= high(1); ++y) {
         const double beside_zy = beside_z + SquaredBeside(point, 1, y);
         const auto look_at = [&](int x) {
-          if (beside_zy + SquaredBeside(point, 0, x) <= best_squared) look({x, y, z});
+          if (beside_zy + SquaredBeside(point, 0, x) <= best.squared) look({x, y, z});
         };
         const bool is_face = std::abs(z - middle[2]) == ring || std::abs(y - middle[1]) == ring;
         if (is_face) {
@@ -107,7 +112,7 @@ std::uint32_t NearestVertex::At(const Eigen::Vector3d& point) const {
       }
     }
   }
-  return best;
+  return best.vertex;
 }
 
 }  // namespace capfit::mesh

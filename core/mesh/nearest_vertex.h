@@ -20,6 +20,8 @@ class NearestVertex {
   // The index of the nearest one, on a tie the lowest. O(1) near the surface; the cells looked at
   // grow with the square of the distance from it.
   [[nodiscard]] std::uint32_t At(const Eigen::Vector3d& point) const;
+  // The same, sooner where the vertex `near` is near the point.
+  [[nodiscard]] std::uint32_t At(const Eigen::Vector3d& point, std::uint32_t near) const;
 
  private:
   using Cell = std::array<int, 3>;
@@ -29,6 +31,14 @@ class NearestVertex {
   // How far the point lies beside a layer of cells along one axis, squared; 0 within.
   [[nodiscard]] double SquaredBeside(const Eigen::Vector3d& point, int axis, int cell) const;
 
+  // What is as near as the best so far, or nearer.
+  struct Best {
+    double squared;
+    std::uint32_t vertex;
+  };
+  [[nodiscard]] std::uint32_t Search(const Eigen::Vector3d& point, Best best) const;
+
+  std::span<const Eigen::Vector3d> given_;
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
   double cell_ = 1.0;
   Cell size_ = {1, 1, 1};

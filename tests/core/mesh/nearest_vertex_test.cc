@@ -29,7 +29,13 @@ std::uint32_t OneByOne(const std::vector<Vec3>& vertices, const Vec3& point) {
 void ExpectNearest(const std::vector<Vec3>& vertices, const std::vector<Vec3>& points) {
   const NearestVertex nearest(vertices);
   for (const Vec3& point : points) {
-    ASSERT_EQ(nearest.At(point), OneByOne(vertices, point)) << point.transpose();
+    const std::uint32_t expected = OneByOne(vertices, point);
+    ASSERT_EQ(nearest.At(point), expected) << point.transpose();
+    // From the answer, from far away and from what may be as near.
+    for (const std::size_t near :
+         {std::size_t{expected}, vertices.size() / 2, vertices.size() - 1}) {
+      ASSERT_EQ(nearest.At(point, static_cast<std::uint32_t>(near)), expected) << point.transpose();
+    }
   }
 }
 
