@@ -100,6 +100,8 @@ absl::StatusOr<PolygonSoup> ReadMesh(std::span<const std::byte> bytes, MeshForma
   if (format == MeshFormat::kUnknown) format = FormatFromBytes(bytes);
   CAPFIT_ASSIGN_OR_RETURN(PolygonSoup soup, ReadAs(format, bytes, limits));
   soup.is_from_file = true;
+  // What need not be told need not be looked at again.
+  if (soup.HasTrianglesOnly()) soup.face_sizes = {};
   return soup;
 }
 

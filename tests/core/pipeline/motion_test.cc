@@ -180,7 +180,8 @@ struct Walk {
 double VolumeOf(const formats::PolygonSoup& soup, const std::vector<Eigen::Vector3f>& points) {
   double volume = 0.0;
   std::size_t begin = 0;
-  for (const std::uint32_t corners : soup.face_sizes) {
+  for (std::size_t face = 0; face < soup.face_count(); ++face) {
+    const std::size_t corners = soup.face_sizes.empty() ? 3 : soup.face_sizes[face];
     const auto corner = [&](std::size_t i) -> Vec3 {
       return points[soup.face_vertices[begin + i]].cast<double>();
     };
