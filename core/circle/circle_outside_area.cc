@@ -104,20 +104,19 @@ class Walk {
     const double scale = 1.0 / std::sqrt(x * x + y * y);
     chord_x_ -= scale * x;
     chord_y_ -= scale * y;
-    // Half a turn is the angle of the negative x axis from both sides: it is taken as negative
-    // here.
+    // The negative x axis is its own image: half a turn once more, not half a turn back.
     if (y == 0.0 && x < 0.0) --turns_;
     AddAngle(scale * x, -scale * y);
   }
-  // Angles lie in (-pi, pi]; where a sum leaves them a turn is counted. That needs two of the same
-  // sign, not both short of a quarter turn, and is certain with both beyond it.
+  // Angles lie in (-pi, pi]; where a sum leaves them a turn is counted. That needs two that turn
+  // the same way, not both by less than a quarter, and is certain where both turn by more.
   void AddAngle(double x, double y) {
     const double sum_x = direction_x_ * x - direction_y_ * y;
     const double sum_y = direction_x_ * y + direction_y_ * x;
-    const bool is_left = y >= 0.0;
-    if ((direction_y_ >= 0.0) == is_left && !(direction_x_ > 0.0 && x > 0.0)) {
+    const bool is_up = y >= 0.0;
+    if ((direction_y_ >= 0.0) == is_up && !(direction_x_ > 0.0 && x > 0.0)) {
       const bool is_sure = direction_x_ < 0.0 && x < 0.0;
-      if (is_sure || (sum_y >= 0.0) != is_left) turns_ += is_left ? 1 : -1;
+      if (is_sure || (sum_y >= 0.0) != is_up) turns_ += is_up ? 1 : -1;
     }
     direction_x_ = sum_x;
     direction_y_ = sum_y;
