@@ -274,13 +274,10 @@ class Coarsener {
   // through triangles that shrank to the edge. All half-edges that it comes in over begin at `end`.
   [[nodiscard]] mesh::HalfEdge Across(mesh::HalfEdge h, std::uint32_t end) const {
     for (mesh::HalfEdge at = mates_[h];;) {
-      const std::uint32_t triangle = at / 3;
-      const std::uint32_t corner = at - 3 * triangle;
-      if (place_[triangle] != kNone) return 3 * place_[triangle] + corner;
-      const std::uint32_t before = corner == 0 ? 2 : corner - 1;
-      const std::uint32_t after = corner == 2 ? 0 : corner + 1;
-      const bool turns = node_[triangles_[triangle][before]] == end;
-      at = mates_[3 * triangle + (turns ? after : before)];
+      if (place_[at / 3] != kNone) return 3 * place_[at / 3] + at % 3;
+      const mesh::HalfEdge before = mesh::PreviousInTriangle(at);
+      const std::uint32_t third = node_[mesh::StartOf(triangles_, before)];
+      at = mates_[third == end ? mesh::NextInTriangle(at) : before];
     }
   }
 
