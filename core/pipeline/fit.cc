@@ -24,6 +24,8 @@
 #include "core/pipeline/take_body.h"
 #include "core/pipeline/to_caller_frame.h"
 #include "core/refine/refine.h"
+#include "core/refine/best_fit/find_best_fit.h"
+#include "core/base/work_meter.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -202,6 +204,9 @@ class BodyFit {
     capsule::PrimitiveSet set = std::move(stage.set);
     if (!IsSearched(options_) && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);
+      if (!getenv("OLD")) { WorkMeter meter(clock_); auto b = TotalBudget(options_);
+        if (options_.polygon_error) b.max_primitives = set.primitive_count();
+        set = refine::GrowBestFit(*body_, RefineOptionsFor(options_, b, will_move_), pool_, meter, std::move(set)); } else
       set = SettleBestFit(*body_, options_, clock_, std::move(set));
     }
     found_.assign(1, {std::move(set), /*has_shape=*/false});

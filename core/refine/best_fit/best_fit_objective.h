@@ -9,6 +9,7 @@
 #include "core/base/fit_observer.h"
 #include "core/refine/best_fit/best_fit_round.h"
 #include "core/refine/best_fit/far_misses.h"
+#include "core/refine/best_fit/fill_error.h"
 #include "core/refine/best_fit/occupancy_grid.h"
 
 namespace capfit::refine {
@@ -35,6 +36,11 @@ class BestFitObjective {
   // The objective must outlive the round.
   [[nodiscard]] BestFitRound StartRound(const capsule::MirroredSet& graph,
                                         const ThreadPool& pool) const;
+  // As the grid of it tells.
+  [[nodiscard]] CapsuleErrors ErrorsByCapsule(const capsule::MirroredSet& graph,
+                                              const ThreadPool& pool) const {
+    return refine::ErrorsByCapsule(grid_, graph, pool);
+  }
   // Points of the surface where a new sphere would help most, best first, apart from each other.
   [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const capsule::MirroredSet& graph,
                                                          int count, const ThreadPool& pool) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/refine/internal.h"
@@ -14,6 +15,8 @@ using Vec3 = Eigen::Vector3d;
 constexpr int kRegister = OccupancyGrid::kRegister;
 // Layers of cells that one thread takes at a time.
 constexpr std::size_t kLayersAtOnce = 16;
+// Of a cell that nothing reaches: less than that is not looked up.
+constexpr float kLeastError = 0.03f;
 // A capsule that rises less than this share of its length reaches as high everywhere.
 constexpr float kLevel = 1e-4f;
 
@@ -54,6 +57,30 @@ class ErrorRows {
  public:
   ErrorRows(const OccupancyGrid& grid, const std::vector<Cone>& cones, const CellRange& range)
       : grid_(grid), cones_(cones), range_(range), row_(range.high[2] - range.low[2]) {}
+
+  // The same, and whose error it is: calls take(index of the first cell, its middle, owners of the
+  // cells) for each row. `groups`: by cone; those of a group go and stay together.
+  template <class Take>
+  void OwnedLayer(int y, const std::vector<int>& groups, const Take& take) {
+    owners_.resize(row_.size());
+    FindSlices(y);
+    for (int x = range_.low[0]; x < range_.high[0]; ++x) {
+      const std::size_t first = grid_.ColumnOf(x, y) + range_.low[2];
+      FillOwners(x, y, groups);
+      for (std::size_t k = 0; k < owners_.size(); ++k) {
+        owners_[k].error = ErrorAt(first + k, owners_[k].share);
+        owners_[k].error_without = ErrorAt(first + k, owners_[k].share_of_others);
+      }
+      take({MiddleOf(x, 0), MiddleOf(y, 1), MiddleOf(range_.low[2], 2)}, owners_);
+    }
+  }
+
+  // Of one cell: the group that fills most of it, -1: none, and what it and all others fill.
+  struct Owner {
+    int group = -1;
+    float share = 0.0f, share_of_others = 0.0f;
+    float error = 0.0f, error_without = 0.0f;
+  };
 
   // Calls take(index of the first cell, errors of the cells) for each row in the layer `y`.
   template <class Take>
@@ -137,6 +164,35 @@ class ErrorRows {
     }
   }
 
+  void FillOwners(int x, int y, const std::vector<int>& groups) {
+    std::fill(owners_.begin(), owners_.end(), Owner{});
+    const float px = MiddleOf(x, 0), py = MiddleOf(y, 1), z0 = MiddleOf(range_.low[2], 2);
+    for (const Slice& slice : slices_) {
+      if (x < slice.low_x || x >= slice.high_x) continue;
+      const int group = groups[slice.cone - cones_.data()];
+      for (int k = slice.low_z; k < slice.high_z; ++k) {
+        const float z = z0 + static_cast<float>(k) * grid_.cell_m;
+        const float share = 0.5f - slice.cone->SignedDistance(px, py, z) / grid_.cell_m;
+        Owner& owner = owners_[k];
+        if (group == owner.group) {
+          owner.share = std::max(owner.share, share);
+        } else if (share > owner.share) {
+          owner = {group, share, owner.share};
+        } else {
+          owner.share_of_others = std::max(owner.share_of_others, share);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] float ErrorAt(std::size_t cell, float share) const {
+    const float inside = static_cast<float>(grid_.inside[cell]) * (1.0f / OccupancyGrid::kFull);
+    const float fitted =
+        static_cast<float>(grid_.fitted_shares()[cell]) * (1.0f / OccupancyGrid::kFull);
+    share = std::min(share, 1.0f);
+    return std::max(0.0f, share - inside) + std::max(0.0f, fitted - share);
+  }
+
   // Turns the shares of the row into errors.
   void FindErrors(std::size_t first_cell) {
     const std::uint8_t* inside_byte = grid_.inside.data() + first_cell;
@@ -158,7 +214,35 @@ class ErrorRows {
   CellRange range_;
   std::vector<Slice> slices_;
   std::vector<float> row_;
+  std::vector<Owner> owners_;
 };
+
+// By cone: the lower index of it and its image.
+std::vector<int> GroupsOf(const capsule::MirroredSet& graph) {
+  std::vector<int> groups;
+  for (int e = 0; e < graph.capsule_count(); ++e) {
+    groups.push_back(std::min(e, graph.ImageOfCapsule(e)));
+  }
+  const std::vector<bool> used = capsule::UsedSpheres(graph.set());
+  std::vector<int> cone_of(used.size(), -1);
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (used[v]) continue;
+    cone_of[v] = static_cast<int>(groups.size());
+    const int image = graph.ImageOf(v);
+    groups.push_back(image < v ? cone_of[image] : cone_of[v]);
+  }
+  return groups;
+}
+
+int NearestCone(const std::vector<Cone>& cones, const Eigen::Vector3f& point) {
+  int nearest = 0;
+  float least = std::numeric_limits<float>::max();
+  for (std::size_t i = 0; i < cones.size(); ++i) {
+    const float distance = cones[i].SignedDistance(point.x(), point.y(), point.z());
+    if (distance < least) least = distance, nearest = static_cast<int>(i);
+  }
+  return nearest;
+}
 
 // A sum for each place in a register, in an order of its own.
 float SumOf(const float* values, std::size_t count) {
@@ -220,6 +304,38 @@ double FillErrorMap::Over(const Box& box, int every) const {
     }
   }
   return cells * CellVolume(grid_) * every;
+}
+
+CapsuleErrors ErrorsByCapsule(const OccupancyGrid& grid, const capsule::MirroredSet& graph,
+                              const ThreadPool& pool) {
+  const std::vector<Cone> cones = ConesOf(graph);
+  const std::vector<int> groups = GroupsOf(graph);
+  std::vector<CapsuleErrors> parts((grid.ny + kLayersAtOnce - 1) / kLayersAtOnce);
+  pool.ForChunks(grid.ny, kLayersAtOnce, [&](std::size_t begin, std::size_t end) {
+    CapsuleErrors& part = parts[begin / kLayersAtOnce];
+    part.beside_m3.assign(cones.size(), 0.0);
+    part.loss_m3.assign(cones.size(), 0.0);
+    ErrorRows rows(grid, cones, WholeRange(grid));
+    const auto take = [&](Eigen::Vector3f middle, const std::vector<ErrorRows::Owner>& owners) {
+      for (const ErrorRows::Owner& owner : owners) {
+        int group = owner.group;
+        if (group >= 0) part.loss_m3[group] += owner.error_without - owner.error;
+        if (group < 0 && owner.error > kLeastError) group = groups[NearestCone(cones, middle)];
+        if (group >= 0) part.beside_m3[group] += owner.error;
+        middle.z() += grid.cell_m;
+      }
+    };
+    for (std::size_t y = begin; y < end; ++y) rows.OwnedLayer(static_cast<int>(y), groups, take);
+  });
+  CapsuleErrors errors{std::vector<double>(cones.size(), 0.0),
+                       std::vector<double>(cones.size(), 0.0)};
+  for (std::size_t i = 0; i < cones.size(); ++i) {
+    for (const CapsuleErrors& part : parts) {
+      errors.beside_m3[i] += part.beside_m3[groups[i]] * CellVolume(grid);
+      errors.loss_m3[i] += part.loss_m3[groups[i]] * CellVolume(grid);
+    }
+  }
+  return errors;
 }
 
 double GridError(const OccupancyGrid& grid, const capsule::MirroredSet& graph,

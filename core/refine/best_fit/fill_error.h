@@ -35,6 +35,17 @@ class FillErrorMap {
   std::vector<float> errors_;  // by cell, in cells
 };
 
+// What each capsule of a set, and each sphere without one, has to do with its error; by index as
+// ConesOf. Of a pair of images both have what the two have together. In cubic metres.
+struct CapsuleErrors {
+  std::vector<double> beside_m3;  // error in the cells nearest to it
+  std::vector<double> loss_m3;    // by how much the error rises if it goes and all else stays
+};
+// One pass over the grid.
+[[nodiscard]] CapsuleErrors ErrorsByCapsule(const OccupancyGrid& grid,
+                                            const capsule::MirroredSet& graph,
+                                            const ThreadPool& pool);
+
 // Outside + uncovered, relative to the volume.
 [[nodiscard]] double GridError(const OccupancyGrid& grid, const capsule::MirroredSet& graph,
                                const ThreadPool& pool);

@@ -10,6 +10,7 @@
 #include "core/refine/best_fit/best_fit_objective.h"
 #include "core/refine/best_fit/growth.h"
 #include "core/refine/best_fit/occupancy_grid.h"
+#include "core/refine/best_fit/respend.h"
 #include "core/refine/best_fit/thin_out.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/refine/layouts/layout.h"
@@ -114,7 +115,8 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const RefineOpti
   if (graph.primitive_count() != used)
     objective.Settle(Effort::kTighten, pool, meter.observer(), graph);
   meter.Expect(until, 1);
-  SpendByCutting(objective, budget, pool, meter, graph);
+  if (getenv("OLD")) SpendByCutting(objective, budget, pool, meter, graph);
+  else Respend(objective, budget, kPieceCost, pool, meter, graph);
   return graph;
 }
 
@@ -173,6 +175,19 @@ capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& op
     }
   }
   return best;
+}
+
+capsule::PrimitiveSet GrowBestFit(const body::Body& body, const RefineOptions& options,
+                                  const ThreadPool& pool, WorkMeter& meter,
+                                  capsule::PrimitiveSet set) {
+  if (set.spheres.empty()) return set;
+  const bool is_mirrored = body.is_symmetric && capsule::ImagesOf(set).is_whole;
+  const BestFitObjective objective = MakeBestFitObjective(body, options, is_mirrored, pool);
+  capsule::MirroredSet graph(std::move(set), is_mirrored);
+  objective.Settle(Effort::kRough, pool, meter.observer(), graph);
+  RemoveUseless(graph);
+  Respend(objective, options.budget, kPieceCost, pool, meter, graph);
+  return graph.set();
 }
 
 void SettleHungBestFit(const body::Body& body, const RefineOptions& options, const ThreadPool& pool,

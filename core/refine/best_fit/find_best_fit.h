@@ -15,6 +15,10 @@ namespace capfit::refine {
 [[nodiscard]] capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& options,
                                                const ThreadPool& pool, WorkMeter& meter);
 
+[[nodiscard]] capsule::PrimitiveSet GrowBestFit(const body::Body& body, const RefineOptions& options,
+                                  const ThreadPool& pool, WorkMeter& meter,
+                                  capsule::PrimitiveSet set);
+
 // Moves and sizes a graph that hangs on the body in the places that it had on another one; its
 // topology stays.
 void SettleHungBestFit(const body::Body& body, const RefineOptions& options, const ThreadPool& pool,

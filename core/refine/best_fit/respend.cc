@@ -1,0 +1,203 @@
+#include "core/refine/best_fit/respend.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "core/capsule/cut_capsules.h"
+#include "core/refine/best_fit/fill_error.h"
+#include "core/refine/graph/cone.h"
+#include "core/refine/graph/graph_edit.h"
+
+namespace capfit::refine {
+namespace {
+
+double Env(const char* name, double other) {
+  const char* const text = std::getenv(name);
+  return text != nullptr ? std::atof(text) : other;
+}
+
+// A capsule with its image, or a sphere without one.
+struct Removal {
+  std::size_t cone = 0;
+  int saved = 0;  // primitives
+  double score = 0.0;
+};
+
+// Marks by cone, as ConesOf.
+using Marks = std::vector<char>;
+
+class Respender {
+ public:
+  Respender(const BestFitObjective& objective, const capsule::Budget& budget, double piece_cost,
+            const ThreadPool& pool, const capsule::MirroredSet& graph)
+      : budget_(budget),
+        piece_cost_(piece_cost),
+        pool_(pool),
+        graph_(graph),
+        cones_(ConesOf(graph)),
+        errors_(objective.ErrorsByCapsule(graph, pool)) {
+    const std::vector<bool> used = capsule::UsedSpheres(graph.set());
+    for (int v = 0; v < graph.sphere_count(); ++v) {
+      if (!used[v]) alone_.push_back(v);
+    }
+  }
+
+  // Without what is worth less than `share` of the cuts that it pays for.
+  [[nodiscard]] capsule::MirroredSet GiveUp(double share) const {
+    const std::vector<double> cuts = WorthOfCuts();
+    Marks gone(cones_.size(), 0), locked(cones_.size(), 0);
+    int freed = budget_.Unused(graph_.count());
+    const int most = freed + static_cast<int>(Env("MOST", 0.15) * graph_.primitive_count());
+    for (const Removal& removal : Ranked()) {
+      const auto next = static_cast<std::size_t>(freed / kCostOfCut);
+      if (next >= cuts.size() || removal.score > share * cuts[next] || freed >= most) break;
+      if (locked[removal.cone]) continue;
+      Mark(removal.cone, gone);
+      LockAround(removal.cone, locked);
+      freed += removal.saved;
+    }
+    return Without(gone);
+  }
+
+ private:
+  // Of a mirrored pair; of one on the plane half of it.
+  static constexpr int kCostOfCut = 4;
+
+  [[nodiscard]] int CapsuleCount() const { return graph_.capsule_count(); }
+
+  [[nodiscard]] bool IsRepresentative(std::size_t cone) const {
+    const int i = static_cast<int>(cone);
+    return i < CapsuleCount() ? graph_.IsCapsuleRepresentative(i)
+                              : graph_.IsRepresentative(alone_[i - CapsuleCount()]);
+  }
+
+  // The cone and its image.
+  void Mark(std::size_t cone, Marks& marks) const {
+    marks[cone] = 1;
+    const int i = static_cast<int>(cone);
+    if (i < CapsuleCount()) {
+      marks[graph_.ImageOfCapsule(i)] = 1;
+      return;
+    }
+    const int image = graph_.ImageOf(alone_[i - CapsuleCount()]);
+    const auto found = std::lower_bound(alone_.begin(), alone_.end(), image);
+    marks[CapsuleCount() + (found - alone_.begin())] = 1;
+  }
+
+  // Spheres of which nothing is left go too.
+  [[nodiscard]] capsule::MirroredSet Without(const Marks& gone) const {
+    std::vector<char> spheres(graph_.spheres().size(), 0);
+    std::vector<char> capsules(graph_.capsules().size(), 0);
+    for (std::size_t e = 0; e < capsules.size(); ++e) {
+      if (gone[e]) continue;
+      capsules[e] = 1;
+      for (const int end : graph_.ends(static_cast<int>(e))) spheres[end] = 1;
+    }
+    for (std::size_t i = 0; i < alone_.size(); ++i) {
+      if (!gone[capsules.size() + i]) spheres[alone_[i]] = 1;
+    }
+    capsule::MirroredSet rest = graph_;
+    rest.KeepOnly(spheres, capsules);
+    return rest;
+  }
+
+  // Least error for each primitive first.
+  [[nodiscard]] std::vector<Removal> Ranked() const {
+    std::vector<Removal> removals;
+    for (std::size_t i = 0; i < cones_.size(); ++i) {
+      if (IsRepresentative(i)) removals.push_back({i});
+    }
+    const int pieces = ComponentCount(graph_);
+    pool_.ForEach(removals.size(), [&](std::size_t i) {
+      Removal& removal = removals[i];
+      Marks gone(cones_.size(), 0);
+      Mark(removal.cone, gone);
+      const capsule::MirroredSet rest = Without(gone);
+      removal.saved = graph_.primitive_count() - rest.primitive_count();
+      const double worth = removal.saved - piece_cost_ * (ComponentCount(rest) - pieces);
+      removal.score = errors_.loss_m3[removal.cone] / std::max(0.25, worth);
+    });
+    std::stable_sort(removals.begin(), removals.end(),
+                     [](const Removal& a, const Removal& b) { return a.score < b.score; });
+    return removals;
+  }
+
+  // Of one primitive, most first.
+  [[nodiscard]] std::vector<double> WorthOfCuts() const {
+    std::vector<double> cuts;
+    for (int e = 0; e < CapsuleCount(); ++e) {
+      if (!graph_.IsCapsuleRepresentative(e)) continue;
+      cuts.push_back(errors_.beside_m3[e] / (graph_.ImageOfCapsule(e) == e ? 2 : 4));
+    }
+    std::sort(cuts.begin(), cuts.end(), std::greater<>());
+    return cuts;
+  }
+
+  // What may have to fill what the cone has filled: what overlaps it or its image.
+  void LockAround(std::size_t cone, Marks& locked) const {
+    Marks own(cones_.size(), 0);
+    Mark(cone, own);
+    for (std::size_t i = 0; i < cones_.size(); ++i) {
+      if (!own[i]) continue;
+      for (std::size_t other = 0; other < cones_.size(); ++other) {
+        if (Overlap(cones_[i], cones_[other])) Mark(other, locked);
+      }
+    }
+  }
+
+  static bool Overlap(const Cone& a, const Cone& b) { return HasAxisIn(a, b) || HasAxisIn(b, a); }
+
+  static bool HasAxisIn(const Cone& a, const Cone& b) {
+    for (const float t : {0.0f, 0.5f, 1.0f}) {
+      const float along = t * a.highest;
+      if (b.SignedDistance(a.ax + along * a.ux, a.ay + along * a.uy, a.az + along * a.uz) < 0.0f) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const capsule::Budget& budget_;
+  double piece_cost_;
+  const ThreadPool& pool_;
+  const capsule::MirroredSet& graph_;
+  std::vector<Cone> cones_;
+  CapsuleErrors errors_;
+  std::vector<int> alone_;  // spheres without a capsule
+};
+
+}  // namespace
+
+void Respend(const BestFitObjective& objective, const capsule::Budget& budget, double piece_cost,
+             const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph) {
+  double share = Env("SHARE", 0.3);
+  double value = objective.Value(graph, pool);
+  const int rounds = static_cast<int>(Env("ROUNDS", 8));
+  for (int round = 0; round < rounds && !meter.IsCancelled(); ++round) {
+    capsule::MirroredSet other =
+        Respender(objective, budget, piece_cost, pool, graph).GiveUp(share);
+    const int left = other.primitive_count();
+    std::vector<double> worth = objective.ErrorsByCapsule(other, pool).beside_m3;
+    worth.resize(other.capsules().size());
+    capsule::CutWorthiest(budget, std::move(worth), capsule::QuarterOfWhole, other);
+    if (std::getenv("DBG")) fprintf(stderr, "round %d: %d -> %d -> %d", round, graph.primitive_count(), left, other.primitive_count());
+    if (other.primitive_count() == left) return;
+    objective.Settle(Effort::kFinish, pool, meter.observer(), other);
+    MergeSwallowed(other);
+    RemoveSwallowed(other);
+    const double other_value = objective.Value(other, pool);
+    if (std::getenv("DBG")) fprintf(stderr, " -> %d value %.5f -> %.5f\n", other.primitive_count(), value, other_value);
+    if (other_value < value) {
+      graph = std::move(other);
+      value = other_value;
+    } else {
+      share *= 0.5;
+      if (share < Env("STOP", 0.1)) return;
+    }
+  }
+}
+
+}  // namespace capfit::refine
