@@ -24,8 +24,6 @@
 #include "core/pipeline/take_body.h"
 #include "core/pipeline/to_caller_frame.h"
 #include "core/refine/refine.h"
-#include "core/refine/best_fit/find_best_fit.h"
-#include "core/base/work_meter.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -204,10 +202,8 @@ class BodyFit {
     capsule::PrimitiveSet set = std::move(stage.set);
     if (!IsSearched(options_) && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);
-      if (!getenv("OLD")) { WorkMeter meter(clock_); auto b = TotalBudget(options_);
-        if (options_.polygon_error) b.max_primitives = set.primitive_count();
-        set = refine::GrowBestFit(*body_, RefineOptionsFor(options_, b, will_move_), pool_, meter, std::move(set)); } else
-      set = SettleBestFit(*body_, options_, clock_, std::move(set));
+      set = refine::SettleSet(*body_, RefineOptionsFor(options_, RefinedBudget(set), will_move_),
+                              pool_, clock_, std::move(set));
     }
     found_.assign(1, {std::move(set), /*has_shape=*/false});
     if (options_.want_polygons) {
@@ -216,12 +212,18 @@ class BodyFit {
     return CheckCancelled(clock_);
   }
 
+  // What a search may spend: where an error of sections was asked for, as much as the published
+  // method took for it.
+  [[nodiscard]] capsule::Budget RefinedBudget(const capsule::PrimitiveSet& published) const {
+    capsule::Budget budget = TotalBudget(options_);
+    if (options_.polygon_error.has_value()) budget.max_primitives = published.primitive_count();
+    return budget;
+  }
+
   absl::Status Refine() {
     clock_.Begin(Stage::kRefine);
-    capsule::Budget budget = TotalBudget(options_);
-    if (options_.polygon_error.has_value()) {
-      budget.max_primitives = found_.front().set.primitive_count();
-    }
+    capsule::Budget budget = options_.polygon_error.has_value() ? RefinedBudget(found_.front().set)
+                                                                : TotalBudget(options_);
     if (ProfileOf(options_) == capsule::CapsuleProfile::kUniformRadius) {
       // A tree: spheres without a capsule would be shapes of their own.
       budget.max_spheres = budget.max_capsules + 1;

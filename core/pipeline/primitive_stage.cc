@@ -9,7 +9,6 @@
 #include "core/capsule/build_primitives.h"
 #include "core/pipeline/plan.h"
 #include "core/pipeline/spend_rest.h"
-#include "core/refine/best_fit/best_fit_settle.h"
 
 namespace capfit::pipeline {
 namespace {
@@ -17,9 +16,6 @@ namespace {
 // Primitives that may stay unused: what the cheapest mirrored pair of circles costs.
 constexpr int kUnusedAllowed = 3;
 constexpr int kMaxRounds = 6;
-constexpr int kMaxSettlings = 3;
-constexpr double kRateFromCirclesM = 0.008;
-constexpr double kRateFromCutsM = 0.003;
 
 PrimitiveStage Build(std::span<const section::FeaturePolygon> polygons,
                      const std::vector<int>& circle_counts, const Overhead& overhead,
@@ -116,22 +112,6 @@ std::optional<Warning> WarningOfPolygonError(
                                  "neither a polygon nor a set may have more circles",
                                  missed, polygons.size(), polygon_error, worst),
                  missed};
-}
-
-capsule::PrimitiveSet SettleBestFit(const body::Body& body, const FitOptions& options,
-                                    const FitObserver& observer, capsule::PrimitiveSet set) {
-  capsule::Budget total = TotalBudget(options);
-  if (options.polygon_error.has_value()) total.max_primitives = set.primitive_count();
-  const refine::OccupancyGrid grid = refine::BestFitGrid(body, options.parts);
-  double rate_m = kRateFromCirclesM;
-  for (int round = 0; round < kMaxSettlings && !observer.IsCancelled(); ++round) {
-    set = refine::SettleBestFit(grid, rate_m, options.seed, observer, std::move(set));
-    capsule::RemoveCoveredCapsules(set);
-    if (total.Unused(set.count()) <= kUnusedAllowed) break;
-    SpendRest(total, set);
-    rate_m = kRateFromCutsM;
-  }
-  return set;
 }
 
 }  // namespace capfit::pipeline

@@ -43,14 +43,6 @@ struct PrimitiveStage {
     double polygon_error, std::span<const section::FeaturePolygon> polygons,
     std::span<const circle::PolygonApproximation> approximations);
 
-// A best fit of quality paper, which nothing encloses later: circles and capsules stay as the
-// topology, centres and radii move to the smallest E_r (core/refine), capsules that others cover by
-// then go, and what that frees is spent by cutting capsules in two. About 60 ms at 64 primitives,
-// less when the observer cancels.
-[[nodiscard]] capsule::PrimitiveSet SettleBestFit(const body::Body& body, const FitOptions& options,
-                                                  const FitObserver& observer,
-                                                  capsule::PrimitiveSet set);
-
 }  // namespace capfit::pipeline
 
 #endif  // CAPFIT_CORE_PIPELINE_PRIMITIVE_STAGE_H_

@@ -57,6 +57,14 @@ capsule::PrimitiveSet RefineSet(const body::Body& body, const tighten::CoverTarg
   return set;
 }
 
+capsule::PrimitiveSet SettleSet(const body::Body& body, const RefineOptions& options,
+                                const ThreadPool& pool, FitObserver& observer,
+                                capsule::PrimitiveSet set) {
+  if (set.spheres.empty()) return set;
+  WorkMeter meter(observer);
+  return SettleBestFit(body, options, pool, meter, std::move(set)).set();
+}
+
 absl::StatusOr<capsule::PrimitiveSet> FitToLayout(const body::Body& body,
                                                   const tighten::CoverTarget& target,
                                                   const KeptLayout& layout,

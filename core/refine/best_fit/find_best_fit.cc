@@ -42,9 +42,12 @@ constexpr double kMuchSpared = 0.75;  // of the budget
 constexpr int kLargestGrown = 128;
 // How much of the time of a best fit has gone by when it is done with each, as measured.
 constexpr double kSettled = 0.02;
-constexpr double kGrown = 0.5;
-constexpr double kExchanged = 0.75;
-constexpr double kFinished = 0.78;
+constexpr double kGrown = 0.4;
+constexpr double kExchanged = 0.6;
+constexpr double kFinished = 0.65;
+constexpr double kGrownLast = 0.7;
+// The same of a set that is only settled.
+constexpr double kSettledFirst = 0.1;
 
 // The vertices of the selected parts; folded to x >= 0 where symmetric. Of mirrored vertices both
 // stay: thinning out keeps one of them.
@@ -110,13 +113,11 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const RefineOpti
   const int used = graph.primitive_count();
   GrowthOptions last;
   last.piece_cost = kPieceCost;
-  last.until = until;
+  last.until = at(kGrownLast);
   Grow(objective, budget, last, pool, meter, graph);
   if (graph.primitive_count() != used)
     objective.Settle(Effort::kTighten, pool, meter.observer(), graph);
-  meter.Expect(until, 1);
-  if (getenv("OLD")) SpendByCutting(objective, budget, pool, meter, graph);
-  else Respend(objective, budget, kPieceCost, pool, meter, graph);
+  Respend(objective, budget, {kPieceCost, until}, pool, meter, graph);
   return graph;
 }
 
@@ -177,17 +178,17 @@ capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& op
   return best;
 }
 
-capsule::PrimitiveSet GrowBestFit(const body::Body& body, const RefineOptions& options,
-                                  const ThreadPool& pool, WorkMeter& meter,
-                                  capsule::PrimitiveSet set) {
-  if (set.spheres.empty()) return set;
+capsule::MirroredSet SettleBestFit(const body::Body& body, const RefineOptions& options,
+                                   const ThreadPool& pool, WorkMeter& meter,
+                                   capsule::PrimitiveSet set) {
   const bool is_mirrored = body.is_symmetric && capsule::ImagesOf(set).is_whole;
   const BestFitObjective objective = MakeBestFitObjective(body, options, is_mirrored, pool);
   capsule::MirroredSet graph(std::move(set), is_mirrored);
+  meter.Expect(kSettledFirst, 1);
   objective.Settle(Effort::kRough, pool, meter.observer(), graph);
   RemoveUseless(graph);
-  Respend(objective, options.budget, kPieceCost, pool, meter, graph);
-  return graph.set();
+  Respend(objective, options.budget, {kPieceCost, 1.0}, pool, meter, graph);
+  return graph;
 }
 
 void SettleHungBestFit(const body::Body& body, const RefineOptions& options, const ThreadPool& pool,

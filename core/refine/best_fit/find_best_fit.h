@@ -15,9 +15,11 @@ namespace capfit::refine {
 [[nodiscard]] capsule::MirroredSet FindBestFit(const body::Body& body, const RefineOptions& options,
                                                const ThreadPool& pool, WorkMeter& meter);
 
-[[nodiscard]] capsule::PrimitiveSet GrowBestFit(const body::Body& body, const RefineOptions& options,
-                                  const ThreadPool& pool, WorkMeter& meter,
-                                  capsule::PrimitiveSet set);
+// The same from a set that is there, without trials.
+[[nodiscard]] capsule::MirroredSet SettleBestFit(const body::Body& body,
+                                                 const RefineOptions& options,
+                                                 const ThreadPool& pool, WorkMeter& meter,
+                                                 capsule::PrimitiveSet set);
 
 // Moves and sizes a graph that hangs on the body in the places that it had on another one; its
 // topology stays.

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/capsule/cut_capsules.h"
 #include "core/refine/graph/graph_edit.h"
 #include "core/refine/internal.h"
 
@@ -34,8 +33,6 @@ constexpr double kExchangeShare = 0.1;
 constexpr std::size_t kMostFailures = 4;
 // Of the removals glanced at, how many are tried thoroughly.
 constexpr double kSpareThoroughShare = 0.3;
-// So often capsules are cut and all is settled again.
-constexpr int kCuttingRounds = 3;
 // A round of trials is taken for this share of what is left of the work, until it shows how far it
 // went; a trial in earnest for so many glances.
 constexpr double kRoundShare = 0.1;
@@ -351,29 +348,7 @@ void Exchange(const BestFitObjective& objective, const capsule::Budget& budget,
   }
 }
 
-double OutlineOfHalf(const capsule::MirroredSet& set, int half, double /*whole*/) {
-  return capsule::OutlineArea(set, half);
-}
-
 }  // namespace
-
-void SpendByCutting(const BestFitObjective& objective, const capsule::Budget& budget,
-                    const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph) {
-  if (meter.IsCancelled()) return;
-  double value = objective.Value(graph, pool);
-  for (int round = 0; round < kCuttingRounds && !meter.IsCancelled(); ++round) {
-    capsule::MirroredSet cut = graph;
-    capsule::CutWorthiest(budget, capsule::OutlineAreas(cut), OutlineOfHalf, cut);
-    if (cut.primitive_count() == graph.primitive_count()) return;
-    objective.Settle(Effort::kFinish, pool, meter.observer(), cut);
-    MergeSwallowed(cut);
-    RemoveSwallowed(cut);
-    const double cut_value = objective.Value(cut, pool);
-    if (cut_value >= value) return;
-    graph = std::move(cut);
-    value = cut_value;
-  }
-}
 
 void Spare(const BestFitObjective& objective, const capsule::Budget& budget,
            const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,

@@ -31,11 +31,6 @@ void Grow(const BestFitObjective& objective, const capsule::Budget& budget,
           const GrowthOptions& options, const ThreadPool& pool, WorkMeter& meter,
           capsule::MirroredSet& graph);
 
-// Spends what growing left, where single edits gain too little to tell: cuts the capsules with most
-// surface in two and settles all; kept where the value falls.
-void SpendByCutting(const BestFitObjective& objective, const capsule::Budget& budget,
-                    const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph);
-
 }  // namespace capfit::refine
 
 #endif  // CAPFIT_CORE_REFINE_BEST_FIT_GROWTH_H_

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -14,10 +14,17 @@
 namespace capfit::refine {
 namespace {
 
-double Env(const char* name, double other) {
-  const char* const text = std::getenv(name);
-  return text != nullptr ? std::atof(text) : other;
-}
+constexpr int kMostRounds = 8;
+// What is given up is worth less than this share of the error beside what is cut for it, as cuts
+// take only part of that; half of it where a round won nothing, down to the least.
+constexpr double kShareGivenUp = 0.45;
+constexpr double kLeastShareGivenUp = 0.1;
+// A round gives up no more than this share of all primitives.
+constexpr double kMostGivenUp = 0.2;
+// A round is taken for this share of the work that is left.
+constexpr double kRespendShare = 0.3;
+// What a removal saves counts at least so many primitives, however many pieces it makes.
+constexpr double kLeastSaving = 0.25;
 
 // A capsule with its image, or a sphere without one.
 struct Removal {
@@ -29,10 +36,11 @@ struct Removal {
 // Marks by cone, as ConesOf.
 using Marks = std::vector<char>;
 
-class Respender {
+// One round: what goes.
+class RespendRound {
  public:
-  Respender(const BestFitObjective& objective, const capsule::Budget& budget, double piece_cost,
-            const ThreadPool& pool, const capsule::MirroredSet& graph)
+  RespendRound(const BestFitObjective& objective, const capsule::Budget& budget, double piece_cost,
+               const ThreadPool& pool, const capsule::MirroredSet& graph)
       : budget_(budget),
         piece_cost_(piece_cost),
         pool_(pool),
@@ -50,7 +58,7 @@ class Respender {
     const std::vector<double> cuts = WorthOfCuts();
     Marks gone(cones_.size(), 0), locked(cones_.size(), 0);
     int freed = budget_.Unused(graph_.count());
-    const int most = freed + static_cast<int>(Env("MOST", 0.15) * graph_.primitive_count());
+    const int most = freed + static_cast<int>(kMostGivenUp * graph_.primitive_count());
     for (const Removal& removal : Ranked()) {
       const auto next = static_cast<std::size_t>(freed / kCostOfCut);
       if (next >= cuts.size() || removal.score > share * cuts[next] || freed >= most) break;
@@ -118,7 +126,7 @@ class Respender {
       const capsule::MirroredSet rest = Without(gone);
       removal.saved = graph_.primitive_count() - rest.primitive_count();
       const double worth = removal.saved - piece_cost_ * (ComponentCount(rest) - pieces);
-      removal.score = errors_.loss_m3[removal.cone] / std::max(0.25, worth);
+      removal.score = errors_.loss_m3[removal.cone] / std::max(kLeastSaving, worth);
     });
     std::stable_sort(removals.begin(), removals.end(),
                      [](const Removal& a, const Removal& b) { return a.score < b.score; });
@@ -171,31 +179,30 @@ class Respender {
 
 }  // namespace
 
-void Respend(const BestFitObjective& objective, const capsule::Budget& budget, double piece_cost,
-             const ThreadPool& pool, WorkMeter& meter, capsule::MirroredSet& graph) {
-  double share = Env("SHARE", 0.3);
+void Respend(const BestFitObjective& objective, const capsule::Budget& budget,
+             const RespendOptions& options, const ThreadPool& pool, WorkMeter& meter,
+             capsule::MirroredSet& graph) {
+  double share = kShareGivenUp;
   double value = objective.Value(graph, pool);
-  const int rounds = static_cast<int>(Env("ROUNDS", 8));
-  for (int round = 0; round < rounds && !meter.IsCancelled(); ++round) {
+  for (int round = 0; round < kMostRounds && !meter.IsCancelled(); ++round) {
+    meter.ExpectShare(kRespendShare, options.until, 1);
     capsule::MirroredSet other =
-        Respender(objective, budget, piece_cost, pool, graph).GiveUp(share);
+        RespendRound(objective, budget, options.piece_cost, pool, graph).GiveUp(share);
     const int left = other.primitive_count();
     std::vector<double> worth = objective.ErrorsByCapsule(other, pool).beside_m3;
     worth.resize(other.capsules().size());
     capsule::CutWorthiest(budget, std::move(worth), capsule::QuarterOfWhole, other);
-    if (std::getenv("DBG")) fprintf(stderr, "round %d: %d -> %d -> %d", round, graph.primitive_count(), left, other.primitive_count());
     if (other.primitive_count() == left) return;
     objective.Settle(Effort::kFinish, pool, meter.observer(), other);
     MergeSwallowed(other);
     RemoveSwallowed(other);
     const double other_value = objective.Value(other, pool);
-    if (std::getenv("DBG")) fprintf(stderr, " -> %d value %.5f -> %.5f\n", other.primitive_count(), value, other_value);
     if (other_value < value) {
       graph = std::move(other);
       value = other_value;
     } else {
       share *= 0.5;
-      if (share < Env("STOP", 0.1)) return;
+      if (share < kLeastShareGivenUp) return;
     }
   }
 }

@@ -126,17 +126,5 @@ TEST(GrowthTest, SparingEndsWithinTheBudget) {
   }
 }
 
-TEST(GrowthTest, CuttingIsKeptOnlyWhereItPays) {
-  NullObserver observer;
-  WorkMeter meter(observer);
-  capsule::MirroredSet graph = Small();
-  Objective().Settle(Effort::kFinish, ThreadPool(1), NullObserver(), graph);
-  const double before = Objective().Value(graph, ThreadPool(1));
-  SpendByCutting(Objective(), {7, capsule::kNoLimit, capsule::kNoLimit}, ThreadPool(1), meter,
-                 graph);
-  EXPECT_LE(Objective().Value(graph, ThreadPool(1)), before);
-  EXPECT_LE(graph.primitive_count(), 7);
-}
-
 }  // namespace
 }  // namespace capfit::refine
