@@ -16,7 +16,8 @@ void WorkMeter::Add(std::int64_t work) const {
   const std::int64_t done = done_.fetch_add(work) + work;
   if (std::this_thread::get_id() != owner_) return;
   const double share = static_cast<double>(done) / static_cast<double>(expected_);
-  observer_.OnFraction(from_ + std::min(1.0, share) * (until_ - from_));
+  // Rounding must not tell more than the next part begins with.
+  observer_.OnFraction(std::min(until_, from_ + std::min(1.0, share) * (until_ - from_)));
 }
 
 }  // namespace capfit

@@ -15,6 +15,7 @@ namespace capfit::refine {
 namespace {
 
 constexpr int kMostRounds = 8;
+constexpr int kMostLastRounds = 2;  // that only spend what is left
 // What is given up is worth less than this share of the error beside what is cut for it, as cuts
 // take only part of that; half of it where a round won nothing, down to the least.
 constexpr double kShareGivenUp = 0.45;
@@ -184,7 +185,8 @@ void Respend(const BestFitObjective& objective, const capsule::Budget& budget,
              capsule::MirroredSet& graph) {
   double share = kShareGivenUp;
   double value = objective.Value(graph, pool);
-  for (int round = 0; round < kMostRounds && !meter.IsCancelled(); ++round) {
+  for (int round = 0; round < kMostRounds + kMostLastRounds && !meter.IsCancelled(); ++round) {
+    if (round == kMostRounds) share = 0.0;
     meter.ExpectShare(kRespendShare, options.until, 1);
     capsule::MirroredSet other =
         RespendRound(objective, budget, options.piece_cost, pool, graph).GiveUp(share);
@@ -192,7 +194,7 @@ void Respend(const BestFitObjective& objective, const capsule::Budget& budget,
     std::vector<double> worth = objective.ErrorsByCapsule(other, pool).beside_m3;
     worth.resize(other.capsules().size());
     capsule::CutWorthiest(budget, std::move(worth), capsule::QuarterOfWhole, other);
-    if (other.primitive_count() == left) return;
+    if (other.primitive_count() == left) break;
     objective.Settle(Effort::kFinish, pool, meter.observer(), other);
     MergeSwallowed(other);
     RemoveSwallowed(other);
@@ -200,11 +202,11 @@ void Respend(const BestFitObjective& objective, const capsule::Budget& budget,
     if (other_value < value) {
       graph = std::move(other);
       value = other_value;
-    } else {
-      share *= 0.5;
-      if (share < kLeastShareGivenUp) return;
+    } else if ((share *= 0.5) < kLeastShareGivenUp) {
+      break;
     }
   }
+  meter.Expect(options.until, 1);
 }
 
 }  // namespace capfit::refine
