@@ -14,7 +14,6 @@
 namespace capfit::refine {
 namespace {
 
-constexpr int kMostRounds = 8;
 constexpr int kMostLastRounds = 2;  // that only spend what is left
 // What is given up is worth less than this share of the error beside what is cut for it, as cuts
 // take only part of that; half of it where a round won nothing, down to the least.
@@ -185,8 +184,8 @@ void Respend(const BestFitObjective& objective, const capsule::Budget& budget,
              capsule::MirroredSet& graph) {
   double share = kShareGivenUp;
   double value = objective.Value(graph, pool);
-  for (int round = 0; round < kMostRounds + kMostLastRounds && !meter.IsCancelled(); ++round) {
-    if (round == kMostRounds) share = 0.0;
+  for (int round = 0; round < options.rounds + kMostLastRounds && !meter.IsCancelled(); ++round) {
+    if (round == options.rounds) share = 0.0;
     meter.ExpectShare(kRespendShare, options.until, 1);
     capsule::MirroredSet other =
         RespendRound(objective, budget, options.piece_cost, pool, graph).GiveUp(share);

@@ -12,12 +12,13 @@ namespace capfit::refine {
 
 struct RespendOptions {
   double piece_cost = 0.0;  // as GrowthOptions
+  int rounds = 8;           // at most, and two that only spend what is left
   double until = 1.0;       // what the meter shows in the end
 };
 
 // Gives up what fills least that nothing else fills, cuts the capsules with most error beside them
 // in two with what that frees and what the budget has left, and settles all; as long as the value
-// falls, up to eight times. One look at the cells tells what all of it is worth, where growing
+// falls. One look at the cells tells what all of it is worth, where growing
 // tries each edit by itself: of some hundred primitives it leads further in less time. A round
 // takes hardly more than its settling, 10 to 150 ms for 64 to 350 primitives. Same bits for any
 // pool.

@@ -44,7 +44,7 @@ capsule::MirroredSet Wasteful(bool wasted) {
 capsule::MirroredSet Respent(int primitives, int threads, capsule::MirroredSet set) {
   NullObserver observer;
   WorkMeter meter(observer);
-  Respend(OfBall(), {primitives, capsule::kNoLimit, capsule::kNoLimit}, {kPieceCost, 0.5},
+  Respend(OfBall(), {primitives, capsule::kNoLimit, capsule::kNoLimit}, {kPieceCost, 8, 0.5},
           ThreadPool(threads), meter, set);
   EXPECT_LE(meter.until(), 0.5);
   return set;
