@@ -193,6 +193,8 @@ capsule::MirroredSet SettleBestFit(const body::Body& body, const RefineOptions& 
   meter.Expect(kSettledFirst, 1);
   objective.Settle(Effort::kRough, pool, meter.observer(), graph);
   RemoveUseless(graph);
+  // Of few primitives nothing may be left to spend, and no round settles them.
+  objective.Settle(Effort::kFinish, pool, meter.observer(), graph);
   Respend(objective, options.budget, {kPieceCost, kRespends, 1.0}, pool, meter, graph);
   return graph;
 }
