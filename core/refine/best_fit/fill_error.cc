@@ -58,8 +58,27 @@ class ErrorRows {
   ErrorRows(const OccupancyGrid& grid, const std::vector<Cone>& cones, const CellRange& range)
       : grid_(grid), cones_(cones), range_(range), row_(range.high[2] - range.low[2]) {}
 
-  // The same, and whose error it is: calls take(index of the first cell, its middle, owners of the
-  // cells) for each row. `groups`: by cone; those of a group go and stay together.
+  // Calls take(index of the first cell, errors of the cells) for each row in the layer `y`.
+  template <class Take>
+  void Layer(int y, const Take& take) {
+    FindSlices(y);
+    for (int x = range_.low[0]; x < range_.high[0]; ++x) {
+      const std::size_t first = grid_.ColumnOf(x, y) + range_.low[2];
+      FillRow(x, y);
+      FindErrors(first);
+      take(first, row_);
+    }
+  }
+
+  // Of one cell: the group that fills most of it, -1: none, and what it and all others fill.
+  struct Owner {
+    int group = -1;
+    float share = 0.0f, share_of_others = 0.0f;
+    float error = 0.0f, error_without = 0.0f;
+  };
+
+  // The same, and whose error it is: calls take(middle of the first cell, owners of the cells) for
+  // each row. `groups`: by cone; those of a group go and stay together.
   template <class Take>
   void OwnedLayer(int y, const std::vector<int>& groups, const Take& take) {
     owners_.resize(row_.size());
@@ -72,25 +91,6 @@ class ErrorRows {
         owners_[k].error_without = ErrorAt(first + k, owners_[k].share_of_others);
       }
       take({MiddleOf(x, 0), MiddleOf(y, 1), MiddleOf(range_.low[2], 2)}, owners_);
-    }
-  }
-
-  // Of one cell: the group that fills most of it, -1: none, and what it and all others fill.
-  struct Owner {
-    int group = -1;
-    float share = 0.0f, share_of_others = 0.0f;
-    float error = 0.0f, error_without = 0.0f;
-  };
-
-  // Calls take(index of the first cell, errors of the cells) for each row in the layer `y`.
-  template <class Take>
-  void Layer(int y, const Take& take) {
-    FindSlices(y);
-    for (int x = range_.low[0]; x < range_.high[0]; ++x) {
-      const std::size_t first = grid_.ColumnOf(x, y) + range_.low[2];
-      FillRow(x, y);
-      FindErrors(first);
-      take(first, row_);
     }
   }
 

@@ -18,10 +18,10 @@ struct RespendOptions {
 
 // Gives up what fills least that nothing else fills, cuts the capsules with most error beside them
 // in two with what that frees and what the budget has left, and settles all; as long as the value
-// falls. One look at the cells tells what all of it is worth, where growing
-// tries each edit by itself: of some hundred primitives it leads further in less time. A round
-// takes hardly more than its settling, 10 to 150 ms for 64 to 350 primitives. Same bits for any
-// pool.
+// falls, which can leave some of the budget. One look at the cells tells what all of it is worth,
+// where growing tries each edit by itself: of some hundred primitives it leads further in less
+// time. A round takes hardly more than its settling, 10 to 150 ms for 64 to 350 primitives. Same
+// bits for any pool.
 void Respend(const BestFitObjective& objective, const capsule::Budget& budget,
              const RespendOptions& options, const ThreadPool& pool, WorkMeter& meter,
              capsule::MirroredSet& graph);
