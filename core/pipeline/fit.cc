@@ -202,8 +202,9 @@ class BodyFit {
     capsule::PrimitiveSet set = std::move(stage.set);
     if (!IsSearched(options_) && options_.fit == FitMode::kBestFit && !options_.layout) {
       clock_.Begin(Stage::kRefine);
-      set = refine::SettleSet(*body_, RefineOptionsFor(options_, RefinedBudget(set), will_move_),
-                              pool_, clock_, std::move(set));
+      const refine::RefineOptions refine_options =
+          RefineOptionsFor(options_, RefinedBudget(set), will_move_);
+      set = refine::SettleSet(*body_, refine_options, pool_, clock_, std::move(set));
     }
     found_.assign(1, {std::move(set), /*has_shape=*/false});
     if (options_.want_polygons) {

@@ -52,6 +52,14 @@ double BestFitObjective::Value(const capsule::MirroredSet& graph, const ThreadPo
   return GridError(grid_, graph, pool) + MissPenalty(*points_, missed_m);
 }
 
+std::vector<double> BestFitObjective::MissedWithout(const capsule::MirroredSet& graph,
+                                                    const ThreadPool& pool) const {
+  std::vector<double> missed =
+      refine::MissedWithout(*points_, ConesOf(graph), ImagesOfCones(graph), pool);
+  for (double& value : missed) value = MissPenalty(*points_, value) * grid_.volume_m3;
+  return missed;
+}
+
 BestFitRound BestFitObjective::StartRound(const capsule::MirroredSet& graph,
                                           const ThreadPool& pool) const {
   return {grid_, coarse_, *points_, groups_, seed_, graph, pool};

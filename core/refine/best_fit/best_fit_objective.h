@@ -41,6 +41,10 @@ class BestFitObjective {
                                               const ThreadPool& pool) const {
     return refine::ErrorsByCapsule(grid_, graph, pool);
   }
+  // By cone, as ConesOf: by how much MissPenalty rises if it and its image go and all else stays;
+  // in cubic metres, as the losses of ErrorsByCapsule.
+  [[nodiscard]] std::vector<double> MissedWithout(const capsule::MirroredSet& graph,
+                                                  const ThreadPool& pool) const;
   // Points of the surface where a new sphere would help most, best first, apart from each other.
   [[nodiscard]] std::vector<Eigen::Vector3d> WorstPoints(const capsule::MirroredSet& graph,
                                                          int count, const ThreadPool& pool) const;

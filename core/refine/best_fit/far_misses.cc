@@ -8,6 +8,30 @@ namespace {
 
 constexpr double kMissWeightPerM = 10.0;
 constexpr float kNowhereM = 1e6f;
+constexpr std::size_t kPointsAtOnce = 64;  // that one thread looks up
+
+// Of one point: the cone that reaches furthest beyond it, and how far from it that one is and the
+// nearest that is no image of it.
+struct NearestCones {
+  int cone = -1;
+  float distance_m = kNowhereM, other_m = kNowhereM;
+};
+
+NearestCones NearestConesOf(const Eigen::Vector3f& point, const std::vector<Cone>& cones,
+                            const std::vector<int>& images) {
+  NearestCones nearest;
+  for (int i = 0; i < static_cast<int>(cones.size()); ++i) {
+    const float distance = cones[i].SignedDistance(point.x(), point.y(), point.z());
+    if (nearest.cone >= 0 && (nearest.cone == i || nearest.cone == images[i])) {
+      nearest.distance_m = std::min(nearest.distance_m, distance);
+    } else if (distance < nearest.distance_m) {
+      nearest = {i, distance, nearest.distance_m};
+    } else {
+      nearest.other_m = std::min(nearest.other_m, distance);
+    }
+  }
+  return nearest;
+}
 
 }  // namespace
 
@@ -25,6 +49,26 @@ std::vector<double> FarMisses(const SurfacePoints& points, const capsule::Mirror
   std::vector<double> misses = ExcessOf(points, graph, pool);
   for (double& miss : misses) miss = std::max(0.0, miss - kFarMissM);
   return misses;
+}
+
+std::vector<double> MissedWithout(const SurfacePoints& points, const std::vector<Cone>& cones,
+                                  const std::vector<int>& images, const ThreadPool& pool) {
+  std::vector<NearestCones> nearest(points.grid.size());
+  pool.ForChunks(nearest.size(), kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      nearest[i] = NearestConesOf(points.grid.point(i).cast<float>(), cones, images);
+    }
+  });
+  const auto allowed = static_cast<float>(kFarMissM + points.allowed_m);
+  std::vector<double> more_m(cones.size(), 0.0);
+  for (const NearestCones& of_point : nearest) {
+    if (of_point.cone < 0) continue;
+    const double more =
+        std::max(0.0f, of_point.other_m - allowed) - std::max(0.0f, of_point.distance_m - allowed);
+    more_m[of_point.cone] += more;
+    if (images[of_point.cone] != of_point.cone) more_m[images[of_point.cone]] += more;
+  }
+  return more_m;
 }
 
 PointGroups::PointGroups(const SurfacePoints& points) : points_(points) {

@@ -35,6 +35,13 @@ struct SurfacePoints {
                                             const capsule::MirroredSet& graph,
                                             const ThreadPool& pool);
 
+// By cone: how much more is missed by far without it and its image (ImagesOfCones), if all else
+// stays; in metres, summed up. Both of a pair have what the two have together.
+[[nodiscard]] std::vector<double> MissedWithout(const SurfacePoints& points,
+                                                const std::vector<Cone>& cones,
+                                                const std::vector<int>& images,
+                                                const ThreadPool& pool);
+
 // The points in groups of eight neighbours, for many quick looks at some of them.
 class PointGroups {
  public:

@@ -219,18 +219,8 @@ class ErrorRows {
 
 // By cone: the lower index of it and its image.
 std::vector<int> GroupsOf(const capsule::MirroredSet& graph) {
-  std::vector<int> groups;
-  for (int e = 0; e < graph.capsule_count(); ++e) {
-    groups.push_back(std::min(e, graph.ImageOfCapsule(e)));
-  }
-  const std::vector<bool> used = capsule::UsedSpheres(graph.set());
-  std::vector<int> cone_of(used.size(), -1);
-  for (int v = 0; v < graph.sphere_count(); ++v) {
-    if (used[v]) continue;
-    cone_of[v] = static_cast<int>(groups.size());
-    const int image = graph.ImageOf(v);
-    groups.push_back(image < v ? cone_of[image] : cone_of[v]);
-  }
+  std::vector<int> groups = ImagesOfCones(graph);
+  for (int i = 0; i < static_cast<int>(groups.size()); ++i) groups[i] = std::min(groups[i], i);
   return groups;
 }
 

@@ -14,7 +14,7 @@
 namespace capfit::refine {
 namespace {
 
-constexpr int kMostLastRounds = 2;  // that only spend what is left
+constexpr int kMostLastRounds = 4;  // that only spend what is left
 // What is given up is worth less than this share of the error beside what is cut for it, as cuts
 // take only part of that; half of it where a round won nothing, down to the least.
 constexpr double kShareGivenUp = 0.45;
@@ -36,32 +36,41 @@ struct Removal {
 // Marks by cone, as ConesOf.
 using Marks = std::vector<char>;
 
+// What may go in a round.
+struct Price {
+  double share = kShareGivenUp;  // of what is won, that may be lost
+  // What would be missed by far counts as a loss too: more than it is, as what stays is drawn
+  // there, so only where a round without it won nothing.
+  bool counts_misses = false;
+};
+
 // One round: what goes.
 class RespendRound {
  public:
   RespendRound(const BestFitObjective& objective, const capsule::Budget& budget, double piece_cost,
-               const ThreadPool& pool, const capsule::MirroredSet& graph)
+               const Price& price, const ThreadPool& pool, const capsule::MirroredSet& graph)
       : budget_(budget),
         piece_cost_(piece_cost),
+        share_(price.share),
         pool_(pool),
         graph_(graph),
         cones_(ConesOf(graph)),
+        images_(ImagesOfCones(graph)),
         errors_(objective.ErrorsByCapsule(graph, pool)) {
-    const std::vector<bool> used = capsule::UsedSpheres(graph.set());
-    for (int v = 0; v < graph.sphere_count(); ++v) {
-      if (!used[v]) alone_.push_back(v);
-    }
+    if (!price.counts_misses) return;
+    const std::vector<double> missed = objective.MissedWithout(graph, pool);
+    for (std::size_t i = 0; i < missed.size(); ++i) errors_.loss_m3[i] += missed[i];
   }
 
-  // Without what is worth less than `share` of the cuts that it pays for.
-  [[nodiscard]] capsule::MirroredSet GiveUp(double share) const {
+  // Without what is worth less than the price's share of the cuts that it pays for.
+  [[nodiscard]] capsule::MirroredSet GiveUp() const {
     const std::vector<double> cuts = WorthOfCuts();
     Marks gone(cones_.size(), 0), locked(cones_.size(), 0);
     int freed = budget_.Unused(graph_.count());
     const int most = freed + static_cast<int>(kMostGivenUp * graph_.primitive_count());
     for (const Removal& removal : Ranked()) {
       const auto next = static_cast<std::size_t>(freed / kCostOfCut);
-      if (next >= cuts.size() || removal.score > share * cuts[next] || freed >= most) break;
+      if (next >= cuts.size() || removal.score > share_ * cuts[next] || freed >= most) break;
       if (locked[removal.cone]) continue;
       Mark(removal.cone, gone);
       LockAround(removal.cone, locked);
@@ -74,38 +83,22 @@ class RespendRound {
   // Of a mirrored pair; of one on the plane half of it.
   static constexpr int kCostOfCut = 4;
 
-  [[nodiscard]] int CapsuleCount() const { return graph_.capsule_count(); }
-
+  // One of each pair.
   [[nodiscard]] bool IsRepresentative(std::size_t cone) const {
-    const int i = static_cast<int>(cone);
-    return i < CapsuleCount() ? graph_.IsCapsuleRepresentative(i)
-                              : graph_.IsRepresentative(alone_[i - CapsuleCount()]);
+    return static_cast<std::size_t>(images_[cone]) >= cone;
   }
 
   // The cone and its image.
-  void Mark(std::size_t cone, Marks& marks) const {
-    marks[cone] = 1;
-    const int i = static_cast<int>(cone);
-    if (i < CapsuleCount()) {
-      marks[graph_.ImageOfCapsule(i)] = 1;
-      return;
-    }
-    const int image = graph_.ImageOf(alone_[i - CapsuleCount()]);
-    const auto found = std::lower_bound(alone_.begin(), alone_.end(), image);
-    marks[CapsuleCount() + (found - alone_.begin())] = 1;
-  }
+  void Mark(std::size_t cone, Marks& marks) const { marks[cone] = marks[images_[cone]] = 1; }
 
   // Spheres of which nothing is left go too.
   [[nodiscard]] capsule::MirroredSet Without(const Marks& gone) const {
     std::vector<char> spheres(graph_.spheres().size(), 0);
     std::vector<char> capsules(graph_.capsules().size(), 0);
-    for (std::size_t e = 0; e < capsules.size(); ++e) {
-      if (gone[e]) continue;
-      capsules[e] = 1;
-      for (const int end : graph_.ends(static_cast<int>(e))) spheres[end] = 1;
-    }
-    for (std::size_t i = 0; i < alone_.size(); ++i) {
-      if (!gone[capsules.size() + i]) spheres[alone_[i]] = 1;
+    for (std::size_t i = 0; i < cones_.size(); ++i) {
+      if (gone[i]) continue;
+      spheres[cones_[i].node_a] = spheres[cones_[i].node_b] = 1;
+      if (i < capsules.size()) capsules[i] = 1;
     }
     capsule::MirroredSet rest = graph_;
     rest.KeepOnly(spheres, capsules);
@@ -136,9 +129,9 @@ class RespendRound {
   // Of one primitive, most first.
   [[nodiscard]] std::vector<double> WorthOfCuts() const {
     std::vector<double> cuts;
-    for (int e = 0; e < CapsuleCount(); ++e) {
-      if (!graph_.IsCapsuleRepresentative(e)) continue;
-      cuts.push_back(errors_.beside_m3[e] / (graph_.ImageOfCapsule(e) == e ? 2 : 4));
+    for (std::size_t e = 0; e < graph_.capsules().size(); ++e) {
+      if (!IsRepresentative(e)) continue;
+      cuts.push_back(errors_.beside_m3[e] / (images_[e] == static_cast<int>(e) ? 2 : 4));
     }
     std::sort(cuts.begin(), cuts.end(), std::greater<>());
     return cuts;
@@ -169,12 +162,12 @@ class RespendRound {
   }
 
   const capsule::Budget& budget_;
-  double piece_cost_;
+  double piece_cost_, share_;
   const ThreadPool& pool_;
   const capsule::MirroredSet& graph_;
   std::vector<Cone> cones_;
+  std::vector<int> images_;
   CapsuleErrors errors_;
-  std::vector<int> alone_;  // spheres without a capsule
 };
 
 }  // namespace
@@ -182,27 +175,33 @@ class RespendRound {
 void Respend(const BestFitObjective& objective, const capsule::Budget& budget,
              const RespendOptions& options, const ThreadPool& pool, WorkMeter& meter,
              capsule::MirroredSet& graph) {
-  double share = kShareGivenUp;
+  Price price;
   double value = objective.Value(graph, pool);
   for (int round = 0; round < options.rounds + kMostLastRounds && !meter.IsCancelled(); ++round) {
-    if (round == options.rounds) share = 0.0;
+    const bool only_spends = round >= options.rounds;
+    if (only_spends) price.share = 0.0;
     meter.ExpectShare(kRespendShare, options.until, 1);
     capsule::MirroredSet other =
-        RespendRound(objective, budget, options.piece_cost, pool, graph).GiveUp(share);
+        RespendRound(objective, budget, options.piece_cost, price, pool, graph).GiveUp();
     const int left = other.primitive_count();
     std::vector<double> worth = objective.ErrorsByCapsule(other, pool).beside_m3;
     worth.resize(other.capsules().size());
     capsule::CutWorthiest(budget, std::move(worth), capsule::QuarterOfWhole, other);
     if (other.primitive_count() == left) break;
     objective.Settle(Effort::kFinish, pool, meter.observer(), other);
-    MergeSwallowed(other);
+    // Capsules that hang on a swallowed end stay apart: tied to the larger end, which nothing would
+    // settle any more, they would bulge.
     RemoveSwallowed(other);
     const double other_value = objective.Value(other, pool);
     if (other_value < value) {
       graph = std::move(other);
       value = other_value;
-    } else if ((share *= 0.5) < kLeastShareGivenUp) {
+    } else if (only_spends) {
       break;
+    } else if (!price.counts_misses) {
+      price.counts_misses = true;
+    } else if ((price.share *= 0.5) < kLeastShareGivenUp) {
+      round = options.rounds - 1;  // the next one is the first that only spends
     }
   }
   meter.Expect(options.until, 1);

@@ -12,7 +12,7 @@ namespace capfit::refine {
 
 struct RespendOptions {
   double piece_cost = 0.0;  // as GrowthOptions
-  int rounds = 8;           // at most, and two that only spend what is left
+  int rounds = 8;           // at most, and four that only spend what is left
   double until = 1.0;       // what the meter shows in the end
 };
 

@@ -63,6 +63,21 @@ void FindCones(const capsule::MirroredSet& graph, std::vector<Cone>& cones) {
   }
 }
 
+std::vector<int> ImagesOfCones(const capsule::MirroredSet& graph) {
+  std::vector<int> images;
+  for (int e = 0; e < graph.capsule_count(); ++e) images.push_back(graph.ImageOfCapsule(e));
+  const std::vector<bool> used = capsule::UsedSpheres(graph.set());
+  std::vector<int> cone_of(used.size(), -1);
+  int next = graph.capsule_count();
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (!used[v]) cone_of[v] = next++;
+  }
+  for (int v = 0; v < graph.sphere_count(); ++v) {
+    if (!used[v]) images.push_back(cone_of[graph.ImageOf(v)]);
+  }
+  return images;
+}
+
 ConeFoot Locate(const Cone& cone, const Eigen::Vector3d& point_m) {
   const Eigen::Vector3d axis(cone.ux, cone.uy, cone.uz);
   const Eigen::Vector3d p = point_m - Eigen::Vector3d(cone.ax, cone.ay, cone.az);

@@ -26,6 +26,9 @@ struct Cone : tighten::FloatKernel {
 // The same, in place of what is there.
 void FindCones(const capsule::MirroredSet& graph, std::vector<Cone>& cones);
 
+// By cone, as ConesOf: the index of its mirror image; its own where it lies on the plane.
+[[nodiscard]] std::vector<int> ImagesOfCones(const capsule::MirroredSet& graph);
+
 // The gradient of the distance, and the cone's radius at the foot of the point.
 struct ConeFoot {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();

@@ -139,6 +139,23 @@ TEST(Fit, SmallerPolygonErrorBuysMoreCirclesAndATighterSet) {
   EXPECT_GT(a.metrics.E_r, b.metrics.E_r);
 }
 
+// As many primitives as the sections took, each of use: the same as if that many were asked for.
+TEST(Fit, ABestFitToAPolygonErrorSpendsWhatItTook) {
+  FitOptions by_error = AllParts(64);
+  by_error.fit = FitMode::kBestFit;
+  by_error.max_primitives.reset();
+  by_error.polygon_error = 0.1;
+  const formats::PolygonSoup soup = Mannequin();
+  const FitResult a = FitOrDie(soup, by_error);
+  by_error.fit = FitMode::kEnclose;
+  const std::int64_t taken = FitOrDie(soup, by_error).metrics.n_p;
+  EXPECT_LE(a.metrics.n_p, taken);
+  FitOptions by_count = AllParts(static_cast<int>(taken));
+  by_count.fit = FitMode::kBestFit;
+  const FitResult b = FitOrDie(soup, by_count);
+  EXPECT_LT(a.metrics.E_r, 1.15 * b.metrics.E_r);
+}
+
 TEST(Fit, SameBitsForAnyNumberOfThreads) {
   const formats::PolygonSoup soup = Mannequin();
   FitOptions options = AllParts(64);

@@ -44,5 +44,24 @@ TEST(ConeTest, SpheresWithoutACapsuleGetAConeOfTheirOwn) {
   EXPECT_EQ(cones[graph.capsules().size()].node_a, ball);
 }
 
+// Of capsules across and beside the mid-plane, and of balls on it and beside it.
+TEST(ConeTest, ImagesOfConesAreTheConesOnTheOtherSide) {
+  capsule::MirroredSet graph = LeggedGraph(true);
+  graph.AddSphere({{0.3, 0.5, 0.0}, 0.05}, false);
+  graph.AddSphere({{0.0, 1.8, 0.0}, 0.08}, true);
+  const std::vector<Cone> cones = ConesOf(graph);
+  const std::vector<int> images = ImagesOfCones(graph);
+  ASSERT_EQ(images.size(), cones.size());
+  int own = 0;
+  for (std::size_t i = 0; i < cones.size(); ++i) {
+    const Cone& image = cones[images[i]];
+    own += images[i] == static_cast<int>(i) ? 1 : 0;
+    EXPECT_EQ(images[images[i]], static_cast<int>(i));
+    EXPECT_EQ(std::minmax(image.node_a, image.node_b),
+              std::minmax(graph.ImageOf(cones[i].node_a), graph.ImageOf(cones[i].node_b)));
+  }
+  EXPECT_EQ(own, 2);  // from chest to belly, and the ball on the plane
+}
+
 }  // namespace
 }  // namespace capfit::refine
