@@ -132,11 +132,14 @@ TEST(BalancedQuality, EnclosesWithLessThanPaperAndHardlyMoreThanTight) {
 
 TEST(BalancedQuality, BestFitIsCloseToThatOfTight) {
   const formats::PolygonSoup soup = Person();
-  const FitResult balanced = MustFit(soup, Of(Quality::kBalanced, FitMode::kBestFit, 64));
-  const FitResult tight = MustFit(soup, Of(Quality::kTight, FitMode::kBestFit, 64));
-  EXPECT_LE(balanced.metrics.n_p, 64);
-  EXPECT_GE(balanced.metrics.n_p, 62);
-  EXPECT_LT(balanced.metrics.E_r, 1.2 * tight.metrics.E_r);
+  // The second is more than any layout is spared for: there `tight` grows by trials.
+  for (const int budget : {64, 200}) {
+    const FitResult balanced = MustFit(soup, Of(Quality::kBalanced, FitMode::kBestFit, budget));
+    const FitResult tight = MustFit(soup, Of(Quality::kTight, FitMode::kBestFit, budget));
+    EXPECT_LE(balanced.metrics.n_p, budget);
+    EXPECT_GE(balanced.metrics.n_p, budget - 3);
+    EXPECT_LT(balanced.metrics.E_r, 1.2 * tight.metrics.E_r);
+  }
 }
 
 TEST(PaperQuality, ThePublishedLastStepEnclosesWithMore) {
