@@ -189,8 +189,7 @@ void Respend(const BestFitObjective& objective, const capsule::Budget& budget,
     capsule::CutWorthiest(budget, std::move(worth), capsule::QuarterOfWhole, other);
     if (other.primitive_count() == left) break;
     objective.Settle(Effort::kFinish, pool, meter.observer(), other);
-    // Capsules that hang on a swallowed end stay apart: tied to the larger end, which nothing would
-    // settle any more, they would bulge.
+    // Not MergeSwallowed: nothing may settle the set any more.
     RemoveSwallowed(other);
     const double other_value = objective.Value(other, pool);
     if (other_value < value) {

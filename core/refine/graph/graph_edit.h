@@ -76,7 +76,8 @@ struct LocalGraph {
 [[nodiscard]] int ComponentCount(const capsule::MirroredSet& graph);
 
 // Where the smaller end of a capsule lies within the larger one and other capsules hang on it, ties
-// those to the larger end: then nothing falls off when RemoveSwallowed takes the capsule.
+// those to the larger end: then nothing falls off when RemoveSwallowed takes the capsule. They
+// bulge where the ends differ much: only for a graph that is settled afterwards.
 void MergeSwallowed(capsule::MirroredSet& graph);
 
 // Makes one sphere on the mid-plane of each pair whose halves nearly coincide there: two do no
