@@ -52,6 +52,7 @@ absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
                                             ProgressLine& progress) {
   CAPFIT_RETURN_IF_ERROR(pipeline::ValidateOptions(asked));
   CAPFIT_RETURN_IF_ERROR(pipeline::CheckExports(asked.exports, bytes));
+  const ThreadPool pool(arguments.threads);  // its threads start while the file is read
   CAPFIT_ASSIGN_OR_RETURN(const formats::PolygonSoup soup, formats::ReadMesh(bytes, format));
   pipeline::FitOptions options = asked;
   if (!arguments.cover_motion.empty()) {
@@ -62,7 +63,7 @@ absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
                                    bytes, soup));
   }
   CAPFIT_ASSIGN_OR_RETURN(pipeline::FitResult result,
-                          pipeline::Fit(soup, options, ThreadPool(arguments.threads), progress));
+                          pipeline::Fit(soup, options, pool, progress));
   const std::string source =
       arguments.body == "-" ? "body" : std::filesystem::path(arguments.body).stem().string();
   CAPFIT_RETURN_IF_ERROR(pipeline::AddExports(options.exports, bytes, source, result));

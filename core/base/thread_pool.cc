@@ -81,6 +81,10 @@ ThreadPool::ThreadPool(int threads)
     : arena_(std::make_unique<Arena>(EffectiveThreads(threads))),
       threads_(EffectiveThreads(threads)) {
   LiftProcessLimit();
+#ifndef CAPFIT_POOL_OF_STD_THREADS
+  // oneTBB starts threads when they are first asked for: now, so that no loop waits for them.
+  if (threads_ > 1) arena_->arena.enqueue([] {});
+#endif
 }
 
 ThreadPool::~ThreadPool() = default;
