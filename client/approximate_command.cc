@@ -62,8 +62,7 @@ absl::StatusOr<pipeline::FitResult> FitHere(std::span<const std::byte> bytes,
                                                                  : motion::MotionRadii::kPerFrame,
                                    bytes, soup));
   }
-  CAPFIT_ASSIGN_OR_RETURN(pipeline::FitResult result,
-                          pipeline::Fit(soup, options, pool, progress));
+  CAPFIT_ASSIGN_OR_RETURN(pipeline::FitResult result, pipeline::Fit(soup, options, pool, progress));
   const std::string source =
       arguments.body == "-" ? "body" : std::filesystem::path(arguments.body).stem().string();
   CAPFIT_RETURN_IF_ERROR(pipeline::AddExports(options.exports, bytes, source, result));

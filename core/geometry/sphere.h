@@ -9,6 +9,8 @@ namespace capfit::geometry {
 struct Sphere {
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
   double radius_m = 0.0;  // >= 0
+
+  friend bool operator==(const Sphere&, const Sphere&) = default;
 };
 
 // The image in the plane x = 0, the mid-plane of the body frame. Exact: twice is what it was.

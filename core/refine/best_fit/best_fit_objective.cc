@@ -1,6 +1,7 @@
 #include "core/refine/best_fit/best_fit_objective.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/refine/best_fit/best_fit_descent.h"
@@ -13,6 +14,10 @@ namespace {
 
 constexpr double kBestFitLeafDistanceM = 0.04;  // between the points where leaves are tried
 constexpr double kLeastMissM = 0.002;           // points nearer to the set than this need no leaf
+constexpr double kRoughRateM = 0.008;           // of the first step
+constexpr double kRateM = 0.003;
+// Of more primitives, which are smaller, such steps would undo more than they find.
+constexpr double kFullRatePrimitives = 160.0;
 
 int StepsOf(Effort effort, int primitives) {
   switch (effort) {
@@ -22,10 +27,17 @@ int StepsOf(Effort effort, int primitives) {
       return 60;
     case Effort::kRough:
       return 80;
+    case Effort::kRound:
+      return 240;
     case Effort::kFinish:
       return 240 + std::max(0, primitives - 64);
   }
   return 0;
+}
+
+double FirstRateM(Effort effort, int primitives) {
+  if (effort == Effort::kRough) return kRoughRateM;
+  return kRateM * std::sqrt(std::min(1.0, kFullRatePrimitives / std::max(1, primitives)));
 }
 
 }  // namespace
@@ -42,7 +54,7 @@ void BestFitObjective::Settle(Effort effort, const ThreadPool& pool, const FitOb
   BestFitOptions options;
   options.seed = seed_;
   options.steps = StepsOf(effort, graph.primitive_count());
-  options.first_rate_m = effort == Effort::kRough ? 0.008 : 0.003;
+  options.first_rate_m = FirstRateM(effort, graph.primitive_count());
   DescendBestFit(grid_, options, pool, observer, graph);
 }
 

@@ -18,6 +18,7 @@ enum class Effort {
   kRough,    // from a start whose places and radii are guesses
   kTouch,    // a few steps after edits
   kTighten,  // from a set that is finished but for what has been added to the task since
+  kRound,    // after many edits at once, before further ones
   kFinish,   // until nothing is left to gain
 };
 

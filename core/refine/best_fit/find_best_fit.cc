@@ -40,7 +40,7 @@ constexpr double kMuchSpared = 0.75;  // of the budget
 // Rounds that respend. What sparing leaves has little that does nothing: with 128 primitives two
 // rounds win less than 1 % and take a quarter of the time.
 constexpr int kRespendsOfSpared = 0;
-constexpr int kRespends = 8;
+constexpr int kRespends = 12;
 // Primitives: a best fit beyond grows from a layout of this size, which ends better than what the
 // next one, made on mannequins alone, leads to.
 constexpr int kLargestGrown = 128;
@@ -132,8 +132,12 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const RefineOpti
   if (grows) Grow(objective, budget, last, pool, meter, graph);
   if (graph.primitive_count() != used)
     objective.Settle(Effort::kTighten, pool, meter.observer(), graph);
-  Respend(objective, budget, {kPieceCost, was_spared ? kRespendsOfSpared : kRespends, until}, pool,
-          meter, graph);
+  RespendOptions respends;
+  respends.piece_cost = kPieceCost;
+  respends.rounds = was_spared ? kRespendsOfSpared : kRespends;
+  respends.effort = options.thorough ? Effort::kFinish : Effort::kRound;
+  respends.until = until;
+  Respend(objective, budget, respends, pool, meter, graph);
   return graph;
 }
 
@@ -205,7 +209,10 @@ capsule::MirroredSet SettleBestFit(const body::Body& body, const RefineOptions& 
   RemoveUseless(graph);
   // Of few primitives nothing may be left to spend, and no round settles them.
   objective.Settle(Effort::kFinish, pool, meter.observer(), graph);
-  Respend(objective, options.budget, {kPieceCost, kRespends, 1.0}, pool, meter, graph);
+  RespendOptions respends;
+  respends.piece_cost = kPieceCost;
+  respends.rounds = kRespends;
+  Respend(objective, options.budget, respends, pool, meter, graph);
   return graph;
 }
 

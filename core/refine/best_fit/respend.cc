@@ -170,39 +170,96 @@ class RespendRound {
   CapsuleErrors errors_;
 };
 
+bool IsSame(const capsule::MirroredSet& a, const capsule::MirroredSet& b) {
+  return a.spheres() == b.spheres() && a.capsules() == b.capsules();
+}
+
+// What the rounds share, and the best set so far.
+class Respender {
+ public:
+  Respender(const BestFitObjective& objective, const capsule::Budget& budget,
+            const RespendOptions& options, const ThreadPool& pool, WorkMeter& meter,
+            capsule::MirroredSet& graph)
+      : objective_(objective),
+        budget_(budget),
+        options_(options),
+        pool_(pool),
+        meter_(meter),
+        graph_(graph),
+        value_(objective.Value(graph, pool)) {}
+
+  void Run() {
+    bool has_won = false;
+    for (int round = 0; round < options_.rounds + kMostLastRounds && !meter_.IsCancelled();
+         ++round) {
+      const bool only_spends = round >= options_.rounds;
+      if (only_spends) price_.share = 0.0;
+      meter_.ExpectShare(kRespendShare, options_.until, 1);
+      capsule::MirroredSet other =
+          RespendRound(objective_, budget_, options_.piece_cost, price_, pool_, graph_).GiveUp();
+      if (!Cut(other)) break;
+      if (Wins(std::move(other), options_.effort)) {
+        has_won = true;
+      } else if (only_spends) {
+        break;
+      } else if (!AsksLess()) {
+        round = options_.rounds - 1;  // the next one is the first that only spends
+      }
+    }
+    if (has_won && options_.effort != Effort::kFinish) Wins(graph_, Effort::kFinish);
+  }
+
+ private:
+  // Spends what the budget has left; false where there is nothing to cut.
+  bool Cut(capsule::MirroredSet& other) const {
+    const int left = other.primitive_count();
+    std::vector<double> worth = objective_.ErrorsByCapsule(other, pool_).beside_m3;
+    worth.resize(other.capsules().size());
+    capsule::CutWorthiest(budget_, std::move(worth), capsule::QuarterOfWhole, other);
+    return other.primitive_count() != left;
+  }
+
+  // Settles a set and takes it if it is better. What was refused once is not settled again: a lower
+  // price often gives up the same.
+  bool Wins(capsule::MirroredSet other, Effort effort) {
+    if (IsSame(other, refused_)) return false;
+    capsule::MirroredSet unsettled = other;
+    objective_.Settle(effort, pool_, meter_.observer(), other);
+    // Not MergeSwallowed: nothing may settle the set any more.
+    RemoveSwallowed(other);
+    const double value = objective_.Value(other, pool_);
+    if (value < value_) {
+      graph_ = std::move(other);
+      value_ = value;
+      return true;
+    }
+    refused_ = std::move(unsettled);
+    return false;
+  }
+
+  // After a round that won nothing; false where that leaves nothing worth asking.
+  bool AsksLess() {
+    if (!price_.counts_misses) return price_.counts_misses = true;
+    return (price_.share *= 0.5) >= kLeastShareGivenUp;
+  }
+
+  const BestFitObjective& objective_;
+  const capsule::Budget& budget_;
+  const RespendOptions& options_;
+  const ThreadPool& pool_;
+  WorkMeter& meter_;
+  capsule::MirroredSet& graph_;
+  double value_;
+  capsule::MirroredSet refused_;  // the last one, before it was settled
+  Price price_;
+};
+
 }  // namespace
 
 void Respend(const BestFitObjective& objective, const capsule::Budget& budget,
              const RespendOptions& options, const ThreadPool& pool, WorkMeter& meter,
              capsule::MirroredSet& graph) {
-  Price price;
-  double value = objective.Value(graph, pool);
-  for (int round = 0; round < options.rounds + kMostLastRounds && !meter.IsCancelled(); ++round) {
-    const bool only_spends = round >= options.rounds;
-    if (only_spends) price.share = 0.0;
-    meter.ExpectShare(kRespendShare, options.until, 1);
-    capsule::MirroredSet other =
-        RespendRound(objective, budget, options.piece_cost, price, pool, graph).GiveUp();
-    const int left = other.primitive_count();
-    std::vector<double> worth = objective.ErrorsByCapsule(other, pool).beside_m3;
-    worth.resize(other.capsules().size());
-    capsule::CutWorthiest(budget, std::move(worth), capsule::QuarterOfWhole, other);
-    if (other.primitive_count() == left) break;
-    objective.Settle(Effort::kFinish, pool, meter.observer(), other);
-    // Not MergeSwallowed: nothing may settle the set any more.
-    RemoveSwallowed(other);
-    const double other_value = objective.Value(other, pool);
-    if (other_value < value) {
-      graph = std::move(other);
-      value = other_value;
-    } else if (only_spends) {
-      break;
-    } else if (!price.counts_misses) {
-      price.counts_misses = true;
-    } else if ((price.share *= 0.5) < kLeastShareGivenUp) {
-      round = options.rounds - 1;  // the next one is the first that only spends
-    }
-  }
+  Respender(objective, budget, options, pool, meter, graph).Run();
   meter.Expect(options.until, 1);
 }
 

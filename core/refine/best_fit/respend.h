@@ -12,15 +12,17 @@ namespace capfit::refine {
 
 struct RespendOptions {
   double piece_cost = 0.0;  // as GrowthOptions
-  int rounds = 8;           // at most, and four that only spend what is left
-  double until = 1.0;       // what the meter shows in the end
+  int rounds = 12;          // at most, and four that only spend what is left
+  // A round settles so far. After less than kFinish what the rounds have won is finished.
+  Effort effort = Effort::kRound;
+  double until = 1.0;  // what the meter shows in the end
 };
 
 // Gives up what fills least that nothing else fills, cuts the capsules with most error beside them
 // in two with what that frees and what the budget has left, and settles all; as long as the value
 // falls, which can leave some of the budget. One look at the cells tells what all of it is worth,
 // where growing tries each edit by itself: of some hundred primitives it leads further in less
-// time. A round takes hardly more than its settling, 10 to 150 ms for 64 to 350 primitives. Same
+// time. A round takes hardly more than its settling, 10 to 100 ms for 64 to 350 primitives. Same
 // bits for any pool.
 void Respend(const BestFitObjective& objective, const capsule::Budget& budget,
              const RespendOptions& options, const ThreadPool& pool, WorkMeter& meter,

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "core/base/fit_observer.h"
 #include "core/refine/refine.h"
 #include "tests/core/refine/ball_body.h"
@@ -41,10 +44,15 @@ capsule::MirroredSet Wasteful(bool wasted) {
   return set;
 }
 
-capsule::MirroredSet Respent(int primitives, int threads, capsule::MirroredSet set) {
+capsule::MirroredSet Respent(int primitives, int threads, capsule::MirroredSet set,
+                             Effort effort = Effort::kRound) {
   NullObserver observer;
   WorkMeter meter(observer);
-  Respend(OfBall(), {primitives, capsule::kNoLimit, capsule::kNoLimit}, {kPieceCost, 8, 0.5},
+  RespendOptions options;
+  options.piece_cost = kPieceCost;
+  options.effort = effort;
+  options.until = 0.5;
+  Respend(OfBall(), {primitives, capsule::kNoLimit, capsule::kNoLimit}, options,
           ThreadPool(threads), meter, set);
   EXPECT_LE(meter.until(), 0.5);
   return set;
@@ -52,11 +60,13 @@ capsule::MirroredSet Respent(int primitives, int threads, capsule::MirroredSet s
 
 TEST(RespendTest, KeepsToTheBudgetStaysMirroredAndNeverLoses) {
   const double before = OfBall().Value(Wasteful(true), ThreadPool(1));
-  for (const int primitives : {9, 11, 20}) {
-    const capsule::MirroredSet set = Respent(primitives, 1, Wasteful(true));
-    EXPECT_LE(set.primitive_count(), primitives);
-    EXPECT_TRUE(capsule::IsExactlyMirrored(set));
-    EXPECT_LT(OfBall().Value(set, ThreadPool(1)), before);
+  for (const Effort effort : {Effort::kRound, Effort::kFinish}) {
+    for (const int primitives : {9, 11, 20}) {
+      const capsule::MirroredSet set = Respent(primitives, 1, Wasteful(true), effort);
+      EXPECT_LE(set.primitive_count(), primitives);
+      EXPECT_TRUE(capsule::IsExactlyMirrored(set));
+      EXPECT_LT(OfBall().Value(set, ThreadPool(1)), before);
+    }
   }
 }
 
@@ -77,6 +87,30 @@ TEST(RespendTest, SameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(one.sphere(v).center_m, three.sphere(v).center_m);
     EXPECT_EQ(one.sphere(v).radius_m, three.sphere(v).radius_m);
   }
+}
+
+// Small spheres all over the ball, around a large one.
+capsule::MirroredSet ManySmall(int pairs) {
+  capsule::MirroredSet set(true);
+  set.AddSphere({kRespendMiddle, 0.17}, true);
+  for (int i = 0; i < pairs; ++i) {
+    const double height = 1.0 - (2.0 * i + 1.0) / pairs;
+    const double round = std::sqrt(1.0 - height * height);
+    const double turn = std::numbers::pi * (0.618034 * i - std::floor(0.618034 * i));
+    const Eigen::Vector3d out(round * std::sin(turn), height, round * std::cos(turn));
+    set.AddSphere({kRespendMiddle + 0.17 * out, 0.03}, false);
+  }
+  return set;
+}
+
+// Large steps would throw small spheres about and not bring all of them back.
+TEST(SettleTest, FinishingAFinishedSetOfManyDoesNotUndoIt) {
+  const ThreadPool pool(1);
+  capsule::MirroredSet set = ManySmall(300);
+  OfBall().Settle(Effort::kFinish, pool, NullObserver(), set);
+  const double finished = OfBall().Value(set, pool);
+  OfBall().Settle(Effort::kFinish, pool, NullObserver(), set);
+  EXPECT_LT(OfBall().Value(set, pool), 1.01 * finished);
 }
 
 RefineOptions BestOf(int primitives) {
