@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/base/fit_observer.h"
 #include "core/refine/refine.h"
@@ -103,14 +105,35 @@ capsule::MirroredSet ManySmall(int pairs) {
   return set;
 }
 
-// Large steps would throw small spheres about and not bring all of them back.
-TEST(SettleTest, FinishingAFinishedSetOfManyDoesNotUndoIt) {
-  const ThreadPool pool(1);
-  capsule::MirroredSet set = ManySmall(300);
-  OfBall().Settle(Effort::kFinish, pool, NullObserver(), set);
-  const double finished = OfBall().Value(set, pool);
-  OfBall().Settle(Effort::kFinish, pool, NullObserver(), set);
-  EXPECT_LT(OfBall().Value(set, pool), 1.01 * finished);
+// Lets one step through.
+class OneStep final : public FitObserver {
+ public:
+  void OnStage(Stage, double) override {}
+  [[nodiscard]] bool IsCancelled() const override { return std::exchange(is_over_, true); }
+
+ private:
+  mutable bool is_over_ = false;
+};
+
+// How far places and radii go together, at most.
+double FirstStepM(const capsule::MirroredSet& before) {
+  capsule::MirroredSet set = before;
+  OfBall().Settle(Effort::kFinish, ThreadPool(1), OneStep(), set);
+  double most = 0.0;
+  for (int v = 0; v < set.sphere_count(); ++v) {
+    most = std::max(most, std::hypot((set.sphere(v).center_m - before.sphere(v).center_m).norm(),
+                                     set.sphere(v).radius_m - before.sphere(v).radius_m));
+  }
+  return most;
+}
+
+// Large steps would throw small spheres about, and not all of them come back.
+TEST(SettleTest, StepsOfManyPrimitivesBeginShorter) {
+  const double of_few = FirstStepM(ManySmall(10));
+  EXPECT_GT(of_few, 0.003);
+  const capsule::MirroredSet many = ManySmall(320);
+  ASSERT_EQ(many.primitive_count(), 641);
+  EXPECT_NEAR(FirstStepM(many), 0.5 * of_few, 0.001 * of_few);
 }
 
 RefineOptions BestOf(int primitives) {
