@@ -15,7 +15,8 @@ namespace capfit {
 class ThreadPool {
  public:
   // `threads` >= 1 take part, the calling thread included; 0: one per core
-  // that the process may keep busy (AvailableCores).
+  // that the process may keep busy (AvailableCores). The others start at once, beside what the
+  // caller does next: make the pool before reading what it will work on.
   explicit ThreadPool(int threads = 0);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
