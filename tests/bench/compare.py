@@ -83,11 +83,14 @@ def main():
     parser.add_argument("--bodies", nargs="*")
     parser.add_argument("--markdown")
     arguments = parser.parse_args()
+    now = subprocess.run(["git", "rev-parse", "--short", "HEAD"], check=True, capture_output=True,
+                         text=True).stdout.strip()
     told = (f"Made by `tests/bench/compare {arguments.ref} --markdown docs/performance.md`: milliseconds "
             "of the whole fit and of its stages, everything included but reading the file, medians of "
-            f"{arguments.runs} runs, each in a process of its own; before → now, both by turns on the "
-            f"same machine ({platform.machine()}, {os.cpu_count()} logical cores). Ratios are before / "
-            "now. All parts.")
+            f"{arguments.runs} runs, each in a process of its own; before → now (commit {now}), both by "
+            f"turns on the same machine ({platform.machine()}, {os.cpu_count()} logical cores). Ratios "
+            "are before / now. All parts. On a machine that is shared with others single cells can be "
+            "far off, and other machines have other milliseconds: the ratios are what to compare.")
     lines = ["# Performance", "", *textwrap.wrap(told, 100)]
     with tempfile.TemporaryDirectory() as folder:
         for body in bodies_of(arguments, folder):
