@@ -8,6 +8,8 @@ import subprocess
 import tempfile
 import textwrap
 
+import program_version
+
 # Name, options now, and options of the other build where they differ.
 CASES = [("PAPER, 64", ["--quality", "paper", "--max-primitives", "64"]),
          ("PAPER → BALANCED, 64", ["--quality", "balanced", "--max-primitives", "64"],
@@ -83,11 +85,10 @@ def main():
     parser.add_argument("--bodies", nargs="*")
     parser.add_argument("--markdown")
     arguments = parser.parse_args()
-    now = subprocess.run(["git", "rev-parse", "--short", "HEAD"], check=True, capture_output=True,
-                         text=True).stdout.strip()
+    now = program_version.version(arguments.this)
     told = (f"Made by `tests/bench/compare {arguments.ref} --markdown docs/performance.md`: milliseconds "
             "of the whole fit and of its stages, everything included but reading the file, medians of "
-            f"{arguments.runs} runs, each in a process of its own; before → now (commit {now}), both by "
+            f"{arguments.runs} runs, each in a process of its own; before → now ({now}), both by "
             f"turns on the same machine ({platform.machine()}, {os.cpu_count()} logical cores). Ratios "
             "are before / now. All parts. On a machine that is shared with others single cells can be "
             "far off, and other machines have other milliseconds: the ratios are what to compare.")

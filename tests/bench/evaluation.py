@@ -3,13 +3,13 @@
 import argparse
 import glob
 import os
-import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import evaluation_cells as cells  # noqa: E402
 import evaluation_page as page  # noqa: E402
 import evaluation_plots as plots  # noqa: E402
+import program_version  # noqa: E402
 
 BUDGETS = [22, 32, 48, 64, 95, 128, 167, 207, 250, 299, 346]
 QUICK_BUDGETS = [32, 64, 128]
@@ -140,19 +140,6 @@ def draw_pictures(store, errors, bodies, folder, budget):
     return pictures
 
 
-def version(capfit):
-    """capfit's own, and the commit where the program was built from it here and now."""
-    def git(*words):
-        return subprocess.run(["git", *words], capture_output=True, text=True).stdout.strip()
-
-    text = "capfit " + cells.run([capfit, "--version"]).strip()
-    commit = git("rev-parse", "--short", "HEAD")
-    if not commit or "CAPFIT_BUILD" in os.environ:
-        return text
-    changed = git("status", "--porcelain", "--", "core", "client", "CMakeLists.txt")
-    return f"{text} at commit {commit}" + (" with local changes" if changed else "")
-
-
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--capfit", required=True)
@@ -169,7 +156,7 @@ def main():
     pictures_folder = os.path.join(docs, "evaluation")
     os.makedirs(pictures_folder, exist_ok=True)
 
-    told_version = version(arguments.capfit)  # now: the tree may change while this runs
+    told_version = program_version.version(arguments.capfit)  # now: the tree may change while this runs
     judge = os.environ.get("CAPFIT_JUDGE")
     if not judge:
         print("CAPFIT_JUDGE names no program: `capfit evaluate` measures")

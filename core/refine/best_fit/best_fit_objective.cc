@@ -37,7 +37,8 @@ int StepsOf(Effort effort, int primitives) {
 
 double FirstRateM(Effort effort, int primitives) {
   if (effort == Effort::kRough) return kRoughRateM;
-  return kRateM * std::sqrt(std::min(1.0, kFullRatePrimitives / std::max(1, primitives)));
+  return kRateM *
+         std::sqrt(kFullRatePrimitives / std::max<double>(kFullRatePrimitives, primitives));
 }
 
 }  // namespace

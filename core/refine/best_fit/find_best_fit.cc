@@ -40,7 +40,6 @@ constexpr double kMuchSpared = 0.75;  // of the budget
 // Rounds that respend. What sparing leaves has little that does nothing: with 128 primitives two
 // rounds win less than 1 % and take a quarter of the time.
 constexpr int kRespendsOfSpared = 0;
-constexpr int kRespends = 12;
 // Primitives: a best fit beyond grows from a layout of this size, which ends better than what the
 // next one, made on mannequins alone, leads to.
 constexpr int kLargestGrown = 128;
@@ -134,7 +133,7 @@ capsule::MirroredSet FindSet(const BestFitObjective& objective, const RefineOpti
     objective.Settle(Effort::kTighten, pool, meter.observer(), graph);
   RespendOptions respends;
   respends.piece_cost = kPieceCost;
-  respends.rounds = was_spared ? kRespendsOfSpared : kRespends;
+  if (was_spared) respends.rounds = kRespendsOfSpared;
   respends.effort = options.thorough ? Effort::kFinish : Effort::kRound;
   respends.until = until;
   Respend(objective, budget, respends, pool, meter, graph);
@@ -211,7 +210,6 @@ capsule::MirroredSet SettleBestFit(const body::Body& body, const RefineOptions& 
   objective.Settle(Effort::kFinish, pool, meter.observer(), graph);
   RespendOptions respends;
   respends.piece_cost = kPieceCost;
-  respends.rounds = kRespends;
   Respend(objective, options.budget, respends, pool, meter, graph);
   return graph;
 }

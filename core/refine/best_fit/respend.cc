@@ -194,7 +194,6 @@ class Respender {
          ++round) {
       const bool only_spends = round >= options_.rounds;
       if (only_spends) price_.share = 0.0;
-      meter_.ExpectShare(kRespendShare, options_.until, 1);
       capsule::MirroredSet other =
           RespendRound(objective_, budget_, options_.piece_cost, price_, pool_, graph_).GiveUp();
       if (!Cut(other)) break;
@@ -206,7 +205,9 @@ class Respender {
         round = options_.rounds - 1;  // the next one is the first that only spends
       }
     }
-    if (has_won && options_.effort != Effort::kFinish) Wins(graph_, Effort::kFinish);
+    if (has_won && options_.effort != Effort::kFinish && !meter_.IsCancelled()) {
+      Wins(graph_, Effort::kFinish);
+    }
   }
 
  private:
@@ -223,6 +224,7 @@ class Respender {
   // price often gives up the same.
   bool Wins(capsule::MirroredSet other, Effort effort) {
     if (IsSame(other, refused_)) return false;
+    meter_.ExpectShare(kRespendShare, options_.until, 1);
     capsule::MirroredSet unsettled = other;
     objective_.Settle(effort, pool_, meter_.observer(), other);
     // Not MergeSwallowed: nothing may settle the set any more.

@@ -2,11 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <utility>
-
 #include "core/base/fit_observer.h"
 #include "core/refine/refine.h"
 #include "tests/core/refine/ball_body.h"
@@ -89,51 +84,6 @@ TEST(RespendTest, SameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(one.sphere(v).center_m, three.sphere(v).center_m);
     EXPECT_EQ(one.sphere(v).radius_m, three.sphere(v).radius_m);
   }
-}
-
-// Small spheres all over the ball, around a large one.
-capsule::MirroredSet ManySmall(int pairs) {
-  capsule::MirroredSet set(true);
-  set.AddSphere({kRespendMiddle, 0.17}, true);
-  for (int i = 0; i < pairs; ++i) {
-    const double height = 1.0 - (2.0 * i + 1.0) / pairs;
-    const double round = std::sqrt(1.0 - height * height);
-    const double turn = std::numbers::pi * (0.618034 * i - std::floor(0.618034 * i));
-    const Eigen::Vector3d out(round * std::sin(turn), height, round * std::cos(turn));
-    set.AddSphere({kRespendMiddle + 0.17 * out, 0.03}, false);
-  }
-  return set;
-}
-
-// Lets one step through.
-class OneStep final : public FitObserver {
- public:
-  void OnStage(Stage, double) override {}
-  [[nodiscard]] bool IsCancelled() const override { return std::exchange(is_over_, true); }
-
- private:
-  mutable bool is_over_ = false;
-};
-
-// How far places and radii go together, at most.
-double FirstStepM(const capsule::MirroredSet& before) {
-  capsule::MirroredSet set = before;
-  OfBall().Settle(Effort::kFinish, ThreadPool(1), OneStep(), set);
-  double most = 0.0;
-  for (int v = 0; v < set.sphere_count(); ++v) {
-    most = std::max(most, std::hypot((set.sphere(v).center_m - before.sphere(v).center_m).norm(),
-                                     set.sphere(v).radius_m - before.sphere(v).radius_m));
-  }
-  return most;
-}
-
-// Large steps would throw small spheres about, and not all of them come back.
-TEST(SettleTest, StepsOfManyPrimitivesBeginShorter) {
-  const double of_few = FirstStepM(ManySmall(10));
-  EXPECT_GT(of_few, 0.003);
-  const capsule::MirroredSet many = ManySmall(320);
-  ASSERT_EQ(many.primitive_count(), 641);
-  EXPECT_NEAR(FirstStepM(many), 0.5 * of_few, 0.001 * of_few);
 }
 
 RefineOptions BestOf(int primitives) {
